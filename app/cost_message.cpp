@@ -12,20 +12,20 @@ namespace millwright::app {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using toolpath::PlaceFigures;
 using toolpath::SetUpPlace;
 
 /// Infinity, too, stays what it is.
-std::string bytes_of(const json& value) {
+std::string binary_of(const Json& value) {
     std::string bytes;
-    json::to_msgpack(value, bytes);
+    Json::to_msgpack(value, bytes);
     return bytes;
 }
 
 template <class Read> auto understood(std::string_view bytes, const Read& read) {
     try {
-        return read(json::from_msgpack(bytes.begin(), bytes.end()));
+        return read(Json::from_msgpack(bytes.begin(), bytes.end()));
     } catch (const std::exception& fault) {
         throw Error(std::string("a rank told something that is not understood: ") + fault.what());
     }
@@ -34,25 +34,25 @@ template <class Read> auto understood(std::string_view bytes, const Read& read) 
 } // namespace
 
 std::string packed(std::span<const SetUpPlace> places) {
-    json numbers = json::array();
+    Json numbers = Json::array();
     for (const SetUpPlace& place : places) {
         for (const double number : place) {
             numbers.push_back(number);
         }
     }
-    return bytes_of(numbers);
+    return binary_of(numbers);
 }
 
 std::string packed(const CostMessage& message) {
-    json figures = json::array();
+    Json figures = Json::array();
     for (const PlaceFigures& place : message.figures) {
-        figures.push_back({place.cost, place.axis_max ? json(*place.axis_max) : json()});
+        figures.push_back({place.cost, place.axis_max ? Json(*place.axis_max) : Json()});
     }
-    return bytes_of({message.first, std::move(figures), message.why_not});
+    return binary_of({message.first, std::move(figures), message.why_not});
 }
 
 std::vector<SetUpPlace> unpacked_places(std::string_view bytes) {
-    return understood(bytes, [](const json& numbers) {
+    return understood(bytes, [](const Json& numbers) {
         std::vector<SetUpPlace> places(numbers.size() / 4);
         for (std::size_t n = 0; n < 4 * places.size(); ++n) {
             places[n / 4][static_cast<Eigen::Index>(n % 4)] = numbers.at(n).get<double>();
@@ -62,10 +62,10 @@ std::vector<SetUpPlace> unpacked_places(std::string_view bytes) {
 }
 
 CostMessage unpacked_costs(std::string_view bytes) {
-    return understood(bytes, [](const json& from) {
+    return understood(bytes, [](const Json& from) {
         CostMessage message{from.at(0), {}, from.at(2)};
-        for (const json& place : from.at(1)) {
-            const json& axis_max = place.at(1);
+        for (const Json& place : from.at(1)) {
+            const Json& axis_max = place.at(1);
             message.figures.push_back(
                 {place.at(0).get<double>(),
                  axis_max.is_null() ? std::nullopt : std::optional(axis_max.get<double>())});

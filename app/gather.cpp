@@ -13,7 +13,7 @@ namespace millwright::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using GatherClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds nap{5};
 
@@ -74,15 +74,15 @@ bool gather(const Ranks& ranks, const GatheredWork& work, const Progress& progre
     std::stop_source stop;
     std::jthread thread(
         [&] { work.own([&](const std::string& message) { mailbox.put(message); }, stop.get_token()); });
-    std::optional<Clock::time_point> stopped;
+    std::optional<GatherClock::time_point> stopped;
     while (!work.over()) {
         const bool heard = hear(mailbox, ranks, work);
         if (progress.cancelled() && !stopped) {
-            stopped = Clock::now();
+            stopped = GatherClock::now();
             stop.request_stop();
             ranks.let_go(); // so that they know who tells of it
         }
-        if (stopped && Clock::now() - *stopped > patience_when_stopped) {
+        if (stopped && GatherClock::now() - *stopped > patience_when_stopped) {
             work.given_up();
             break;
         }
@@ -100,7 +100,7 @@ void help(const Ranks& ranks, const HelpingWork& work, const std::stop_token& st
     constexpr std::chrono::milliseconds patience_with_rank_0{500};
     Mailbox mailbox;
     std::jthread thread;
-    std::optional<Clock::time_point> stopped;
+    std::optional<GatherClock::time_point> stopped;
     while (true) {
         pass_on(mailbox, ranks);
         if (const auto word = ranks.heard()) {
@@ -113,10 +113,10 @@ void help(const Ranks& ranks, const HelpingWork& work, const std::stop_token& st
             });
         }
         if (stop.stop_requested() && !stopped) {
-            stopped = Clock::now();
+            stopped = GatherClock::now();
             thread.request_stop();
         }
-        if (stopped && Clock::now() - *stopped > patience_with_rank_0) {
+        if (stopped && GatherClock::now() - *stopped > patience_with_rank_0) {
             work.deserted();
             break;
         }

@@ -12,7 +12,7 @@ namespace millwright::app {
 namespace {
 
 std::unique_ptr<machine::PmacDriver>
-connected(const std::string& port, machine::PmacSettings settings, const machine::SteadyClock& clock) {
+connected_driver(const std::string& port, machine::PmacSettings settings, const machine::SteadyClock& clock) {
     settings.patience = 10.0; // s
     settings.parting = machine::Parting::as_found;
     auto driver = std::make_unique<machine::PmacDriver>(machine::make_link(port), clock, std::move(settings));
@@ -36,10 +36,11 @@ bool has_motor_5(machine::PmacDriver& driver, machine::SteadyClock& clock) {
 std::unique_ptr<machine::PmacDriver>
 connected_pmac(const std::string& port, const std::string& arm, machine::SteadyClock& clock) {
     const kinematics::ArmModel model = arm_of(arm);
-    auto driver = connected(port, machine::within_limits(machine::arm_settings(), model), clock);
+    auto driver = connected_driver(port, machine::within_limits(machine::arm_settings(), model), clock);
     if (model.joint_count() > 4 && has_motor_5(*driver, clock)) {
         driver.reset();
-        driver = connected(port, machine::within_limits(machine::five_axis_arm_settings(), model), clock);
+        driver =
+            connected_driver(port, machine::within_limits(machine::five_axis_arm_settings(), model), clock);
     }
     return driver;
 }

@@ -24,11 +24,11 @@ using toolpath::SetUpCost;
 using toolpath::SetUpPlace;
 
 /// The places of one rank, some at a time; each is told of, or why there are no more.
-void work(const Ranks& ranks,
-          const SetUpCost& cost,
-          std::span<const SetUpPlace> places,
-          const Tell& tell,
-          const std::stop_token& stop) {
+void evaluate_places(const Ranks& ranks,
+                     const SetUpCost& cost,
+                     std::span<const SetUpPlace> places,
+                     const Tell& tell,
+                     const std::stop_token& stop) {
     constexpr std::size_t at_a_time = 16;
     const auto step = static_cast<std::size_t>(ranks.size());
     try {
@@ -47,7 +47,7 @@ void work(const Ranks& ranks,
     }
 }
 
-std::string name_of(const SetUpPlace& place) {
+std::string place_text(const SetUpPlace& place) {
     return fmt::format("({}, {}, {}) mm turned by {} degrees",
                        fixed(place[0], 1),
                        fixed(place[1], 1),
@@ -57,7 +57,7 @@ std::string name_of(const SetUpPlace& place) {
 
 /// "from (0.0, ...) to (40.0, ...)"
 std::string range_of(std::span<const SetUpPlace> places, const std::vector<std::size_t>& some) {
-    return fmt::format("from {} to {}", name_of(places[some.front()]), name_of(places[some.back()]));
+    return fmt::format("from {} to {}", place_text(places[some.front()]), place_text(places[some.back()]));
 }
 
 std::string without_places(std::span<const SetUpPlace> places, const std::vector<std::size_t>& without) {
@@ -208,7 +208,7 @@ std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, co
     Costs costs(places, ranks_.size());
     const GatheredWork all{
         .own = [&](const Tell& tell,
-                   const std::stop_token& stop) { work(ranks_, cost_, places, tell, stop); },
+                   const std::stop_token& stop) { evaluate_places(ranks_, cost_, places, tell, stop); },
         .heard = [&](int from, const std::string& bytes) { costs.take(from, unpacked_costs(bytes)); },
         .over =
             [&] {
@@ -242,7 +242,7 @@ void help_with_costs(const Ranks& ranks,
                     own.add(unpacked_costs(bytes).figures.size());
                     tell(bytes);
                 };
-                work(ranks, cost, places, count_and_tell, own_stop);
+                evaluate_places(ranks, cost, places, count_and_tell, own_stop);
             },
         .deserted = [&] { deserted(own.lost()); }};
     help(ranks, mine, stop);

@@ -24,11 +24,11 @@ using project::StudyCase;
 using project::StudyRow;
 
 /// The cases of one rank, one after another; every one is told of, and the end in any case.
-void work(const Ranks& ranks,
-          std::span<const StudyCase> cases,
-          const StudyOne& study,
-          const Tell& tell_bytes,
-          const std::stop_token& stop) {
+void study_cases(const Ranks& ranks,
+                 std::span<const StudyCase> cases,
+                 const StudyOne& study,
+                 const Tell& tell_bytes,
+                 const std::stop_token& stop) {
     const auto tell = [&](const StudyMessage& message) { tell_bytes(packed(message)); };
     constexpr std::chrono::milliseconds between_reports{200};
     auto last = std::chrono::steady_clock::now();
@@ -174,7 +174,8 @@ SpreadStudy gather_study(const Ranks& ranks,
         return gathering.over();
     };
     const GatheredWork all{
-        .own = [&](const Tell& tell, const std::stop_token& stop) { work(ranks, cases, study, tell, stop); },
+        .own = [&](const Tell& tell,
+                   const std::stop_token& stop) { study_cases(ranks, cases, study, tell, stop); },
         .heard =
             [&](int from, const std::string& bytes) {
                 if (gathering.take(from, unpacked(bytes))) {
@@ -205,7 +206,7 @@ void help_with_study(const Ranks& ranks,
     };
     const HelpingWork mine{.own =
                                [&](const std::string&, const Tell& tell, const std::stop_token& own_stop) {
-                                   work(ranks, cases, one, tell, own_stop);
+                                   study_cases(ranks, cases, one, tell, own_stop);
                                },
                            .deserted = [&] { deserted(lost_with_rank_0(ranks, cases, at)); }};
     help(ranks, mine, stop);

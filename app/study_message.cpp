@@ -12,7 +12,7 @@ namespace millwright::app {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using project::StudyFigures;
 using project::StudyRow;
 
@@ -34,8 +34,8 @@ template <class Figures> auto figures_in_order(Figures& of) {
                       &of.offset.z()};
 }
 
-json packed_figures(const StudyFigures& figures) {
-    json values = json::array();
+Json packed_figures(const StudyFigures& figures) {
+    Json values = Json::array();
     for (const double* const value : figures_in_order(figures)) {
         values.push_back(std::bit_cast<std::uint64_t>(*value));
     }
@@ -45,7 +45,7 @@ json packed_figures(const StudyFigures& figures) {
     return values;
 }
 
-StudyFigures unpacked_figures(const json& values) {
+StudyFigures unpacked_figures(const Json& values) {
     StudyFigures figures;
     const auto places = figures_in_order(figures);
     for (std::size_t n = 0; n < places.size(); ++n) {
@@ -57,7 +57,7 @@ StudyFigures unpacked_figures(const json& values) {
     return figures;
 }
 
-json packed_row(const StudyRow& row) {
+Json packed_row(const StudyRow& row) {
     return {{"surface", row.of.surface},
             {"machine", row.of.machine},
             {"points", row.of.points},
@@ -66,10 +66,10 @@ json packed_row(const StudyRow& row) {
             {"note", row.note},
             {"no_gain", row.no_gain},
             {"loss", row.loss},
-            {"figures", row.figures ? packed_figures(*row.figures) : json()}};
+            {"figures", row.figures ? packed_figures(*row.figures) : Json()}};
 }
 
-StudyRow unpacked_row(const json& from) {
+StudyRow unpacked_row(const Json& from) {
     StudyRow row;
     row.of = {from.at("surface"), from.at("machine"), from.at("points"), from.at("tracks")};
     row.method = project::every_study_method.at(from.at("method").get<std::size_t>());
@@ -85,7 +85,7 @@ StudyRow unpacked_row(const json& from) {
 } // namespace
 
 std::string packed(const StudyMessage& message) {
-    json bytes{{"fraction", message.fraction},
+    Json bytes{{"fraction", message.fraction},
                {"text", message.text},
                {"failed", message.failed},
                {"ended", message.ended}};
@@ -93,17 +93,17 @@ std::string packed(const StudyMessage& message) {
         bytes["at"] = *message.at;
     }
     if (message.rows) {
-        bytes["rows"] = json::array();
+        bytes["rows"] = Json::array();
         for (const StudyRow& row : *message.rows) {
             bytes["rows"].push_back(packed_row(row));
         }
     }
-    return bytes.dump(-1, ' ', false, json::error_handler_t::replace);
+    return bytes.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 StudyMessage unpacked(std::string_view bytes) {
     try {
-        const json from = json::parse(bytes);
+        const Json from = Json::parse(bytes);
         StudyMessage message;
         message.fraction = from.at("fraction");
         message.text = from.at("text");
@@ -114,7 +114,7 @@ StudyMessage unpacked(std::string_view bytes) {
         }
         if (from.contains("rows")) {
             message.rows.emplace();
-            for (const json& row : from.at("rows")) {
+            for (const Json& row : from.at("rows")) {
                 message.rows->push_back(unpacked_row(row));
             }
         }

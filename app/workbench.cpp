@@ -44,7 +44,7 @@ void wait_for_frame(render::WindowContext& window, const panels::Desktop& deskto
 
 /// Until the user closes the window, or the system asks for the end: then without a question, and what has
 /// not been saved stays for the next start. Whatever moves is stopped with the workshop.
-void run(render::WindowContext& window, actions::Workshop& workshop, const std::stop_token& system) {
+void run_window(render::WindowContext& window, actions::Workshop& workshop, const std::stop_token& system) {
     panels::Desktop desktop(window, workshop);
     int due = frames_an_event;
     using Clock = std::chrono::steady_clock;
@@ -108,7 +108,7 @@ void run_workbench(const std::optional<std::filesystem::path>& file) {
     }
     const std::stop_callback wake(interrupt.token(), [&window] { window.request_redraw(); });
     try {
-        run(window, *workshop, interrupt.token());
+        run_window(window, *workshop, interrupt.token());
     } catch (const Cancelled&) {
         let_go(*workshop);
         throw;

@@ -17,12 +17,12 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct ArmBodiesOptions {
     std::string arm = "motoman-l3";
     std::string out;
 };
 
-int write_bodies(const Options& options) {
+int write_arm_bodies(const ArmBodiesOptions& options) {
     const kinematics::ArmFile file = arm_file_of(options.arm);
     if (!file.actuators) {
         throw Error(file.arm.name() +
@@ -38,10 +38,10 @@ int write_bodies(const Options& options) {
 
 void add_arm_bodies_command(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand("bodies", "Make the bodies of an arm from its lengths, as glb");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ArmBodiesOptions>();
     add_arm_option(command, options->arm);
     command.add_option("--out", options->out, "File to write")->required()->type_name("FILE.glb");
-    command.callback([&chosen, options] { chosen = [options] { return write_bodies(*options); }; });
+    command.callback([&chosen, options] { chosen = [options] { return write_arm_bodies(*options); }; });
 }
 
 } // namespace millwright::app

@@ -228,8 +228,9 @@ int inverse(const ArmOptions& options) {
 }
 
 /// What the arm takes, s. Throws Error where it cannot go on without another branch.
-double
-planned_time(const ArmModel& arm, const std::vector<kinematics::ArmWay>& ways, const std::string& file) {
+double planned_motion_time(const ArmModel& arm,
+                           const std::vector<kinematics::ArmWay>& ways,
+                           const std::string& file) {
     kinematics::ArmPathSettings settings;
     settings.aim.demand = kinematics::ArmDemand::tip; // the tool axis comes into the plane of the arm
     const auto path = kinematics::follow_path(arm, ways, kinematics::arm_home(), settings, {});
@@ -243,7 +244,7 @@ int simulate(const ArmOptions& options) {
     const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
     const auto records =
         kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file);
-    const double seconds = planned_time(
+    const double seconds = planned_motion_time(
         arm, kinematics::ways_of(arm, blocks, kinematics::arm_home(), options.file), options.file);
     write_file(options.out, kinematics::arm_result_text(records));
     fmt::print("{} blocks, {} points in {}\nplanned for the arm: {:.2f} s\n",
@@ -254,8 +255,10 @@ int simulate(const ArmOptions& options) {
     return 0;
 }
 
-CLI::App&
-add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<ArmOptions>& options) {
+CLI::App& add_arm_subcommand(CLI::App& group,
+                             const char* name,
+                             const char* text,
+                             const std::shared_ptr<ArmOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     add_arm_option(command, options->arm);
     return command;
@@ -270,14 +273,14 @@ void add_arm_command(CLI::App& app, Command& chosen) {
     const auto answers_in_json = [&](CLI::App& command) {
         command.add_flag("--json", options->json, "Print the answer as JSON");
     };
-    CLI::App& fk = add(group, "fk", "The tool for given joints", options);
+    CLI::App& fk = add_arm_subcommand(group, "fk", "The tool for given joints", options);
     answers_in_json(fk);
     fk.add_option("JOINTS", options->numbers, "Position of every joint: degrees, mm of a sliding one")
         ->required()
         ->expected(1, 9)
         ->type_name("J1 J2 ...");
     fk.callback([&chosen, options] { chosen = [options] { return forward(*options); }; });
-    CLI::App& ik = add(group, "ik", "Every position of the joints for a given tool", options);
+    CLI::App& ik = add_arm_subcommand(group, "ik", "Every position of the joints for a given tool", options);
     answers_in_json(ik);
     ik.add_option("GOAL", options->numbers, "Tip in mm and direction of the tool axis")
         ->required()
@@ -287,7 +290,8 @@ void add_arm_command(CLI::App& app, Command& chosen) {
                 options->project,
                 "Turn the axis by the smallest angle into the plane of an arm with five joints");
     ik.callback([&chosen, options] { chosen = [options] { return inverse(*options); }; });
-    CLI::App& path = add(group, "simulate", "Work off a motion file, from the home of the thesis", options);
+    CLI::App& path =
+        add_arm_subcommand(group, "simulate", "Work off a motion file, from the home of the thesis", options);
     path.add_option("FILE", options->file, "Motion file: blocks of words that end with ;")->required();
     path.add_option("--step", options->step_mm, "Distance of the points, mm")
         ->check(CLI::Range(0.001, 1000.0))

@@ -25,7 +25,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct ArmMotorOptions {
     int motor = 1;
     std::string port;
     std::string arm = "motoman-l3";
@@ -39,7 +39,7 @@ struct Options {
     std::string picture;
 };
 
-int offset(const Options& options) {
+int offset(const ArmMotorOptions& options) {
     PmacTalk talk(options.port, options.arm);
     talk.let_lines_give_power(); // to the motor that creeps
     machine::OffsetSearch search;
@@ -69,7 +69,7 @@ std::string csv(const machine::StepResponse& response) {
     return text;
 }
 
-void draw(const machine::StepResponse& response, const Options& options) {
+void draw(const machine::StepResponse& response, const ArmMotorOptions& options) {
     viewport::ChartLine is{"position", {0.0}, {0.0}};
     viewport::ChartLine should{"command", {0.0}, {response.size}};
     for (const machine::StepReading& reading : response.readings) {
@@ -94,7 +94,7 @@ std::string seconds(double time) {
 }
 
 /// Throws Error for a step that the driver makes a ramp of.
-void expect_step(const Options& options) {
+void expect_step(const ArmMotorOptions& options) {
     for (const machine::PmacAxis& axis : machine::five_axis_arm_settings().axes) {
         const double degrees = std::abs(options.step.size) / axis.counts_per_degree;
         if (axis.motor == options.motor && degrees > machine::pmac_step_deg) {
@@ -111,7 +111,7 @@ void expect_step(const Options& options) {
     }
 }
 
-int step(const Options& options) {
+int step(const ArmMotorOptions& options) {
     expect_step(options);
     PmacTalk talk(options.port, options.arm);
     if (options.power) {
@@ -138,7 +138,7 @@ int step(const Options& options) {
     return 0;
 }
 
-int direction(const Options& options) {
+int direction(const ArmMotorOptions& options) {
     PmacTalk talk(options.port, options.arm);
     if (options.power) {
         talk.give_power();
@@ -159,7 +159,10 @@ int direction(const Options& options) {
     return found.agree ? 0 : 1;
 }
 
-CLI::App& add(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
+CLI::App& add_motor_subcommand(CLI::App& group,
+                               const char* name,
+                               const char* text,
+                               const std::shared_ptr<ArmMotorOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("MOTOR", options->motor, "1 to 8")->required()->check(CLI::Range(1, 8));
     command.add_option("--port", options->port, "Serial port, or tcp:HOST:PORT of the PMAC")
@@ -169,15 +172,15 @@ CLI::App& add(CLI::App& group, const char* name, const char* text, const std::sh
     return command;
 }
 
-void add_power(CLI::App& command, const std::shared_ptr<Options>& options) {
+void add_power(CLI::App& command, const std::shared_ptr<ArmMotorOptions>& options) {
     command.add_flag("--power", options->power, "The arm's motors may have power; somebody has looked");
 }
 
 } // namespace
 
 void add_arm_motor_commands(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
-    CLI::App& still = add(
+    const auto options = std::make_shared<ArmMotorOptions>();
+    CLI::App& still = add_motor_subcommand(
         group, "offset", "Find the output at which a motor stands still (Ix29). The motor creeps!", options);
     still.add_flag("--apply", options->apply, "Set Ix29 to it");
     still.add_option("--from", options->from, "Offset to begin with, bits; by default Ix29 as it is")
@@ -186,15 +189,15 @@ void add_arm_motor_commands(CLI::App& group, Command& chosen) {
         ->check(CLI::Range(100.0, 1e9))
         ->capture_default_str();
     still.callback([&chosen, options] { chosen = [options] { return offset(*options); }; });
-    CLI::App& way =
-        add(group, "direction", "Whether jogs and programs go the same way. The motor moves!", options);
+    CLI::App& way = add_motor_subcommand(
+        group, "direction", "Whether jogs and programs go the same way. The motor moves!", options);
     way.add_option("--way", options->direction.way, "There and back, degrees")
         ->check(CLI::Range(0.01, 10.0))
         ->capture_default_str();
     add_power(way, options);
     way.callback([&chosen, options] { chosen = [options] { return direction(*options); }; });
-    CLI::App& answer =
-        add(group, "step", "A motor's answer to a step, and what to change. The motor moves!", options);
+    CLI::App& answer = add_motor_subcommand(
+        group, "step", "A motor's answer to a step, and what to change. The motor moves!", options);
     answer.add_option("--size", options->step.size, "Counts, there and back")
         ->check(CLI::Range(-1e4, 1e4))
         ->capture_default_str();

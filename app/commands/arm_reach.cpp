@@ -43,7 +43,7 @@ using kinematics::MachineModel;
 
 constexpr std::size_t most_holes_shown = 20;
 
-struct Options {
+struct ArmReachOptions {
     std::string file;
     std::string arm = "motoman-l3";
     std::string machine;
@@ -68,7 +68,7 @@ MachineModel cartesian() {
     return MachineModel(std::move(description));
 }
 
-MachineModel machine_of(const Options& options) {
+MachineModel machine_of(const ArmReachOptions& options) {
     return options.machine.empty()
                ? cartesian()
                : kinematics::read_machine(project::machine_path(
@@ -94,7 +94,7 @@ void refuse_plots(const std::string& file) {
     }
 }
 
-std::vector<ArmWay> ways_of(const Options& options) {
+std::vector<ArmWay> ways_of(const ArmReachOptions& options) {
     const Frame frame = frame_of(options.frame);
     refuse_plots(options.file);
     const auto machine = std::make_shared<const MachineModel>(machine_of(options));
@@ -122,11 +122,11 @@ std::vector<ArmWay> ways_of(const Options& options) {
 }
 
 /// What the arm takes for it, s; nothing if it cannot go all of it.
-std::optional<double> planned_time(const ArmModel& arm,
-                                   const std::vector<ArmWay>& ways,
-                                   const kinematics::ArmPath& path,
-                                   const Options& options,
-                                   const Progress& progress) {
+std::optional<double> planned_path_time(const ArmModel& arm,
+                                        const std::vector<ArmWay>& ways,
+                                        const kinematics::ArmPath& path,
+                                        const ArmReachOptions& options,
+                                        const Progress& progress) {
     if (!path.whole()) {
         return std::nullopt;
     }
@@ -138,12 +138,12 @@ std::optional<double> planned_time(const ArmModel& arm,
 }
 
 /// Before the first move no line has moved anything.
-std::string line_of(int line) {
+std::string line_text(int line) {
     return line == 0 ? "where the program begins" : fmt::format("line {}", line);
 }
 
 std::string lines_of(const ArmHole& hole) {
-    return hole.first_line == hole.last_line ? line_of(hole.first_line)
+    return hole.first_line == hole.last_line ? line_text(hole.first_line)
                                              : fmt::format("lines {} to {}", hole.first_line, hole.last_line);
 }
 
@@ -151,7 +151,7 @@ double share_of(const ArmReach& reach) {
     return reach.length > 0.0 ? reach.reached / reach.length : reach.holes.empty() ? 1.0 : 0.0;
 }
 
-void print_text(const Options& options,
+void print_text(const ArmReachOptions& options,
                 const ArmModel& arm,
                 const ArmReach& reach,
                 const std::optional<double>& planned) {
@@ -179,7 +179,7 @@ void print_text(const Options& options,
     }
     if (reach.lowest.size() > 0) {
         fmt::print(
-            "least manipulability {:.6f}, {}\n", reach.least_manipulability, line_of(reach.least_line));
+            "least manipulability {:.6f}, {}\n", reach.least_manipulability, line_text(reach.least_line));
         fmt::print("tool axis turned by at most {:.3f} deg\n", to_degrees(reach.most_tilt));
     }
     if (planned) {
@@ -189,7 +189,7 @@ void print_text(const Options& options,
     }
 }
 
-void print_json(const ArmModel& arm, const ArmReach& reach, const std::optional<double>& planned) {
+void print_reach_json(const ArmModel& arm, const ArmReach& reach, const std::optional<double>& planned) {
     nlohmann::ordered_json answer;
     answer["whole"] = reach.holes.empty();
     answer["length_mm"] = reach.length;
@@ -217,7 +217,7 @@ void print_json(const ArmModel& arm, const ArmReach& reach, const std::optional<
     fmt::print("{}\n", answer.dump(2));
 }
 
-int reach(const Options& options) {
+int reach(const ArmReachOptions& options) {
     const ArmModel arm = arm_of(options.arm);
     const std::vector<ArmWay> ways = ways_of(options);
     kinematics::ArmPathSettings settings;
@@ -228,11 +228,11 @@ int reach(const Options& options) {
     const kinematics::ArmPath path =
         follow_path_well(arm, ways, resting(arm), settings, work.progress().part(0.0, followed));
     const std::optional<double> planned =
-        planned_time(arm, ways, path, options, work.progress().part(followed, 1.0));
+        planned_path_time(arm, ways, path, options, work.progress().part(followed, 1.0));
     work.finish();
     const ArmReach found = reach_of(path, ways);
     if (options.json) {
-        print_json(arm, found, planned);
+        print_reach_json(arm, found, planned);
     } else {
         print_text(options, arm, found, planned);
     }
@@ -244,7 +244,7 @@ int reach(const Options& options) {
 void add_arm_reach_command(CLI::App& group, Command& chosen) {
     CLI::App& command =
         *group.add_subcommand("reach", "How much of a program an arm can go, and why not the rest");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ArmReachOptions>();
     add_arm_option(command, options->arm);
     command.add_option("FILE", options->file, "G-code program")->required();
     command

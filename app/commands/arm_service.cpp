@@ -22,7 +22,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct ArmServiceOptions {
     std::string file;
     bool json = false;
     int motor = 0; ///< 0: all
@@ -30,7 +30,7 @@ struct Options {
     double nominal = 0.0, limit = 0.0, peak = 0.0;
 };
 
-int calibrate(const Options& options) {
+int calibrate(const ArmServiceOptions& options) {
     const auto fits =
         machine::fit_scales(machine::parse_scale_readings(read_file(options.file), options.file));
     if (fits.empty()) {
@@ -72,7 +72,7 @@ std::string kilo_ohms(const std::optional<double>& value) {
     return value ? fmt::format("{:.2f} kOhm", *value) : std::string("none is fitted");
 }
 
-void print_table(std::span<const machine::FittedResistor> table, double peak, double current) {
+void print_resistor_table(std::span<const machine::FittedResistor> table, double peak, double current) {
     for (const machine::FittedResistor& row : table) {
         if (exactly_equal(row.peak, peak) &&
             exactly_equal(row.current, current)) { // typed as they stand there
@@ -81,7 +81,7 @@ void print_table(std::span<const machine::FittedResistor> table, double peak, do
     }
 }
 
-void print_speed(const Options& options) {
+void print_speed(const ArmServiceOptions& options) {
     const auto speed = machine::speed_resistor(options.max_rpm, options.tacho);
     fmt::print("RT  (speed): {}\n",
                !speed         ? "none: take a tachometer of a higher constant"
@@ -92,7 +92,7 @@ void print_speed(const Options& options) {
                loss ? fmt::format("{:.0f}", *loss) : "none");
 }
 
-int amplifier(const Options& options) {
+int amplifier(const ArmServiceOptions& options) {
     if (options.peak > 0.0 && !(std::max(options.nominal, options.limit) <= options.peak)) {
         throw Error(fmt::format(
             "the peak current of the amplifier, {} A, is less than what the motor may have", options.peak));
@@ -111,14 +111,14 @@ int amplifier(const Options& options) {
         fmt::print("RIN (nominal current): {} (as printed {})\n",
                    kilo_ohms(value.corrected),
                    kilo_ohms(value.printed));
-        print_table(machine::nominal_current_table(), options.peak, options.nominal);
+        print_resistor_table(machine::nominal_current_table(), options.peak, options.nominal);
     }
     if (options.limit > 0.0) {
         const double nominal = options.nominal > 0.0 ? options.nominal : options.peak / 2.0;
         const auto value = machine::peak_current_resistor(nominal, options.limit, options.peak);
         fmt::print(
             "RIP (peak current): {} (as printed {})\n", kilo_ohms(value.corrected), kilo_ohms(value.printed));
-        print_table(machine::peak_current_table(), options.peak, options.limit);
+        print_resistor_table(machine::peak_current_table(), options.peak, options.limit);
     }
     return 0;
 }
@@ -130,7 +130,7 @@ std::string trust_text(const machine::PmacPin& pin, int motor) {
            (differs ? " of motor 1" : "");
 }
 
-int wiring(const Options& options) {
+int wiring(const ArmServiceOptions& options) {
     for (const machine::PmacPin& pin : machine::pmac_pins()) {
         std::string numbers;
         for (int motor = 1; motor <= 4; ++motor) {
@@ -148,7 +148,7 @@ int wiring(const Options& options) {
     return 0;
 }
 
-void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<Options>& options) {
+void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<ArmServiceOptions>& options) {
     CLI::App& command = *group.add_subcommand("amplifier", "Resistors of a Midi-Maestro amplifier");
     const auto amperes = CLI::Range(0.1, 1000.0);
     CLI::Option* speed = command.add_option("--max-rpm", options->max_rpm, "Greatest speed of the motor")
@@ -174,7 +174,7 @@ void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<Optio
 } // namespace
 
 void add_arm_service_commands(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ArmServiceOptions>();
     CLI::App& scale =
         *group.add_subcommand("calibrate", "Counts a degree of each motor, from measured angles");
     scale.add_option("FILE", options->file, "Lines of: motor counts angle")->required();

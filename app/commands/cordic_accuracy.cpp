@@ -27,7 +27,7 @@ using cordic::Rounding;
 
 constexpr int exhaustive_bits = 16;
 
-struct Options {
+struct CordicAccuracyOptions {
     std::string out;
     std::int64_t random = 10'000'000;
     std::uint64_t seed = 2002;
@@ -52,7 +52,7 @@ cordic::Sequence classic(int steps) {
     return cordic::classic_sequence(cordic::CoordinateSystem::circular, steps);
 }
 
-Case case_of(const Options& options) {
+Case case_of(const CordicAccuracyOptions& options) {
     constexpr int least_integer_bits = 2; // for 1 itself
     cordic::NumberFormat format = cordic::parse_number_format(options.format.value_or("f64"));
     const bool fixed = format.kind == cordic::NumberKind::fixed;
@@ -86,7 +86,7 @@ std::vector<Case> cases() {
     return made;
 }
 
-std::vector<Row> measured_rows(const Options& options, const Progress& progress) {
+std::vector<Row> measured_rows(const CordicAccuracyOptions& options, const Progress& progress) {
     const auto all = options.name_a_case() ? std::vector<Case>{case_of(options)} : cases();
     std::vector<Row> rows;
     for (std::size_t n = 0; n < all.size(); ++n) {
@@ -108,7 +108,7 @@ std::vector<Row> measured_rows(const Options& options, const Progress& progress)
     return rows;
 }
 
-std::string name_of(const cordic::Sequence& sequence) {
+std::string sequence_name(const cordic::Sequence& sequence) {
     return fmt::format("{} {}", sequence.multiplies ? "classic" : "thesis", sequence.step_count);
 }
 
@@ -121,7 +121,7 @@ std::string table(const std::vector<Row>& rows) {
         text += fmt::format("{},{},{},{},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e}\n",
                             cordic::to_text(row.format),
                             fixed ? cordic::to_text(row.format.rounding) : "ieee",
-                            name_of(row.sequence),
+                            sequence_name(row.sequence),
                             row.measured.count,
                             row.measured.rotation,
                             row.rotation_bound.total,
@@ -133,7 +133,7 @@ std::string table(const std::vector<Row>& rows) {
     return text;
 }
 
-void print(const std::vector<Row>& rows, const std::vector<cordic::Finding>& findings) {
+void print_accuracy(const std::vector<Row>& rows, const std::vector<cordic::Finding>& findings) {
     fmt::print("{:<7} {:<13} {:<11} {:>9} {:>10} {:>10} {:>10} {:>10}\n",
                "format",
                "rounding",
@@ -148,7 +148,7 @@ void print(const std::vector<Row>& rows, const std::vector<cordic::Finding>& fin
         fmt::print("{:<7} {:<13} {:<11} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}\n",
                    cordic::to_text(row.format),
                    fixed ? cordic::to_text(row.format.rounding) : "ieee",
-                   name_of(row.sequence),
+                   sequence_name(row.sequence),
                    row.measured.count,
                    row.measured.rotation,
                    row.rotation_bound.total,
@@ -177,7 +177,7 @@ std::string bounds_picture(const std::vector<cordic::NumberFormat>& formats) {
     return cordic::to_svg(chart);
 }
 
-std::vector<cordic::NumberFormat> formats_of_bounds(const Options& options) {
+std::vector<cordic::NumberFormat> formats_of_bounds(const CordicAccuracyOptions& options) {
     if (options.name_a_case()) {
         return {case_of(options).first};
     }
@@ -188,7 +188,7 @@ std::vector<cordic::NumberFormat> formats_of_bounds(const Options& options) {
             cordic::binary64};
 }
 
-int accuracy(const Options& options) {
+int accuracy(const CordicAccuracyOptions& options) {
     const Interrupt interrupt;
     const OutputFolder folder(options.out);
     ProgressPrinter printer;
@@ -202,14 +202,14 @@ int accuracy(const Options& options) {
         files.push_back({picture.name, picture.svg});
     }
     write_outputs(options.out, files);
-    print(rows, experiments.findings);
+    print_accuracy(rows, experiments.findings);
     return 0;
 }
 
 } // namespace
 
 void add_cordic_accuracy(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CordicAccuracyOptions>();
     CLI::App& command = *group.add_subcommand(
         "accuracy", "Proven bounds beside measured errors, and the thesis's experiments");
     command.add_option("--out", options->out, "Folder for accuracy.csv and the pictures")

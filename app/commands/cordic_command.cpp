@@ -43,7 +43,7 @@ struct NumberOptions {
     bool json = false;
 };
 
-cordic::NumberFormat format_of(const NumberOptions& options) {
+cordic::NumberFormat number_format(const NumberOptions& options) {
     cordic::NumberFormat format = cordic::parse_number_format(options.format);
     format.rounding = cordic::parse_rounding(options.rounding);
     return format;
@@ -55,7 +55,7 @@ cordic::Sequence sequence_of(const NumberOptions& options) {
                : cordic::classic_sequence(cordic::CoordinateSystem::circular, options.iterations);
 }
 
-nlohmann::ordered_json json_of(const std::array<cordic::Word, 3>& words) {
+nlohmann::ordered_json words_json(const std::array<cordic::Word, 3>& words) {
     auto hexadecimal = nlohmann::ordered_json::array();
     for (const cordic::Word word : words) {
         hexadecimal.push_back(fmt::format("{:#x}", word));
@@ -64,7 +64,7 @@ nlohmann::ordered_json json_of(const std::array<cordic::Word, 3>& words) {
 }
 
 int rotate(const NumberOptions& options) {
-    const cordic::Rotated found = cordic::rotate(format_of(options),
+    const cordic::Rotated found = cordic::rotate(number_format(options),
                                                  sequence_of(options),
                                                  cordic::Decimal::parse(options.x),
                                                  cordic::Decimal::parse(options.y),
@@ -76,7 +76,7 @@ int rotate(const NumberOptions& options) {
         answer["z"] = found.z;
         answer["error"] = found.error;
         answer["clocks"] = found.clocks;
-        answer["words"] = json_of(found.words);
+        answer["words"] = words_json(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("x {}\ny {}\nz {} rad left\nerror {}\n{} clocks\n",
@@ -90,7 +90,7 @@ int rotate(const NumberOptions& options) {
 }
 
 int vector(const NumberOptions& options) {
-    const cordic::Polar found = cordic::polar(format_of(options),
+    const cordic::Polar found = cordic::polar(number_format(options),
                                               sequence_of(options),
                                               cordic::Decimal::parse(options.x),
                                               cordic::Decimal::parse(options.y));
@@ -102,7 +102,7 @@ int vector(const NumberOptions& options) {
         answer["error_degrees"] = found.angle_error_deg;
         answer["clocks"] = found.clocks;
         answer["shift"] = found.shift;
-        answer["words"] = json_of(found.words);
+        answer["words"] = words_json(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("magnitude {}, error {}\n{} degrees, error {}\n{} clocks\n",
@@ -119,7 +119,7 @@ int rtl(const NumberOptions& options) {
     make_folder(options.out);
     std::vector<OutputFile> files;
     for (cordic::RtlFile& file :
-         cordic::make_rtl(format_of(options), sequence_of(options), options.vectors, options.seed)) {
+         cordic::make_rtl(number_format(options), sequence_of(options), options.vectors, options.seed)) {
         files.push_back({std::move(file.name), std::move(file.text)});
     }
     write_outputs(options.out, files);

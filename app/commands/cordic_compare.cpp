@@ -18,12 +18,12 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct CordicCompareOptions {
     double clock_hz = 8e6;
     bool json = false;
 };
 
-int compare(const Options& options) {
+int compare(const CordicCompareOptions& options) {
     const cordic::LineTime mcs51 = cordic::line_time(cordic::mcs51_line_clocks, cordic::mcs51_clock_hz);
     const cordic::LineTime line =
         cordic::line_time(std::int64_t{2} * cordic::thesis_sequence().clock_count(), options.clock_hz);
@@ -64,7 +64,7 @@ int compare(const Options& options) {
 } // namespace
 
 void add_cordic_compare(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CordicCompareOptions>();
     CLI::App& command =
         *group.add_subcommand("compare", "The processor beside the thesis's micro-controller");
     add_cordic_clock(command, options->clock_hz);

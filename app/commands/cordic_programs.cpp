@@ -19,20 +19,20 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct CordicProgramsOptions {
     CordicSource source;
     CordicArithmetic arithmetic;
     std::string out;
     bool over_bus = false;
 };
 
-int show_microprogram(const Options& options) {
+int show_microprogram(const CordicProgramsOptions& options) {
     const auto publishing = options.over_bus ? cordic::Publishing::bus : cordic::Publishing::latch;
     fmt::print("{}", cordic::microprogram_text(publishing));
     return 0;
 }
 
-int assemble(const Options& options) {
+int assemble(const CordicProgramsOptions& options) {
     if (std::filesystem::path(options.source.file).extension() == ".bin") {
         throw Error("is an image already", options.source.file, "millwright cordic disasm prints its text");
     }
@@ -43,7 +43,7 @@ int assemble(const Options& options) {
     return 0;
 }
 
-int disassemble(const Options& options) {
+int disassemble(const CordicProgramsOptions& options) {
     const std::string text = cordic::disassemble(cordic_program(options.source, options.arithmetic).image);
     std::fwrite(text.data(), 1, text.size(), stdout);
     return 0;
@@ -52,7 +52,7 @@ int disassemble(const Options& options) {
 CLI::App& add_file(CLI::App& group,
                    const char* name,
                    const char* text,
-                   const std::shared_ptr<Options>& options,
+                   const std::shared_ptr<CordicProgramsOptions>& options,
                    const char* kinds) {
     CLI::App& command = *group.add_subcommand(name, text);
     add_cordic_source(command, options->source, kinds);
@@ -63,7 +63,7 @@ CLI::App& add_file(CLI::App& group,
 } // namespace
 
 void add_cordic_programs(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CordicProgramsOptions>();
     CLI::App& assembling =
         add_file(group, "asm", "Make the image of a program", options, "G-code or assembler text (.asm)");
     assembling.add_option("--out", options->out, "Image file (.bin)")->required()->type_name("FILE");

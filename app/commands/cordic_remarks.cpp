@@ -18,7 +18,7 @@ namespace millwright::app {
 
 namespace {
 
-constexpr double much = 0.05; // of the feed
+constexpr double notable_speed_error = 0.05; // of the feed
 
 bool has_arcs(const cordic::Processor& processor) {
     using cordic::Opcode;
@@ -102,7 +102,7 @@ std::vector<Diagnostic> remarks_on(const cordic::Processor& processor,
              "and what follows leads straight back",
              {}});
     }
-    if (of_gcode && report.speed_error > much) {
+    if (of_gcode && report.speed_error > notable_speed_error) {
         remarks.push_back({{file, program.points[report.speed_error_at].line, 0, -1},
                            fmt::format("the speed is up to {:.0f} % beside the feed: {}",
                                        100.0 * report.speed_error,

@@ -29,7 +29,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct CordicRunOptions {
     CordicSource source;
     CordicChoice choice;
     CordicMotionOptions motion;
@@ -43,7 +43,7 @@ struct Options {
 };
 
 /// What the axes get of an Amax that was asked for beside the program's own; G-code is compiled with it.
-double most_acceleration(const Options& options, const gcode::CordicProgram& program) {
+double most_acceleration(const CordicRunOptions& options, const gcode::CordicProgram& program) {
     constexpr double half = 0.5; // eq. 4.2
     if (!options.source.acceleration || !program.points.empty()) {
         return std::numeric_limits<double>::infinity();
@@ -51,7 +51,9 @@ double most_acceleration(const Options& options, const gcode::CordicProgram& pro
     return (options.choice.whole_acceleration ? 1.0 : half) * *options.source.acceleration;
 }
 
-void run_traced(cordic::Processor& processor, const gcode::CordicProgram& program, const Options& options) {
+void run_traced(cordic::Processor& processor,
+                const gcode::CordicProgram& program,
+                const CordicRunOptions& options) {
     constexpr std::size_t much = 1U << 20U; // a long run has gigabytes of waves
     cordic::VcdWriter waves(processor.format(), options.clock_hz);
     FileWriter file(options.trace);
@@ -96,7 +98,7 @@ json_of_point(const cordic::Processor& processor, const cordic::Published& recor
     return point;
 }
 
-nlohmann::ordered_json json_of(const cordic::ClockCounts& clocks) {
+nlohmann::ordered_json clocks_json(const cordic::ClockCounts& clocks) {
     return {{"total", clocks.total},
             {"cordic", clocks.cordic},
             {"fetch", clocks.fetch},
@@ -118,16 +120,16 @@ nlohmann::ordered_json json_of_warning(const Diagnostic& warning) {
             {"message", message}};
 }
 
-void print_json(JsonMembers& answer,
-                const cordic::Processor& processor,
-                const gcode::CordicProgram& program,
-                const cordic::RunReport& report,
-                const std::optional<cordic::SupervisedRun>& supervised,
-                bool has_exact) {
+void print_run_json(JsonMembers& answer,
+                    const cordic::Processor& processor,
+                    const gcode::CordicProgram& program,
+                    const cordic::RunReport& report,
+                    const std::optional<cordic::SupervisedRun>& supervised,
+                    bool has_exact) {
     const bool by_logic = supervised && supervised->end == cordic::SupervisedEnd::stopped;
     answer.add("stop", by_logic ? cordic::to_text(supervised->end) : cordic::to_text(report.stop));
     answer.add("format", cordic::to_text(processor.format()));
-    answer.add("clocks", json_of(report.clocks));
+    answer.add("clocks", clocks_json(report.clocks));
     answer.add("seconds", report.seconds);
     if (has_exact) {
         answer.add("errors", {{"position_mm", report.position_error}, {"speed", report.speed_error}});
@@ -151,7 +153,7 @@ void print_json(JsonMembers& answer,
     });
 }
 
-void print(const cordic::RunReport& report, const cordic::Processor& processor, bool has_exact) {
+void print_run_report(const cordic::RunReport& report, const cordic::Processor& processor, bool has_exact) {
     fmt::print("{} set-points, {} commands, {}\n",
                report.published,
                processor.commanded().size(),
@@ -178,7 +180,7 @@ void print(const cordic::RunReport& report, const cordic::Processor& processor, 
     }
 }
 
-void fill_ram(cordic::Processor& processor, const Options& options) {
+void fill_ram(cordic::Processor& processor, const CordicRunOptions& options) {
     const std::string bytes = options.ram.empty() ? std::string() : read_file(options.ram);
     std::vector<std::uint8_t>& ram = processor.memory().ram;
     if (bytes.size() > ram.size()) {
@@ -188,7 +190,7 @@ void fill_ram(cordic::Processor& processor, const Options& options) {
 }
 
 std::optional<cordic::SupervisedRun>
-execute(cordic::Processor& processor, const gcode::CordicProgram& program, const Options& options) {
+execute(cordic::Processor& processor, const gcode::CordicProgram& program, const CordicRunOptions& options) {
     if (!options.plc.logic.empty()) {
         return run_with_logic(
             processor, program.code_lines, options.source.file, options.plc, options.clock_hz);
@@ -215,7 +217,7 @@ bool is_at_an_end(const cordic::Processor& processor,
     return processor.state().stop == cordic::Stop::halted;
 }
 
-int run(const Options& options) {
+int run_cordic_program(const CordicRunOptions& options) {
     CordicSource source = options.source;
     source.plans_motion = !options.motion.profile.empty();
     const gcode::CordicProgram program = cordic_program(source, options.choice.arithmetic);
@@ -243,7 +245,7 @@ int run(const Options& options) {
     }
     if (options.json) {
         JsonMembers answer(stdout);
-        print_json(answer, processor, program, report, supervised, has_exact);
+        print_run_json(answer, processor, program, report, supervised, has_exact);
         std::vector<Diagnostic> warnings = program.warnings;
         warnings.insert(warnings.end(), remarks.begin(), remarks.end());
         answer.add_each("warnings", warnings, json_of_warning);
@@ -255,7 +257,7 @@ int run(const Options& options) {
         }
         answer.end();
     } else {
-        print(report, processor, has_exact);
+        print_run_report(report, processor, has_exact);
         if (motion) {
             print(*motion);
         }
@@ -272,7 +274,7 @@ int run(const Options& options) {
 } // namespace
 
 void add_cordic_run(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CordicRunOptions>();
     CLI::App& command = *group.add_subcommand("run", "Run a program on the processor, clock by clock");
     add_cordic_source(command, options->source);
     add_cordic_clock(command, options->clock_hz);
@@ -288,7 +290,7 @@ void add_cordic_run(CLI::App& group, Command& chosen) {
     add_cordic_plc_options(command, options->plc);
     trace->excludes("--plc");
     command.add_flag("--json", options->json, "Print the answer as JSON");
-    command.callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+    command.callback([&chosen, options] { chosen = [options] { return run_cordic_program(*options); }; });
 }
 
 } // namespace millwright::app

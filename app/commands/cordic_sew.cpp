@@ -17,7 +17,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct CordicSewOptions {
     CordicSource source;
     CordicChoice choice;
     cordic::Sewing sewing;
@@ -27,11 +27,11 @@ struct Options {
 };
 
 /// Of the program, from which the n-th set-point comes; 0: not known.
-int line_of(const cordic::Processor& processor, const gcode::CordicProgram& program, std::size_t n) {
+int gcode_line_of(const cordic::Processor& processor, const gcode::CordicProgram& program, std::size_t n) {
     return cordic::line_at(program.code_lines, processor.published()[n].instruction_at).line;
 }
 
-int sew(const Options& options) {
+int sew(const CordicSewOptions& options) {
     const gcode::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     execute_to_end(processor, program, options.source, options.choice, options.most_clocks);
@@ -41,8 +41,9 @@ int sew(const Options& options) {
     const cordic::SewingRun sewn =
         cordic::sew(options.sewing, cordic::stitches_of(processor, options.clock_hz));
     const cordic::StitchTimes one = cordic::stitch_times(options.sewing, 0.0);
-    const std::size_t first_late = sewn.late.empty() ? 0 : sewn.late.front() + 1;           // 0: none
-    const int late_line = first_late > 0 ? line_of(processor, program, first_late - 1) : 0; // 0: of no line
+    const std::size_t first_late = sewn.late.empty() ? 0 : sewn.late.front() + 1; // 0: none
+    const int late_line =
+        first_late > 0 ? gcode_line_of(processor, program, first_late - 1) : 0; // 0: of no line
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["stitches"] = sewn.stitches;
@@ -74,7 +75,7 @@ int sew(const Options& options) {
 } // namespace
 
 void add_cordic_sew(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CordicSewOptions>();
     CLI::App& command =
         *group.add_subcommand("sew", "A program as stitches: what a sewing machine could not keep up with");
     add_cordic_source(command, options->source);

@@ -28,11 +28,11 @@ namespace {
 constexpr double least_clock_hz = 1.0;
 constexpr double most_clock_hz = 1e11;
 
-cordic::NumberFormat format_of(const CordicSource& source) {
+cordic::NumberFormat source_format(const CordicSource& source) {
     return cordic::parse_number_format(source.format.value_or("f32"));
 }
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
+std::span<const std::uint8_t> text_bytes(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
@@ -56,7 +56,7 @@ cordic::ProcessorSettings processor_settings(const cordic::MadeFor& made_for) {
 gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic& arithmetic) {
     const cordic::MadeFor made_for = asked_for(arithmetic);
     gcode::CordicProgramSettings settings;
-    settings.format = format_of(source);
+    settings.format = source_format(source);
     settings.processor = processor_settings(made_for);
     settings.chord_tolerance = source.tolerance;
     settings.arc_end = source.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
@@ -129,7 +129,7 @@ void expect_arithmetic(const CordicSource& source,
 
 gcode::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& arithmetic) {
     const std::string bytes = read_file(source.file);
-    cordic::Image image = cordic::parse_image(bytes_of(bytes), source.file);
+    cordic::Image image = cordic::parse_image(text_bytes(bytes), source.file);
     expect_format(source, image.format);
     expect_arithmetic(source, arithmetic, image.made_for);
     return {std::move(image), {}, {}, {}, {}, {}};
@@ -137,7 +137,7 @@ gcode::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& 
 
 gcode::CordicProgram assembled(const CordicSource& source, const CordicArithmetic& arithmetic) {
     auto made =
-        cordic::assemble(read_file(source.file), source.file, format_of(source), asked_for(arithmetic));
+        cordic::assemble(read_file(source.file), source.file, source_format(source), asked_for(arithmetic));
     refuse(made.errors);
     expect_format(source, made.image.format);
     expect_arithmetic(source, arithmetic, made.image.made_for);

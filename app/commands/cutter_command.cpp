@@ -27,7 +27,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct CutterOptions {
     std::string project;
     std::string tool;
     std::string out;
@@ -35,7 +35,7 @@ struct Options {
     PostChoice post;
 };
 
-void print_summary(const project::Plan& plan, const project::Project& project) {
+void print_cutter_summary(const project::Plan& plan, const project::Project& project) {
     const project::Evaluation& chosen = *plan.program_path(project);
     const project::CutStudy& study = *plan.cut;
     fmt::print("error of the cutter: at most {} mm, {} mm on average; axis at most {} deg off\n",
@@ -86,7 +86,7 @@ void print_bites(const project::CutStudy& study) {
     }
 }
 
-int cut(const Options& options) {
+int cut(const CutterOptions& options) {
     const Interrupt interrupt;
     OpenedProject opened = open_project(options.project);
     project::Project& project = opened.project;
@@ -114,7 +114,7 @@ int cut(const Options& options) {
                   opened.file);
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
-    print_summary(plan, project);
+    print_cutter_summary(plan, project);
     print_why_higher(project, plan);
     if (const std::string why = project::why_not_kept(project, *plan.program_path(project)); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
@@ -126,7 +126,7 @@ int cut(const Options& options) {
 } // namespace
 
 void add_cutter_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CutterOptions>();
     CLI::App& command =
         *app.add_subcommand("cutter", "Cut a project with a tool that has a body: error, scallops, gouges");
     command.add_option("PROJECT", options->project, "Project file")->required();

@@ -25,7 +25,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct EmulateOptions {
     EmulationChoice wire;
     std::string eeprom;
     std::optional<double> surface; ///< height of what a probe touches, mm
@@ -37,7 +37,7 @@ struct Options {
     int channels = 4;
 };
 
-int emulate_grbl(const Options& options) {
+int emulate_grbl(const EmulateOptions& options) {
     std::function<double(double, double)> surface;
     if (options.surface) {
         surface = [z = *options.surface](double, double) { return z; };
@@ -52,7 +52,7 @@ int emulate_grbl(const Options& options) {
     });
 }
 
-int emulate_linuxcnc(const Options& options) {
+int emulate_linuxcnc(const EmulateOptions& options) {
     machine::LinuxCncEmulatorOptions wanted;
     wanted.model = std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
@@ -80,7 +80,7 @@ void tell_samples(const machine::StreamEmulator& stream) {
     }
 }
 
-int emulate_stream(const Options& options) {
+int emulate_stream(const EmulateOptions& options) {
     return serve(
         options.wire,
         "A coordinate stream",
@@ -90,7 +90,7 @@ int emulate_stream(const Options& options) {
         });
 }
 
-int emulate_pmac(const Options& options) {
+int emulate_pmac(const EmulateOptions& options) {
     const machine::PmacEmulatorOptions wanted{.plants = options.arm ? machine::arm_plants()
                                                                     : std::vector<machine::PmacPlant>{},
                                               .channels = options.channels};
@@ -100,7 +100,7 @@ int emulate_pmac(const Options& options) {
 CLI::App& add_emulated(CLI::App& group,
                        const std::string& name,
                        const std::string& what,
-                       const std::shared_ptr<Options>& options) {
+                       const std::shared_ptr<EmulateOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, what);
     add_emulation_options(command, options->wire);
     return command;
@@ -109,7 +109,7 @@ CLI::App& add_emulated(CLI::App& group,
 } // namespace
 
 void add_emulate_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<EmulateOptions>();
     CLI::App& group = *app.add_subcommand("emulate", "Be a controller, to try things out without a machine");
     group.require_subcommand(1);
     CLI::App& grbl = add_emulated(group, "grbl", "Grbl 1.1 on a pseudo-terminal or a TCP port", options);

@@ -17,13 +17,13 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct ExportOptions {
     std::string project;
     std::string out;
     double tolerance = 0.01;
 };
 
-int export_design(const Options& options) {
+int export_design(const ExportOptions& options) {
     const OpenedProject opened = open_project(options.project);
     std::vector<geometry::BezierPatch> patches;
     for (const geometry::ControlNet& net : opened.project.surface.patches) {
@@ -43,7 +43,7 @@ int export_design(const Options& options) {
 } // namespace
 
 void add_export_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ExportOptions>();
     CLI::App& command = *app.add_subcommand("export", "Write the surface of a project for another program");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "FILE.step, .glb, .stl, .obj or .ply")

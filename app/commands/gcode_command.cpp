@@ -57,7 +57,7 @@ private:
     std::int64_t count_ = 0;
 };
 
-nlohmann::ordered_json as_json(const std::vector<Diagnostic>& errors) {
+nlohmann::ordered_json diagnostics_json(const std::vector<Diagnostic>& errors) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Diagnostic& error : errors) {
         nlohmann::ordered_json entry;
@@ -71,11 +71,11 @@ nlohmann::ordered_json as_json(const std::vector<Diagnostic>& errors) {
     return list;
 }
 
-void print_json(const gcode::Interpreter& program, std::int64_t moves) {
+void print_program_json(const gcode::Interpreter& program, std::int64_t moves) {
     nlohmann::ordered_json answer;
     answer["lines"] = program.line_count();
     answer["moves"] = moves;
-    answer["errors"] = as_json(program.errors());
+    answer["errors"] = diagnostics_json(program.errors());
     if (program.further_errors() > 0) {
         answer["further_errors"] = program.further_errors();
     }
@@ -90,7 +90,7 @@ int check(const GcodeOptions& options) {
     gcode::Interpreter program(options.file, std::move(settings), moves);
     program.run();
     if (options.json) {
-        print_json(program, moves.count());
+        print_program_json(program, moves.count());
     } else {
         for (const Diagnostic& error : program.errors()) {
             fmt::print(stderr, "millwright: {}\n", to_text(error));
@@ -156,7 +156,7 @@ MachineRun machine_run(const GcodeOptions& options) {
 }
 
 /// For another control.
-int convert(const GcodeOptions& options) {
+int convert_gcode(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
     throw_first(run.found.lost);
     for (const Diagnostic& simplified : run.found.simplified) {
@@ -279,7 +279,7 @@ int time(const GcodeOptions& options) {
         answer["time_s"] = found.seconds;
         answer["length_mm"] = found.length;
         answer["blocks"] = found.blocks;
-        answer["warnings"] = as_json(found.beyond_travel);
+        answer["warnings"] = diagnostics_json(found.beyond_travel);
         fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
         fmt::print("{} ({:.3f} s), {:.1f} mm, {} blocks\n",
@@ -336,7 +336,7 @@ void add_gcode_command(CLI::App& app, Command& chosen) {
         ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();
     add_post_options(converting, options->post).required();
-    converting.callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
+    converting.callback([&chosen, options] { chosen = [options] { return convert_gcode(*options); }; });
     timing.callback([&chosen, options] { chosen = [options] { return time(*options); }; });
     stepping.callback([&chosen, options] { chosen = [options] { return pulses(*options); }; });
     printing.callback([&chosen, options] { chosen = [options] { return canon(*options); }; });

@@ -74,7 +74,7 @@ int source_line(const gcode::Program& program, int block) {
     return program.blocks[static_cast<std::size_t>(block)].source_line;
 }
 
-void print_table(const std::vector<AxisSteps>& axes, const std::vector<motion::StepJitter>& found) {
+void print_step_table(const std::vector<AxisSteps>& axes, const std::vector<motion::StepJitter>& found) {
     fmt::print("{:4} {:>14} {:>12} {:>10} {:>12} {:>12} {:>10} {:>10} {:>8}\n",
                "axis",
                "steps",
@@ -101,7 +101,7 @@ void print_table(const std::vector<AxisSteps>& axes, const std::vector<motion::S
 }
 
 nlohmann::ordered_json
-as_json(const AxisSteps& steps, const motion::StepJitter& found, const gcode::Program& program) {
+axis_steps_json(const AxisSteps& steps, const motion::StepJitter& found, const gcode::Program& program) {
     nlohmann::ordered_json axis;
     axis["axis"] = std::string(1, steps.letter);
     axis[steps.rotary ? "steps_per_deg" : "steps_per_mm"] = steps.steps;
@@ -187,11 +187,11 @@ int report_pulses(const motion::Trajectory& trajectory,
         answer["timer_hz"] = options.timer_hz;
         answer["axes"] = nlohmann::ordered_json::array();
         for (std::size_t n = 0; n < axes.size(); ++n) {
-            answer["axes"].push_back(as_json(axes[n], found[n], program));
+            answer["axes"].push_back(axis_steps_json(axes[n], found[n], program));
         }
         fmt::print("{}\n", answer.dump(2));
     } else {
-        print_table(axes, found);
+        print_step_table(axes, found);
         print_sentences(axes, found, program, options, file);
     }
     return std::ranges::any_of(found, [](const auto& axis) { return axis.overrun_block >= 0; }) ? 1 : 0;

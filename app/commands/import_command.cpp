@@ -30,7 +30,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct ImportOptions {
     std::string file;
     std::string out;                   ///< a project; empty: the file is only told of
     std::string deviation;             ///< comma-separated; empty: none
@@ -70,7 +70,7 @@ std::string fault_of_degrees(const std::string& text) {
                                             exchange::max_fit_degree);
 }
 
-project::ImportChoice choice_of(const Options& options) {
+project::ImportChoice choice_of(const ImportOptions& options) {
     project::ImportChoice choice{.face = options.face, .mm_per_unit = options.mm_per_unit.value_or(1.0)};
     if (!options.degrees.empty()) {
         choice.degrees = degrees_from(options.degrees);
@@ -117,7 +117,7 @@ ordered_json model_json(const exchange::CadModel& model) {
             {"notes", with_doubt(model.notes, project::doubt_of_size(model))}};
 }
 
-void print_notes(const std::vector<std::string>& notes) {
+void print_import_notes(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) {
         fmt::print(stderr, "note: {}\n", note);
     }
@@ -171,7 +171,7 @@ void print_mesh(const ordered_json& mesh) {
                size(2));
 }
 
-int tell_of(const Options& options) {
+int tell_of(const ImportOptions& options) {
     WatchedWork work;
     const bool is_mesh = exchange::is_mesh_file(options.file);
     const double unit = options.mm_per_unit.value_or(1.0);
@@ -179,7 +179,7 @@ int tell_of(const Options& options) {
                                   ? mesh_json(exchange::read_mesh(options.file, unit, work.progress()), unit)
                                   : model_json(exchange::read_cad(options.file, work.progress()));
     work.finish();
-    print_notes(told["notes"].get<std::vector<std::string>>());
+    print_import_notes(told["notes"].get<std::vector<std::string>>());
     if (options.json) {
         fmt::print("{}\n", told.dump(2));
     } else if (is_mesh) {
@@ -217,8 +217,8 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
     return json;
 }
 
-void print_imported(const project::ImportedSurface& imported, const Options& options) {
-    print_notes(imported.notes);
+void print_imported(const project::ImportedSurface& imported, const ImportOptions& options) {
+    print_import_notes(imported.notes);
     if (options.json) {
         fmt::print("{}\n", imported_json(imported).dump(2));
         return;
@@ -237,7 +237,7 @@ void print_imported(const project::ImportedSurface& imported, const Options& opt
                imported.surface.patches.size() == 1 ? "patch" : "patches");
 }
 
-int import_file(const Options& options) {
+int import_file(const ImportOptions& options) {
     if (!project::is_importable(options.file)) {
         throw Error("this kind of file is not imported", options.file, "STEP, IGES, STL, OBJ and PLY are");
     }
@@ -268,7 +268,7 @@ int import_file(const Options& options) {
 } // namespace
 
 void add_import_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ImportOptions>();
     CLI::App& command = *app.add_subcommand(
         "import", "Make a project from a surface of another program, or list the faces of its file");
     command.add_option("FILE", options->file, "STEP, IGES, STL, OBJ or PLY file")->required();

@@ -21,7 +21,7 @@ namespace {
 
 using machine::LogStart;
 
-struct Options {
+struct JobsOptions {
     std::string folder = project::job_logs_place().string();
     bool json = false;
 };
@@ -30,7 +30,7 @@ std::string state_of(const machine::JobStory& story) {
     return story.running ? "running" : story.end ? std::string(to_text(*story.end)) : "broken off";
 }
 
-nlohmann::ordered_json as_json(const machine::JobStory& story) {
+nlohmann::ordered_json job_json(const machine::JobStory& story) {
     return {{"log", story.log_file.string()},
             {"job", story.start.job},
             {"program", story.start.project},
@@ -89,7 +89,7 @@ void show(const machine::JobStory& story, std::set<std::string>& told) {
     }
 }
 
-int list_jobs(const Options& options) {
+int list_jobs(const JobsOptions& options) {
     const machine::JobFolder folder = machine::read_job_folder(options.folder);
     for (const Diagnostic& diagnostic : folder.unreadable) {
         fmt::print(stderr, "millwright: {}\n", to_text(diagnostic));
@@ -97,7 +97,7 @@ int list_jobs(const Options& options) {
     if (options.json) {
         auto all = nlohmann::ordered_json::array();
         for (const machine::JobStory& story : folder.jobs) {
-            all.push_back(as_json(story));
+            all.push_back(job_json(story));
         }
         fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
@@ -115,7 +115,7 @@ int list_jobs(const Options& options) {
 } // namespace
 
 void add_jobs_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<JobsOptions>();
     CLI::App& command = *app.add_subcommand("jobs", "What became of the jobs of a folder, newest first");
     command.add_option("DIR", options->folder, "Folder of the job logs")->capture_default_str();
     command.add_flag("--json", options->json, "As JSON");

@@ -24,7 +24,7 @@ namespace {
 using geometry::Continuity;
 using nlohmann::ordered_json;
 
-struct Options {
+struct JoinOptions {
     std::vector<std::string> projects;
     std::string out;
     Continuity continuity = Continuity::tangent;
@@ -42,7 +42,7 @@ project::Project together(const std::vector<std::string>& files) {
     return all;
 }
 
-ordered_json json_of(const project::JoinedSurface& joined) {
+ordered_json joined_surface_json(const project::JoinedSurface& joined) {
     ordered_json seams = ordered_json::array();
     for (std::size_t n = 0; n < joined.seams.size(); ++n) {
         const geometry::Seam& seam = joined.seams[n];
@@ -66,7 +66,7 @@ ordered_json json_of(const project::JoinedSurface& joined) {
             {"open_seams", std::move(open)}};
 }
 
-void print(const project::JoinedSurface& joined, double gap_mm) {
+void print_joined_surface(const project::JoinedSurface& joined, double gap_mm) {
     fmt::print("{:>18} {:>21} {:>23}\n", "seam", "gap mm", "angle deg");
     for (std::size_t n = 0; n < joined.seams.size(); ++n) {
         const geometry::Seam& seam = joined.seams[n];
@@ -91,7 +91,7 @@ void print(const project::JoinedSurface& joined, double gap_mm) {
                fixed(joined.rms_move, 4));
 }
 
-int join(const Options& options) {
+int join(const JoinOptions& options) {
     project::Project project = together(options.projects);
     const double gap_mm = options.gap_mm.value_or(project::usual_gap_mm(project.surface));
     const project::JoinedSurface joined =
@@ -99,9 +99,9 @@ int join(const Options& options) {
     project.surface = joined.surface;
     project::write_project(project, options.out);
     if (options.json) {
-        fmt::print("{}\n", json_of(joined).dump(2));
+        fmt::print("{}\n", joined_surface_json(joined).dump(2));
     } else {
-        print(joined, gap_mm);
+        print_joined_surface(joined, gap_mm);
     }
     return 0;
 }
@@ -109,7 +109,7 @@ int join(const Options& options) {
 } // namespace
 
 void add_join_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<JoinOptions>();
     CLI::App& command = *app.add_subcommand("join", "Join patches that share sides to one surface");
     command
         .add_option("PROJECT", options->projects, "Project files; the first one keeps machine, tool and grid")

@@ -18,12 +18,12 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct MachineBodiesOptions {
     std::string machine;
     std::string out;
 };
 
-int write_bodies(const Options& options) {
+int write_machine_bodies(const MachineBodiesOptions& options) {
     const std::filesystem::path file =
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder());
     const kinematics::MachineModel machine = kinematics::read_machine(file);
@@ -41,11 +41,11 @@ int write_bodies(const Options& options) {
 void add_machine_command(CLI::App& app, Command& chosen) {
     CLI::App& group = *app.add_subcommand("machine", "Machine files");
     group.require_subcommand(1);
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<MachineBodiesOptions>();
     CLI::App& command = *group.add_subcommand("bodies", "Make the bodies of a machine from its file, as glb");
     command.add_option("MACHINE", options->machine, "Shipped machine or machine file")->required();
     command.add_option("--out", options->out, "File to write")->required()->type_name("FILE.glb");
-    command.callback([&chosen, options] { chosen = [options] { return write_bodies(*options); }; });
+    command.callback([&chosen, options] { chosen = [options] { return write_machine_bodies(*options); }; });
 }
 
 } // namespace millwright::app

@@ -22,7 +22,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct PictureEngraveOptions {
     PictureChoice picture;
     CuttingOptions cutting = {.safe_height = 1.0};
     std::string mode = "halftone";
@@ -33,7 +33,7 @@ struct Options {
     bool join = false;
 };
 
-plot::CutPath dither_path(const Options& options, const SizedPicture& sized) {
+plot::CutPath dither_path(const PictureEngraveOptions& options, const SizedPicture& sized) {
     const plot::Strokes dots =
         plot::dithered(sized.picture, sized.pitch, {.pitch = options.pitch, .join = options.join});
     plot::Level level;
@@ -70,7 +70,8 @@ void tell_saturation(const plot::CutPath& path, const plot::HalftoneSettings& se
     }
 }
 
-plot::CutPath halftone_path(const Options& options, const SizedPicture& sized, const plot::ToolTip& tip) {
+plot::CutPath
+halftone_path(const PictureEngraveOptions& options, const SizedPicture& sized, const plot::ToolTip& tip) {
     const plot::HalftoneSettings settings{.pitch = options.pitch,
                                           .angle = from_degrees(options.angle_deg),
                                           .tip = tip,
@@ -81,7 +82,7 @@ plot::CutPath halftone_path(const Options& options, const SizedPicture& sized, c
     return path;
 }
 
-int engrave(const Options& options) {
+int engrave(const PictureEngraveOptions& options) {
     const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
     WatchedWork work;
     const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.3));
@@ -103,7 +104,7 @@ int engrave(const Options& options) {
 } // namespace
 
 void add_picture_engrave(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PictureEngraveOptions>();
     CLI::App& command = *group.add_subcommand("engrave", "Engrave it as dots where it is dark");
     add_picture_options(command, options->picture);
     command.add_option("--out", options->cutting.out, "G-code file")->required();

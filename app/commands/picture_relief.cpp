@@ -19,7 +19,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct PictureReliefOptions {
     PictureChoice picture;
     CuttingOptions cutting;
     double depth = 1.0;
@@ -34,7 +34,7 @@ struct Options {
     plot::Tabs tabs = {.count = 4};
 };
 
-plot::ReliefPlan plan_of(const Options& options, const plot::ToolTip& tip) {
+plot::ReliefPlan plan_of(const PictureReliefOptions& options, const plot::ToolTip& tip) {
     plot::ReliefPlan plan;
     plan.relief.tip = tip;
     plan.relief.step_over = options.step_over;
@@ -53,7 +53,7 @@ plot::ReliefPlan plan_of(const Options& options, const plot::ToolTip& tip) {
     return plan;
 }
 
-int relief(const Options& options) {
+int relief(const PictureReliefOptions& options) {
     const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
     WatchedWork work;
     const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.2));
@@ -77,7 +77,7 @@ int relief(const Options& options) {
 } // namespace
 
 void add_picture_relief(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PictureReliefOptions>();
     CLI::App& command = *group.add_subcommand("relief", "Cut it as deep as its pixels are bright");
     add_picture_options(command, options->picture);
     command.add_option("--depth", options->depth, "Of white, mm")->check(above_zero())->required();

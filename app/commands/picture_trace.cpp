@@ -37,7 +37,7 @@ const std::map<std::string, TurnPolicy> turn_policies = {{"black", TurnPolicy::c
                                                          {"minority", TurnPolicy::minority},
                                                          {"majority", TurnPolicy::majority}};
 
-struct Options {
+struct PictureTraceOptions {
     PictureChoice picture;
     plot::TraceSettings tracing;
     double chord_tolerance = 0.005;
@@ -61,7 +61,7 @@ bool is_drawing(const std::filesystem::path& out) {
 }
 
 /// Nothing that was asked for is left out without a word.
-void expect_outlines_alone(const Options& options) {
+void expect_outlines_alone(const PictureTraceOptions& options) {
     for (const CLI::Option* const option : options.of_programs) {
         if (option->count() > 0) {
             throw Error(
@@ -72,7 +72,7 @@ void expect_outlines_alone(const Options& options) {
     }
 }
 
-[[noreturn]] void refuse_empty(const plot::Picture& picture, const Options& options) {
+[[noreturn]] void refuse_empty(const plot::Picture& picture, const PictureTraceOptions& options) {
     plot::TraceSettings with_specks = options.tracing;
     with_specks.speckle = 0;
     if (!plot::trace(picture, with_specks).empty()) {
@@ -89,7 +89,7 @@ void expect_outlines_alone(const Options& options) {
                                      : "--threshold says what is dark, --invert traces what is bright");
 }
 
-int trace(const Options& options) {
+int trace(const PictureTraceOptions& options) {
     const std::filesystem::path out = options.cutting.cutting.out;
     const bool drawing = is_drawing(out);
     if (drawing) {
@@ -126,7 +126,7 @@ int trace(const Options& options) {
 } // namespace
 
 void add_picture_trace(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PictureTraceOptions>();
     CLI::App& command = *group.add_subcommand("trace", "Outline what is dark in it");
     add_picture_options(command, options->picture);
     command.add_option("--out", options->cutting.cutting.out, "SVG file (.svg) or G-code file")->required();

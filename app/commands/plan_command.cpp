@@ -24,11 +24,13 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -36,7 +38,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct PlanOptions {
     std::string project;
     std::string out;
     std::string tool; ///< a tool file; empty: the project's tool
@@ -71,7 +73,7 @@ void print_warnings(const project::Plan& plan) {
 }
 
 /// Why the uniform grid is kept, whose figures stand there then, and whose grid the whole chain took.
-void print_notes(const project::Plan& plan) {
+void print_plan_notes(const project::Plan& plan) {
     for (const project::GridMethod method : project::every_grid_method) {
         const auto& evaluation = plan.evaluation(method);
         const bool kept = evaluation && project::keeps_grid(*evaluation, *plan.uniform);
@@ -119,7 +121,7 @@ void print_links(const project::Plan& plan) {
     }
 }
 
-void print_summary(const project::Plan& plan, const project::Project& project) {
+void print_plan_summary(const project::Plan& plan, const project::Project& project) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "grid",
                "max mm",
@@ -140,7 +142,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
     if (project::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
-    print_notes(plan);
+    print_plan_notes(plan);
     if (const std::string left_out = project::left_out_sentence(project); !left_out.empty()) {
         fmt::print("{}\n", left_out);
     }
@@ -157,7 +159,7 @@ void print_summary(const project::Plan& plan, const project::Project& project) {
 }
 
 /// With what the command line says of the tool and the rotary axes.
-project::Project changed(project::Project project, const Options& options) {
+project::Project changed(project::Project project, const PlanOptions& options) {
     if (!options.tool.empty()) {
         project.tool = project::read_tool(options.tool);
     }
@@ -231,7 +233,19 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
     }
 }
 
-int plan(const Options& options) {
+/// Nullopt, with a warning, on a computer without OpenGL: the program is worth having without its picture.
+std::optional<render::Picture> preview_of_plan(const project::Project& project, const project::Plan& plan) {
+    constexpr render::PixelSize preview_size{1280, 800};
+    try {
+        return viewport::render_view(
+            project, plan, viewport::ViewKind::error, preview_size, render::Theme::dark);
+    } catch (const Error& error) {
+        fmt::print(stderr, "warning: no preview.png: {}\n", to_text(error.diagnostic()));
+        return std::nullopt;
+    }
+}
+
+int plan(const PlanOptions& options) {
     const Interrupt interrupt;
     OpenedProject opened = open_project(options.project);
     opened.project = changed(std::move(opened.project), options);
@@ -239,17 +253,20 @@ int plan(const Options& options) {
     const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
-    constexpr render::PixelSize preview_size{1280, 800};
-    const render::Picture preview = viewport::render_view(
-        opened.project, plan, viewport::ViewKind::error, preview_size, render::Theme::dark);
-    write_outputs(options.out,
-                  {{"program." + text.format.extension, text.text.listing.text},
-                   {"report.json", project::report_text(opened.project, plan)},
-                   {"preview.png", render::to_png(preview)}},
-                  opened.file);
+    std::vector<OutputFile> files = {{"program." + text.format.extension, text.text.listing.text},
+                                     {"report.json", project::report_text(opened.project, plan)}};
+    const std::optional<render::Picture> preview = preview_of_plan(opened.project, plan);
+    if (preview) {
+        files.push_back({"preview.png", render::to_png(*preview)});
+    }
+    write_outputs(options.out, files, opened.file);
+    if (!preview) { // an older one would show another path
+        std::error_code failure;
+        std::filesystem::remove(std::filesystem::path(options.out) / "preview.png", failure);
+    }
     print_notes(text);
     print_warnings(plan);
-    print_summary(plan, opened.project);
+    print_plan_summary(plan, opened.project);
     print_sequencing(plan, opened.project);
     for (const std::string& remark : project::path_remarks(opened.project, plan)) {
         fmt::print(stderr, "warning: {}\n", remark);
@@ -263,7 +280,7 @@ int plan(const Options& options) {
 } // namespace
 
 void add_plan_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PlanOptions>();
     CLI::App& command =
         *app.add_subcommand("plan", "Make the program of a project, with a report and a picture");
     command.add_option("PROJECT", options->project, "Project file")->required();

@@ -57,7 +57,7 @@ template <class Value> std::map<std::string, Value> by_id(std::span<const projec
     return found;
 }
 
-struct Options {
+struct PlotOptions {
     std::string file;
     std::string out;
     std::string unit = "nominal";
@@ -110,7 +110,7 @@ plot::PlotterUnit unit_of(const std::string& text) {
         "a plotter unit of '{}'; it has to be nominal, table, mm above 0, or two of them as X,Y", text));
 }
 
-Plot read(const Options& options) {
+Plot read_plot(const PlotOptions& options) {
     plot::ReaderSettings settings = options.reading;
     settings.unit = unit_of(options.unit);
     settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
@@ -129,7 +129,7 @@ nlohmann::ordered_json said(double value) {
     return value > 0.0 ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
-nlohmann::ordered_json json_of(const Plot& plot) {
+nlohmann::ordered_json plot_json(const Plot& plot) {
     nlohmann::ordered_json answer;
     answer["commands"] = plot.commands;
     answer["pens"] = nlohmann::ordered_json::array();
@@ -181,8 +181,8 @@ void expect_strokes(const Plot& plot, const std::string& file) {
 }
 
 /// A plot that is to become something else has to have strokes.
-Plot read_to_use(const Options& options) {
-    Plot plot = read(options);
+Plot read_plot_to_use(const PlotOptions& options) {
+    Plot plot = read_plot(options);
     print_notices(plot, options.file);
     expect_strokes(plot, options.file);
     return plot;
@@ -197,12 +197,12 @@ std::string strokes_of_pens(const Plot& plot) {
            counted(plot::levels_for(plot.strokes).size(), "pen", "pens");
 }
 
-bool is_program(const Options& options) {
+bool is_program(const PlotOptions& options) {
     return takes_program(*options.command, options.file);
 }
 
 /// With --safe-height and --arc-tolerance, which plots have too.
-ProgramReading program_reading(const Options& options) {
+ProgramReading program_reading(const PlotOptions& options) {
     ProgramReading reading = options.program;
     reading.chord_tolerance = options.reading.arc_tolerance;
     if (options.command->count("--safe-height") > 0) {
@@ -211,18 +211,18 @@ ProgramReading program_reading(const Options& options) {
     return reading;
 }
 
-int info(const Options& options) {
+int info(const PlotOptions& options) {
     if (is_program(options)) {
         return program_info(options.file, program_reading(options), options.json);
     }
     if (options.json) {
-        const Plot plot = read(options);
+        const Plot plot = read_plot(options);
         fmt::print("{}\n",
-                   json_of(plot).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+                   plot_json(plot).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         expect_strokes(plot, options.file);
         return 0;
     }
-    const Plot plot = read_to_use(options);
+    const Plot plot = read_plot_to_use(options);
     const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
     fmt::print("{}, {}\n",
                counted(static_cast<std::size_t>(plot.commands), "command", "commands"),
@@ -238,20 +238,20 @@ int info(const Options& options) {
     return 0;
 }
 
-std::vector<Vec3> points_of(const Options& options) {
+std::vector<Vec3> plot_points(const PlotOptions& options) {
     if (is_program(options)) {
         const bool flat = options.command->count("--pen-up") + options.command->count("--pen-down") > 0;
         return program_points(options.file, program_reading(options), options.decode, options.fastest, flat);
     }
-    const Plot plot = read_to_use(options);
+    const Plot plot = read_plot_to_use(options);
     plot::DecodeSettings decoding = options.decode;
     decoding.end = plot.end;
     return options.fastest ? plot::decode_within(*options.fastest, plot.strokes, decoding)
                            : plot::decode(plot.strokes, decoding);
 }
 
-int decode(const Options& options) {
-    const std::vector<Vec3> points = points_of(options);
+int decode(const PlotOptions& options) {
+    const std::vector<Vec3> points = plot_points(options);
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
                counted(points.size(), "point", "points"),
@@ -259,22 +259,22 @@ int decode(const Options& options) {
     return 0;
 }
 
-int view(const Options& options) {
+int view(const PlotOptions& options) {
     const plot::AirInSvg air = options.no_air ? plot::AirInSvg::left_out : plot::AirInSvg::shown;
     if (is_program(options)) {
         return program_view(options.file, program_reading(options), air, options.out);
     }
-    const Plot plot = read_to_use(options);
+    const Plot plot = read_plot_to_use(options);
     write_file(options.out, plot::svg_text(plot.strokes, air));
     fmt::print("{}\n", strokes_of_pens(plot));
     return 0;
 }
 
-int toolpath(const Options& options) {
+int toolpath(const PlotOptions& options) {
     if (is_program(options)) {
         return program_toolpath(options.file, program_reading(options), options.cutting, *options.command);
     }
-    const Plot plot = read_to_use(options);
+    const Plot plot = read_plot_to_use(options);
     cut_strokes(plot.strokes,
                 plot.end,
                 options.cutting,
@@ -283,7 +283,7 @@ int toolpath(const Options& options) {
 }
 
 CLI::App&
-add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<Options>& options) {
+add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<PlotOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("FILE", options->file, "HPGL plot, or a G-code program of X, Y and Z")->required();
     command
@@ -311,9 +311,9 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
 }
 
 void on_call(CLI::App& command,
-             const std::shared_ptr<Options>& options,
+             const std::shared_ptr<PlotOptions>& options,
              Command& chosen,
-             int (*act)(const Options&)) {
+             int (*act)(const PlotOptions&)) {
     command.callback([&command, &chosen, options, act] {
         options->command = &command;
         chosen = [options, act] { return act(*options); };
@@ -321,7 +321,7 @@ void on_call(CLI::App& command,
 }
 
 /// Plots are cut at a height that `toolpath` sets; programs have their own.
-void add_safe_height(CLI::App& command, const std::shared_ptr<Options>& options) {
+void add_safe_height(CLI::App& command, const std::shared_ptr<PlotOptions>& options) {
     command
         .add_option("--safe-height",
                     options->cutting.cutting.safe_height,
@@ -329,7 +329,7 @@ void add_safe_height(CLI::App& command, const std::shared_ptr<Options>& options)
         ->check(finite_number());
 }
 
-void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+void add_decode(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
     CLI::App& command =
         add_reader(group, "decode", "Write its points for a table, equally far apart in time", options);
     add_safe_height(command, options);
@@ -363,14 +363,14 @@ void add_decode(CLI::App& group, const std::shared_ptr<Options>& options, Comman
     on_call(command, options, chosen, decode);
 }
 
-void add_info(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+void add_info(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
     CLI::App& command = add_reader(group, "info", "Say what is in it and how long it takes", options);
     add_safe_height(command, options);
     command.add_flag("--json", options->json, "Print the answer as JSON");
     on_call(command, options, chosen, info);
 }
 
-void add_view(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+void add_view(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
     CLI::App& command =
         add_reader(group, "view", "Draw it as a picture, by the colours of its pens", options);
     add_safe_height(command, options);
@@ -379,7 +379,7 @@ void add_view(CLI::App& group, const std::shared_ptr<Options>& options, Command&
     on_call(command, options, chosen, view);
 }
 
-void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Command& chosen) {
+void add_toolpath(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
     CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
     command.add_option("--out", options->cutting.cutting.out, "G-code file")->required();
     add_stroke_options(command, options->cutting);
@@ -389,7 +389,7 @@ void add_toolpath(CLI::App& group, const std::shared_ptr<Options>& options, Comm
 } // namespace
 
 void add_plot_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PlotOptions>();
     CLI::App& group = *app.add_subcommand("plot", "Read an HPGL plot, or a G-code program as one");
     group.require_subcommand(1);
     add_decode(group, options, chosen);

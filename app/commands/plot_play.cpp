@@ -32,7 +32,7 @@ using machine::Jitter;
 using machine::PlayState;
 using machine::PlayStatus;
 
-struct Options {
+struct PlotPlayOptions {
     std::string file;
     std::string port; ///< empty: nothing is sent
     std::string machine = "forming-table";
@@ -53,7 +53,7 @@ void expect_none(const std::vector<Diagnostic>& faults) {
 }
 
 /// All lines have to be points: a table goes to none that was guessed.
-plot::PointFile points_of(const Options& options) {
+plot::PointFile points_to_play(const PlotPlayOptions& options) {
     plot::PointFile read = plot::read_points(read_file(options.file), options.file);
     expect_none(read.diagnostics);
     return read;
@@ -89,7 +89,7 @@ void print_jitter(const Jitter& jitter) {
     }
 }
 
-void print_json(const PlayStatus& status) {
+void print_play_json(const PlayStatus& status) {
     const Jitter& jitter = status.jitter;
     const nlohmann::ordered_json answer = {
         {"done", status.state == PlayState::done},
@@ -109,9 +109,9 @@ void print_json(const PlayStatus& status) {
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-int play(const Options& options) {
+int play(const PlotPlayOptions& options) {
     const Interrupt interrupt;
-    plot::PointFile read = points_of(options);
+    plot::PointFile read = points_to_play(options);
     const auto points = std::make_shared<const std::vector<Vec3>>(std::move(read.points));
     const kinematics::MachineModel model = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
@@ -144,7 +144,7 @@ int play(const Options& options) {
     });
     printer.finish();
     if (options.json) {
-        print_json(end);
+        print_play_json(end);
     } else {
         fmt::print("{} of {} points in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
                    end.points,
@@ -170,7 +170,7 @@ int play(const Options& options) {
 } // namespace
 
 void add_plot_play(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PlotPlayOptions>();
     CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point a period");
     command.add_option("FILE", options->file, "Point file")->required();
     command.add_option("--period", options->player.period, "Between two points, s")

@@ -59,7 +59,7 @@ void expect_none_of(std::span<const char* const> options, const CLI::App& comman
     }
 }
 
-CutProgram read(const std::string& file, const ProgramReading& reading) {
+CutProgram read_cut_program(const std::string& file, const ProgramReading& reading) {
     gcode::CutProgramSettings settings;
     if (!reading.tools.empty()) {
         settings.tools = gcode::read_tool_table(reading.tools);
@@ -70,15 +70,15 @@ CutProgram read(const std::string& file, const ProgramReading& reading) {
     return gcode::read_cut_program_file(file, settings);
 }
 
-CutProgram read_to_use(const std::string& file, const ProgramReading& reading) {
-    CutProgram program = read(file, reading);
+CutProgram read_cut_program_to_use(const std::string& file, const ProgramReading& reading) {
+    CutProgram program = read_cut_program(file, reading);
     for (const Diagnostic& notice : program.notices) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }
     return program;
 }
 
-std::string counted(std::size_t count, std::string_view one) {
+std::string count_and_noun(std::size_t count, std::string_view one) {
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
@@ -92,11 +92,11 @@ std::size_t tool_count(const CutProgram& program) {
 
 std::string strokes_of_levels(const CutProgram& program) {
     const std::string heights =
-        program.uneven ? "heights that change" : counted(program.levels.size(), "level");
+        program.uneven ? "heights that change" : count_and_noun(program.levels.size(), "level");
     return fmt::format("{} at {}, {}",
-                       counted(program.strokes.size(), "stroke"),
+                       count_and_noun(program.strokes.size(), "stroke"),
                        heights,
-                       counted(tool_count(program), "tool"));
+                       count_and_noun(tool_count(program), "tool"));
 }
 
 /// As fast as programmed; rapids as fast as the machine of the thesis travels.
@@ -130,7 +130,7 @@ nlohmann::ordered_json or_null(const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
 
-nlohmann::ordered_json json_of(const CutProgram& program) {
+nlohmann::ordered_json cut_program_json(const CutProgram& program) {
     nlohmann::ordered_json answer;
     answer["commands"] = program.lines;
     answer["pens"] = nlohmann::ordered_json::array();
@@ -259,17 +259,18 @@ bool takes_program(const CLI::App& command, const std::string& file) {
 int program_info(const std::string& file, const ProgramReading& reading, bool json) {
     if (json) {
         fmt::print("{}\n",
-                   json_of(read(file, reading))
+                   cut_program_json(read_cut_program(file, reading))
                        .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         return 0;
     }
-    const CutProgram program = read_to_use(file, reading);
+    const CutProgram program = read_cut_program_to_use(file, reading);
     const plot::WorkTime time = plot::work_time(program.strokes, {}, Vec2::Zero(), program.end);
     const plot::PathLengths lengths = gcode::named_lengths(program);
     const auto box = plot::extents(program.strokes);
     const auto [low, high] = heights_of(program);
-    fmt::print(
-        "{}, {}\n", counted(static_cast<std::size_t>(program.lines), "line"), strokes_of_levels(program));
+    fmt::print("{}, {}\n",
+               count_and_noun(static_cast<std::size_t>(program.lines), "line"),
+               strokes_of_levels(program));
     fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm, z {:.3f} to {:.3f} mm\n",
                box->lower.x(),
                box->upper.x(),
@@ -292,7 +293,7 @@ int program_view(const std::string& file,
                  const ProgramReading& reading,
                  plot::AirInSvg air,
                  const std::string& out) {
-    const CutProgram program = read_to_use(file, reading);
+    const CutProgram program = read_cut_program_to_use(file, reading);
     write_file(out, plot::svg_text(program.strokes, air));
     fmt::print("{}\n", strokes_of_levels(program));
     return 0;
@@ -303,7 +304,7 @@ std::vector<Vec3> program_points(const std::string& file,
                                  plot::DecodeSettings decoding,
                                  const std::optional<double>& fastest,
                                  bool flat) {
-    const CutProgram program = read_to_use(file, reading);
+    const CutProgram program = read_cut_program_to_use(file, reading);
     if (std::ranges::find(program.path, plot::CutMove::tool_change, &plot::CutPoint::move) !=
         program.path.end()) {
         fmt::print(stderr,
@@ -323,7 +324,7 @@ int program_toolpath(const std::string& file,
                      const ProgramReading& reading,
                      StrokeCutting cutting,
                      const CLI::App& command) {
-    const CutProgram program = read_to_use(file, reading);
+    const CutProgram program = read_cut_program_to_use(file, reading);
     if (!given(command, "--spindle") && program.spindle_rpm > 0.0) {
         cutting.cutting.spindle_rpm = program.spindle_rpm;
     } else if (!given(command, "--spindle")) {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char* emulated_port = "tcp:127.0.0.1:1025"; ///< of `emulate pmac --tcp 1025`
 
-struct Options {
+struct PmacOptions {
     std::vector<std::string> commands;
     std::string port;
     std::string file;
@@ -49,7 +49,7 @@ void look_through(const std::string& command) {
 }
 
 /// Throws Error, which of a port that nobody named tells how to name one.
-std::unique_ptr<machine::PmacDriver> connected(const Options& options, machine::SteadyClock& clock) {
+std::unique_ptr<machine::PmacDriver> connected_card(const PmacOptions& options, machine::SteadyClock& clock) {
     if (!options.port.empty()) {
         return connected_pmac(options.port, options.arm, clock);
     }
@@ -62,7 +62,7 @@ std::unique_ptr<machine::PmacDriver> connected(const Options& options, machine::
 
 class Conversation {
 public:
-    explicit Conversation(const Options& options) : driver_(connected(options, clock_)) {
+    explicit Conversation(const PmacOptions& options) : driver_(connected_card(options, clock_)) {
         if (options.file.empty()) {
             warn_of_protections(*driver_, clock_);
         }
@@ -169,7 +169,7 @@ private:
     std::unique_ptr<machine::PmacDriver> driver_;
 };
 
-int talk(const Options& options) {
+int talk(const PmacOptions& options) {
     if (options.commands.empty() && options.file.empty()) {
         throw Error("there is nothing to send", {}, "a command as '#1P', or --load FILE");
     }
@@ -189,7 +189,7 @@ int talk(const Options& options) {
 } // namespace
 
 void add_pmac_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PmacOptions>();
     CLI::App& command = *app.add_subcommand("pmac", "Talk to a PMAC motor controller");
     command.add_option("COMMAND", options->commands, "On-line commands, as '#1P'; several one after another");
     command

@@ -24,7 +24,7 @@ namespace {
 constexpr int smallest_side = 16;
 constexpr int largest_side = 8192;
 
-struct Options {
+struct RenderOptions {
     std::string project;
     std::string view;
     std::string size = "1280x800";
@@ -66,7 +66,7 @@ viewport::MachineSolids solids_of(const OpenedProject& opened, const project::Pl
     return kinematics::read_machine_solids(file, plan.workpiece->machine);
 }
 
-int render_project(const Options& options) {
+int render_project(const RenderOptions& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
@@ -84,7 +84,7 @@ int render_project(const Options& options) {
 } // namespace
 
 void add_render_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RenderOptions>();
     CLI::App& command = *app.add_subcommand("render", "Draw a view of a project into a picture");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--view", options->view, "What is drawn")

@@ -20,14 +20,14 @@ namespace {
 
 using geometry::Parameter;
 
-struct Options {
+struct ReshapeOptions {
     std::string project, out;
     std::optional<int> patch;
     std::vector<int> degree; ///< along u, v; empty: as it is
     std::optional<double> split_u, split_v;
 };
 
-int reshape(const Options& options) {
+int reshape(const ReshapeOptions& options) {
     if (options.degree.empty() && !options.split_u && !options.split_v) {
         throw UsageError("nothing is asked for", {}, "give --degree, --split-u or --split-v");
     }
@@ -62,7 +62,7 @@ int reshape(const Options& options) {
 } // namespace
 
 void add_reshape_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ReshapeOptions>();
     CLI::App& command = *app.add_subcommand(
         "reshape", "The same surface by other control points: a higher degree, or two patches");
     command.add_option("PROJECT", options->project, "Project file")->required();

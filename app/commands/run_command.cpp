@@ -19,7 +19,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct RunOptions {
     SeriesChoice series;
     PlannedMachineChoice machine; ///< its controller also for grbl
     PostChoice post{.post = ""};  ///< empty: that of the driver
@@ -27,7 +27,7 @@ struct Options {
 };
 
 /// In the words of the driver's control, or of the one that was chosen.
-machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const Options& options) {
+machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const RunOptions& options) {
     PostChoice choice = options.post;
     if (choice.post.empty()) {
         choice.post = options.machine.driver == "grbl" ? "grbl" : "linuxcnc";
@@ -44,7 +44,7 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
     return job;
 }
 
-machine::Job begun_at(machine::Job job, int line, const Options& options) {
+machine::Job begun_at(machine::Job job, int line, const RunOptions& options) {
     machine::RunFromSettings settings;
     settings.clearance = options.clearance;
     if (options.machine.driver == "grbl") { // which executes the text
@@ -54,7 +54,7 @@ machine::Job begun_at(machine::Job job, int line, const Options& options) {
     return machine::job_from_line(job, line, settings);
 }
 
-int run(const Options& options) {
+int run_plan(const RunOptions& options) {
     check(options.machine);
     const Interrupt interrupt;
     std::optional<Controller> controller;
@@ -91,7 +91,7 @@ int run(const Options& options) {
 } // namespace
 
 void add_run_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RunOptions>();
     CLI::App& command = *app.add_subcommand("run", "Run the programs of projects on a machine");
     add_series_options(command, options->series, "Project files");
     add_clearance_option(command, options->clearance);
@@ -103,7 +103,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
     add_post_options(command, options->post);
     command.callback([&chosen, &command, options] {
         options->series.options = options_to_go_on(command);
-        chosen = [options] { return run(*options); };
+        chosen = [options] { return run_plan(*options); };
     });
 }
 

@@ -32,7 +32,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct SendOptions {
     SeriesChoice series;
     PlannedMachineChoice machine; ///< its controller also for grbl and linuxcnc
     std::string model;            ///< of a machine that is moved position by position
@@ -41,12 +41,12 @@ struct Options {
     std::optional<double> clearance;
 };
 
-bool is_moved_from_here(const Options& options) {
+bool is_moved_from_here(const SendOptions& options) {
     const std::string& driver = options.machine.driver;
     return driver == "virtual" || driver == "stream" || driver == "records" || driver == "cordic";
 }
 
-void check_model(const Options& options) {
+void check_model(const SendOptions& options) {
     const bool moved = is_moved_from_here(options);
     if (moved && options.model.empty()) {
         throw UsageError("the " + options.machine.driver + " driver needs a machine", {}, "give --machine");
@@ -63,7 +63,7 @@ void check_model(const Options& options) {
 }
 
 /// Records and coordinates go straight from where the machine stands, and it does not tell where that is.
-void check_place(const Options& options) {
+void check_place(const SendOptions& options) {
     const std::string& driver = options.machine.driver;
     if (options.series.from_line > 1 && options.at.empty() && (driver == "stream" || driver == "records")) {
         throw Error("to begin at a line it has to be known where the machine stands, which it does not tell",
@@ -72,7 +72,7 @@ void check_place(const Options& options) {
     }
 }
 
-std::shared_ptr<const kinematics::MachineModel> model_of(const Options& options) {
+std::shared_ptr<const kinematics::MachineModel> model_of(const SendOptions& options) {
     return std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
         project::machine_path(options.model, std::filesystem::current_path(), project::assets_folder())));
 }
@@ -109,7 +109,7 @@ void say_what_is_by_hand(const machine::Job& job) {
 }
 
 /// `job` from the line that was asked for, with the time.
-machine::Job ready(machine::Job job, const Options& options, int from_line) {
+machine::Job ready(machine::Job job, const SendOptions& options, int from_line) {
     if (from_line > 1 && options.machine.driver == "pmac") {
         throw Error("a motion program begins with its first line: what a line does depends on those above");
     }
@@ -125,18 +125,18 @@ machine::Job ready(machine::Job job, const Options& options, int from_line) {
 }
 
 /// Of a PMAC in its own language, else G-code.
-machine::Job text_of(const Options& options, const std::string& file) {
+machine::Job job_from_file(const SendOptions& options, const std::string& file) {
     return options.machine.driver == "pmac" ? machine::motion_program_job(read_file(file), file)
                                             : machine::text_job(read_file(file), file);
 }
 
 /// To a controller that plans for itself.
-int send_text(const Options& options) {
+int send_text(const SendOptions& options) {
     const Interrupt interrupt;
     Controller controller(options.machine.controller, options.series.log);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
-        machine::Job job = ready(text_of(options, file), options, from_line);
+        machine::Job job = ready(job_from_file(options, file), options, from_line);
         controller.check(job);
         return job;
     };
@@ -146,7 +146,7 @@ int send_text(const Options& options) {
     return run_series(options.series, steps, interrupt.token());
 }
 
-int send_motion(const Options& options) {
+int send_motion(const SendOptions& options) {
     const Interrupt interrupt;
     const auto model = model_of(options);
     PlannedMachine machine(options.machine);
@@ -178,7 +178,7 @@ int send_motion(const Options& options) {
     return run_series(options.series, steps, interrupt.token());
 }
 
-int send(const Options& options) {
+int send(const SendOptions& options) {
     check(options.machine);
     check_model(options);
     check_place(options);
@@ -188,7 +188,7 @@ int send(const Options& options) {
 } // namespace
 
 void add_send_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SendOptions>();
     CLI::App& command = *app.add_subcommand("send", "Send files to a machine");
     add_series_options(command,
                        options->series,

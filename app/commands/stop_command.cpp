@@ -19,7 +19,7 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct StopOptions {
     machine::DriverChoice machine;
     std::string driver;
     std::string log = SeriesChoice().log;
@@ -53,7 +53,7 @@ at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_to
     return now;
 }
 
-int stop_machine(const Options& options) {
+int stop_machine(const StopOptions& options) {
     const Interrupt interrupt;
     machine::SteadyClock clock;
     machine::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
@@ -81,7 +81,7 @@ int stop_machine(const Options& options) {
 } // namespace
 
 void add_stop_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StopOptions>();
     CLI::App& command = *app.add_subcommand("stop", "Stop a machine that moves for nobody here");
     command.add_option("--driver", options->driver, "Kind of controller")
         ->required()

@@ -37,7 +37,7 @@ namespace {
 using project::StudyCase;
 using project::StudyRow;
 
-struct Options {
+struct StudyOptions {
     std::string out;
     bool quick = false;
     std::vector<std::string> surfaces;
@@ -71,7 +71,7 @@ void expect_known(const std::vector<Value>& named,
 }
 
 /// The cases of the study that were asked for. Throws UsageError for a name or number that it has not.
-std::vector<StudyCase> cases_of(const Options& options) {
+std::vector<StudyCase> cases_of(const StudyOptions& options) {
     const std::vector<StudyCase> study = options.quick ? project::quick_study() : project::full_study();
     expect_known(options.surfaces, study, &StudyCase::surface, "--surface");
     expect_known(options.machines, study, &StudyCase::machine, "--machine");
@@ -86,7 +86,7 @@ std::vector<StudyCase> cases_of(const Options& options) {
     return cases;
 }
 
-void print(const StudyRow& row) {
+void print_study_row(const StudyRow& row) {
     if (!row.figures) {
         fmt::print("{:<9} {:<20} {:>3} {:<15} {}\n",
                    row.of.surface,
@@ -143,7 +143,7 @@ public:
 
     void show(std::span<const StudyRow> found) {
         printer_.finish();
-        std::ranges::for_each(found, print);
+        std::ranges::for_each(found, print_study_row);
         std::fflush(stdout); // mpirun may stop us any time
     }
     /// What is said of one process by its error alone.
@@ -187,7 +187,10 @@ std::string write_unfinished(const UnfinishedStudy& unfinished,
 }
 
 /// Rank 0 of one or several. What came is written, whatever is missing.
-int gathered(const Options& options, const Ranks& ranks, const StudyOne& study, const Interrupt& interrupt) {
+int gathered(const StudyOptions& options,
+             const Ranks& ranks,
+             const StudyOne& study,
+             const Interrupt& interrupt) {
     const std::vector<StudyCase> cases = cases_of(options);
     const OutputFolder folder(options.out);
     const UnfinishedStudy unfinished(options.out);
@@ -241,7 +244,10 @@ std::string left_by_rank_0(const UnfinishedStudy& unfinished) {
 }
 
 /// Another rank.
-int helped(const Options& options, const Ranks& ranks, const StudyOne& study, const Interrupt& interrupt) {
+int helped(const StudyOptions& options,
+           const Ranks& ranks,
+           const StudyOne& study,
+           const Interrupt& interrupt) {
     const std::vector<StudyCase> cases = cases_of(options);
     const UnfinishedStudy unfinished(options.out);
     const auto deserted = [&](const std::string& lost) {
@@ -256,7 +262,7 @@ int helped(const Options& options, const Ranks& ranks, const StudyOne& study, co
     return 0;
 }
 
-int kinematic_error(const Options& options) {
+int kinematic_error(const StudyOptions& options) {
     const Interrupt interrupt;
     const Ranks ranks;
     const StudyOne study = [folders = project::Folders{{}, project::assets_folder()}](
@@ -274,7 +280,7 @@ void add_study_command(CLI::App& app, Command& chosen) {
     group.require_subcommand(1);
     add_study_fewest_command(group, chosen);
     add_study_set_up_command(group, chosen);
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StudyOptions>();
     CLI::App& command =
         *group.add_subcommand("kinematic-error", "The error of each way to make the grid, side by side");
     command

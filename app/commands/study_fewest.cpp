@@ -21,31 +21,31 @@ namespace millwright::app {
 
 namespace {
 
-struct Options {
+struct StudyFewestOptions {
     project::FewestPointsCase of;
     std::vector<double> tolerances{0.5, 0.2, 0.1, 0.05};
     std::string out; ///< empty: no file
 };
 
-std::string text_of(const std::optional<int>& count) {
+std::string point_count_text(const std::optional<int>& count) {
     return count ? fmt::format("{}", *count) : std::string("-");
 }
 
-void print(const project::FewestPointsRow& row) {
+void print_fewest_points(const project::FewestPointsRow& row) {
     const std::string ratio =
         row.uniform && row.fewest
             ? fixed(static_cast<double>(*row.uniform) / static_cast<double>(*row.fewest), 2)
             : std::string("-");
     fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12} {:>9}\n",
                shortest(row.tolerance),
-               text_of(row.uniform),
-               text_of(row.fewest),
+               point_count_text(row.uniform),
+               point_count_text(row.fewest),
                ratio,
                row.fewest ? fixed(row.largest, 5) : std::string("-"),
                row.fewest ? fixed(to_degrees(row.largest_axis), 2) : std::string("-"));
 }
 
-int fewest_points(const Options& options) {
+int fewest_points(const StudyFewestOptions& options) {
     const Interrupt interrupt;
     const project::Folders folders{{}, project::assets_folder()};
     std::optional<OutputFolder> folder;
@@ -65,7 +65,7 @@ int fewest_points(const Options& options) {
                "largest mm",
                "axis deg");
     for (const project::FewestPointsRow& row : rows) {
-        print(row);
+        print_fewest_points(row);
     }
     if (!options.out.empty()) {
         write_outputs(options.out, {{"fewest-points.csv", project::fewest_points_csv(options.of, rows)}});
@@ -76,7 +76,7 @@ int fewest_points(const Options& options) {
 } // namespace
 
 void add_study_fewest_command(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StudyFewestOptions>();
     CLI::App& command = *group.add_subcommand("fewest-points",
                                               "The fewest points of tracks for an error, beside equal steps");
     command.add_option("--surface", options->of.surface, "Preset of the surface")->capture_default_str();

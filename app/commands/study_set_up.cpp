@@ -36,7 +36,7 @@ using project::SetUpStudy;
 using toolpath::SetUpGoal;
 using toolpath::SetUpParameter;
 
-struct Options {
+struct StudySetUpOptions {
     std::string project;
     std::string out;
     project::SetUpStudySettings settings;
@@ -56,7 +56,7 @@ render::Picture picture_of(const SetUpStudy& study, SetUpGoal goal) {
     return viewport::map_picture(map.view, size, render::Theme::light);
 }
 
-void print(std::string_view name, const toolpath::SetUp& at) {
+void print_set_up(std::string_view name, const toolpath::SetUp& at) {
     fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12} {:>9}\n",
                name,
                fixed(at.place[0], 3),
@@ -104,7 +104,7 @@ SetUpStudy found_on(const Ranks& ranks,
     return study;
 }
 
-int set_up(const Options& options) {
+int set_up(const StudySetUpOptions& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     if (options.settings.across == options.settings.up) {
@@ -135,8 +135,8 @@ int set_up(const Options& options) {
                "turn deg",
                settings.goal == SetUpGoal::error ? "mean mm" : "travel mm",
                "axis deg");
-    print("start", study.search.start);
-    print("best", study.search.best);
+    print_set_up("start", study.search.start);
+    print_set_up("best", study.search.best);
     if (settings.goal == SetUpGoal::error) {
         fmt::print("mean: from the surface curve between the nodes of a move, by which places are compared; "
                    "axis: the largest on the finished part\n");
@@ -163,7 +163,7 @@ int set_up(const Options& options) {
 } // namespace
 
 void add_study_set_up_command(CLI::App& group, Command& chosen) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StudySetUpOptions>();
     project::SetUpStudySettings& settings = options->settings;
     CLI::App& command =
         *group.add_subcommand("set-up", "Where on the table the part of a project is cut best");

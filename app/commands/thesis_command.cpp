@@ -50,7 +50,7 @@ int write_pictures(const PictureOptions& options) {
 enum class Form { pairs, blocks };
 const std::map<std::string, Form> forms{{"pairs", Form::pairs}, {"blocks", Form::blocks}};
 
-std::string text_of(const grid::NodeArray& nodes, Form form) {
+std::string grid_text(const grid::NodeArray& nodes, Form form) {
     return form == Form::pairs ? grid::pairs_text(nodes) : grid::blocks_text(nodes);
 }
 
@@ -64,7 +64,7 @@ int write_grid(const GridOptions& options) {
     const OpenedProject opened = open_project(options.project);
     const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
     const grid::Grid& grid = plan.evaluation(project::program_grid(opened.project))->outcome.grid;
-    write_file(options.out, text_of(grid.array(), options.form));
+    write_file(options.out, grid_text(grid.array(), options.form));
     fmt::print("{}: {} x {} nodes, u and v from 0 to 1\n", options.out, grid.nu(), grid.nv());
     return 0;
 }
@@ -76,13 +76,13 @@ struct ConvertOptions {
     bool residuals = false;
 };
 
-int convert(const ConvertOptions& options) {
+int convert_grid(const ConvertOptions& options) {
     const std::string text = read_file(options.file);
     const auto contents = options.residuals ? grid::FileContents::residuals : grid::FileContents::nodes;
     const grid::NodeArray nodes =
         options.size.empty() ? grid::parse_blocks(text, options.file, contents)
                              : grid::parse_pairs(text, options.file, options.size[0], options.size[1]);
-    write_file(options.out, text_of(nodes, options.to));
+    write_file(options.out, grid_text(nodes, options.to));
     fmt::print("{}: {} x {} {}\n",
                options.out,
                nodes.rows,
@@ -152,7 +152,7 @@ void add_convert(CLI::App& thesis, Command& chosen) {
     command
         .add_flag("--residuals", options->residuals, "FILE has residuals: any numbers, which are not folded")
         ->excludes(&size);
-    command.callback([&chosen, options] { chosen = [options] { return convert(*options); }; });
+    command.callback([&chosen, options] { chosen = [options] { return convert_grid(*options); }; });
 }
 
 } // namespace

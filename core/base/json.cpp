@@ -11,23 +11,23 @@
 
 namespace millwright {
 
+enum class JsonKind { null, flag, number, text, array, object };
+
 namespace {
 
-enum class Kind { null, flag, number, text, array, object };
-
-std::string_view name_of(Kind kind) {
+std::string_view name_of(JsonKind kind) {
     switch (kind) {
-    case Kind::null:
+    case JsonKind::null:
         return "null";
-    case Kind::flag:
+    case JsonKind::flag:
         return "true or false";
-    case Kind::number:
+    case JsonKind::number:
         return "a number";
-    case Kind::text:
+    case JsonKind::text:
         return "a text";
-    case Kind::array:
+    case JsonKind::array:
         return "a list";
-    case Kind::object:
+    case JsonKind::object:
         return "an object";
     }
     return "unknown";
@@ -38,7 +38,7 @@ constexpr std::size_t deepest = 64;
 } // namespace
 
 struct JsonValue::Node {
-    Kind kind = Kind::null;
+    JsonKind kind = JsonKind::null;
     int line = 1;
     int column = 1;
     double number = 0.0;
@@ -56,15 +56,17 @@ public:
 
     [[nodiscard]] std::shared_ptr<const Node> take() { return std::move(root_); }
 
-    bool null() override { return add(Kind::null), skip_word(); }
-    bool boolean(bool value) override { return add(Kind::flag).flag = value, skip_word(); }
+    bool null() override { return add(JsonKind::null), skip_word(); }
+    bool boolean(bool value) override { return add(JsonKind::flag).flag = value, skip_word(); }
     bool number_integer(number_integer_t value) override { return add_number(static_cast<double>(value)); }
     bool number_unsigned(number_unsigned_t value) override { return add_number(static_cast<double>(value)); }
     bool number_float(number_float_t value, const string_t&) override { return add_number(value); }
-    bool string(string_t& value) override { return add(Kind::text).text = std::move(value), skip_string(); }
+    bool string(string_t& value) override {
+        return add(JsonKind::text).text = std::move(value), skip_string();
+    }
     bool binary(binary_t&) override { return false; }
-    bool start_object(std::size_t) override { return open(Kind::object); }
-    bool start_array(std::size_t) override { return open(Kind::array); }
+    bool start_object(std::size_t) override { return open(JsonKind::object); }
+    bool start_array(std::size_t) override { return open(JsonKind::array); }
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
 
@@ -102,7 +104,7 @@ private:
         return token;
     }
 
-    Node& add(Kind kind) {
+    Node& add(JsonKind kind) {
         to_token();
         auto node = std::make_shared<Node>();
         node->kind = kind;
@@ -118,11 +120,11 @@ private:
     }
 
     bool add_number(double value) {
-        add(Kind::number).number = value;
+        add(JsonKind::number).number = value;
         return skip_while("+-.eE0123456789");
     }
 
-    bool open(Kind kind) {
+    bool open(JsonKind kind) {
         Node& node = add(kind);
         if (open_.size() >= deepest) {
             throw Error(Diagnostic{here(), fmt::format("nested deeper than {} levels", deepest), {}});
@@ -217,7 +219,7 @@ JsonValue JsonValue::at(std::string_view key) const {
 }
 
 std::optional<JsonValue> JsonValue::find(std::string_view key) const {
-    if (node_->kind != Kind::object) {
+    if (node_->kind != JsonKind::object) {
         fail(fmt::format("expected an object, found {}", name_of(node_->kind)));
     }
     const auto found = std::find(node_->keys.begin(), node_->keys.end(), key);
@@ -233,7 +235,7 @@ void JsonValue::expect_only(std::initializer_list<std::string_view> keys) const 
 }
 
 void JsonValue::expect_only(std::span<const std::string_view> keys) const {
-    if (node_->kind != Kind::object) {
+    if (node_->kind != JsonKind::object) {
         fail(fmt::format("expected an object, found {}", name_of(node_->kind)));
     }
     for (const std::string& key : node_->keys) {
@@ -245,7 +247,7 @@ void JsonValue::expect_only(std::span<const std::string_view> keys) const {
 }
 
 std::vector<JsonValue> JsonValue::items() const {
-    if (node_->kind != Kind::array) {
+    if (node_->kind != JsonKind::array) {
         fail(fmt::format("expected a list, found {}", name_of(node_->kind)));
     }
     std::vector<JsonValue> result;
@@ -264,7 +266,7 @@ std::vector<JsonValue> JsonValue::items(std::size_t count) const {
 }
 
 double JsonValue::number(double min, double max) const {
-    if (node_->kind != Kind::number) {
+    if (node_->kind != JsonKind::number) {
         fail(fmt::format("expected a number, found {}", name_of(node_->kind)));
     }
     if (!(node_->number >= min && node_->number <= max)) {
@@ -286,27 +288,27 @@ int JsonValue::integer(int min, int max) const {
 }
 
 bool JsonValue::flag() const {
-    if (node_->kind != Kind::flag) {
+    if (node_->kind != JsonKind::flag) {
         fail(fmt::format("expected true or false, found {}", name_of(node_->kind)));
     }
     return node_->flag;
 }
 
 std::string JsonValue::text() const {
-    if (node_->kind != Kind::text) {
+    if (node_->kind != JsonKind::text) {
         fail(fmt::format("expected a text, found {}", name_of(node_->kind)));
     }
     return node_->text;
 }
 
 bool JsonValue::is_null() const {
-    return node_->kind == Kind::null;
+    return node_->kind == JsonKind::null;
 }
 bool JsonValue::is_object() const {
-    return node_->kind == Kind::object;
+    return node_->kind == JsonKind::object;
 }
 bool JsonValue::is_text() const {
-    return node_->kind == Kind::text;
+    return node_->kind == JsonKind::text;
 }
 
 void JsonValue::fail(std::string_view message, std::string hint) const {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace millwright {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// a == b where exact equality is meant, not "nearly" (so that -Wfloat-equal keeps finding the accidents).
 [[nodiscard]] constexpr bool exactly_equal(double a, double b) {
@@ -13,6 +16,10 @@ namespace millwright {
 
 [[nodiscard]] constexpr double square(double a) {
     return a * a;
+}
+
+[[nodiscard]] constexpr bool lies_between(double value, double least, double most) {
+    return value >= least && value <= most;
 }
 
 /// The value between a and b at fraction t, exact at both ends.

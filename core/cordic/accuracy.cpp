@@ -137,7 +137,7 @@ VectoringBound vectoring_bound(const NumberFormat& format, const Sequence& seque
 
 namespace {
 
-constexpr std::int64_t chunk = 4096;
+constexpr std::int64_t sample_chunk = 4096;
 constexpr int most_exhaustive_bits = 24;
 
 /// splitmix64: number `index` of a stream, so that threads need not share one.
@@ -214,7 +214,7 @@ Accuracy measure_accuracy(const NumberFormat& format,
     expects(!is_fixed(format) || format.integer_bits >= 2, "a unit vector and its gain fit the format");
     const double widest = is_fixed(format) ? std::min(std::ldexp(1.0, format.integer_bits - 1), 4.0) : 4.0;
     const std::int64_t half = count / 2;
-    const std::int64_t chunks = (count + chunk - 1) / chunk;
+    const std::int64_t chunks = (count + sample_chunk - 1) / sample_chunk;
     std::vector<Accuracy> found(static_cast<std::size_t>(chunks));
     with_arithmetic(format, [&](const auto& arithmetic) {
         const auto measure = [&](std::int64_t n, Accuracy& worst, const auto& meter) {
@@ -231,8 +231,8 @@ Accuracy measure_accuracy(const NumberFormat& format,
             progress.check();
             const Meter meter(arithmetic, sequence);
             Accuracy& worst = found[static_cast<std::size_t>(c)];
-            const std::int64_t end = std::min(count, (c + 1) * chunk);
-            for (std::int64_t n = c * chunk; n < end; ++n) {
+            const std::int64_t end = std::min(count, (c + 1) * sample_chunk);
+            for (std::int64_t n = c * sample_chunk; n < end; ++n) {
                 measure(n, worst, meter);
             }
             meter.check();

@@ -10,7 +10,7 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr int chunk = 256; // three arrays of it stay in the first-level cache
+constexpr int batch_chunk = 256; // three arrays of it stay in the first-level cache
 constexpr double most_word = 2147483647.0;
 constexpr double spare = 64.0; // units that roundings of all steps may add
 constexpr int sign_alone = 31; // a shift by more leaves the sign, as in the kernel's longer word
@@ -50,8 +50,8 @@ BatchRotator::rotate(std::span<std::int32_t> x, std::span<std::int32_t> y, std::
         return within(x[n], most_coordinate_) && within(y[n], most_coordinate_) && within(z[n], most_angle_);
     };
     std::int64_t overflows = 0;
-    for (std::size_t begin = 0; begin < x.size(); begin += chunk) {
-        const std::size_t end = std::min(x.size(), begin + chunk);
+    for (std::size_t begin = 0; begin < x.size(); begin += batch_chunk) {
+        const std::size_t end = std::min(x.size(), begin + batch_chunk);
         bool all = true;
         for (std::size_t n = begin; n < end; ++n) {
             all = fits(n) && all;

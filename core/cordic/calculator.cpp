@@ -96,7 +96,8 @@ turn_of(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal&
 }
 
 template <class Arithmetic, class Vector>
-std::array<Word, 3> words_of(const Arithmetic& arithmetic, const NumberFormat& format, const Vector& v) {
+std::array<Word, 3>
+words_of_vector(const Arithmetic& arithmetic, const NumberFormat& format, const Vector& v) {
     const auto word = [&](auto number) { return lowest_bits(arithmetic.to_word(number), format.word()); };
     return {word(v.x), word(v.y), word(v.z)};
 }
@@ -123,7 +124,7 @@ Rotated rotate(const NumberFormat& format,
                        arithmetic.to_double(turned.z),
                        0.0,
                        sequence.clock_count(),
-                       words_of(arithmetic, format, turned)};
+                       words_of_vector(arithmetic, format, turned)};
         // The exact result, with the quarter turns taken out of the angle so that none of its digits are
         // lost.
         long double exact_x = x.nearest_long_double();
@@ -174,7 +175,7 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
             std::abs(std::remainder(answer.angle_deg - to_degrees(std::atan2(y, x)), 360.0));
         answer.clocks = sequence.clock_count();
         answer.shift = shift;
-        answer.words = words_of(arithmetic, format, found);
+        answer.words = words_of_vector(arithmetic, format, found);
         return answer;
     });
 }

@@ -16,13 +16,13 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr double width = 760.0;
-constexpr double height = 460.0;
-constexpr double left = 90.0;
+constexpr double chart_width = 760.0;
+constexpr double chart_height = 460.0;
+constexpr double chart_left = 90.0;
 constexpr double right_margin = 30.0;
 constexpr double bar_margin = 110.0; // of a heat map, for its colour bar
-constexpr double top = 66.0;         // title and legend
-constexpr double bottom = 60.0;
+constexpr double chart_top = 66.0;   // title and legend
+constexpr double chart_bottom = 60.0;
 constexpr double faintest = 1e-18; // what a logarithmic scale shows of a smaller value
 
 constexpr std::array<std::string_view, 6> colours = {
@@ -131,15 +131,16 @@ public:
         out_ = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                            "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
                            "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-                           width,
-                           height);
+                           chart_width,
+                           chart_height);
     }
 
     [[nodiscard]] double across(double x) const {
-        return left + (x - x_.from) / x_.size() * (width - left - right_);
+        return chart_left + (x - x_.from) / x_.size() * (chart_width - chart_left - right_);
     }
     [[nodiscard]] double down(double y) const {
-        return height - bottom - (y - y_.from) / y_.size() * (height - top - bottom);
+        return chart_height - chart_bottom -
+               (y - y_.from) / y_.size() * (chart_height - chart_top - chart_bottom);
     }
 
     template <class... Values> void add(fmt::format_string<Values...> format, Values&&... values) {
@@ -150,11 +151,11 @@ public:
     }
     void titles(std::string_view title, std::string_view x_label, std::string_view y_label) {
         add("<text x=\"{}\" y=\"26\" text-anchor=\"middle\" font-size=\"16\">{}</text>\n",
-            width / 2,
+            chart_width / 2,
             escaped(title));
-        text(width / 2, height - 14, "middle", x_ticks_.title(x_label));
+        text(chart_width / 2, chart_height - 14, "middle", x_ticks_.title(x_label));
         add("<text x=\"20\" y=\"{0}\" text-anchor=\"middle\" transform=\"rotate(-90 20 {0})\">{1}</text>\n",
-            (height - bottom + top) / 2,
+            (chart_height - chart_bottom + chart_top) / 2,
             escaped(y_ticks_.title(y_label)));
     }
     void axes() {
@@ -162,27 +163,27 @@ public:
         for (const double x : x_ticks_.values()) {
             add("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>\n",
                 across(x),
-                top,
-                height - bottom);
+                chart_top,
+                chart_height - chart_bottom);
         }
         for (const double y : y_ticks_.values()) {
             add("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>\n",
-                left,
-                width - right_,
+                chart_left,
+                chart_width - right_,
                 down(y));
         }
         add("</g>\n");
         for (const double x : x_ticks_.values()) {
-            text(across(x), height - bottom + 18, "middle", x_ticks_.label(x));
+            text(across(x), chart_height - chart_bottom + 18, "middle", x_ticks_.label(x));
         }
         for (const double y : y_ticks_.values()) {
-            text(left - 8, down(y) + 4, "end", y_ticks_.label(y));
+            text(chart_left - 8, down(y) + 4, "end", y_ticks_.label(y));
         }
         add("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#333333\"/>\n",
-            left,
-            top,
-            width - left - right_,
-            height - top - bottom);
+            chart_left,
+            chart_top,
+            chart_width - chart_left - right_,
+            chart_height - chart_top - chart_bottom);
     }
     [[nodiscard]] std::string done() { return out_ + "</svg>\n"; }
 
@@ -194,11 +195,11 @@ private:
 };
 
 void keep_scale(Range& x, Range& y) {
-    const double across = x.size() / (width - left - right_margin);
-    const double down = y.size() / (height - top - bottom);
+    const double across = x.size() / (chart_width - chart_left - right_margin);
+    const double down = y.size() / (chart_height - chart_top - chart_bottom);
     Range& narrow = across < down ? x : y;
-    const double wanted =
-        across < down ? down * (width - left - right_margin) : across * (height - top - bottom);
+    const double wanted = across < down ? down * (chart_width - chart_left - right_margin)
+                                        : across * (chart_height - chart_top - chart_bottom);
     const double more = 0.5 * (wanted - narrow.size());
     narrow.from -= more;
     narrow.to += more;
@@ -248,16 +249,17 @@ std::string_view colour_of(std::size_t series) {
 void draw_legend(Canvas& canvas, const std::vector<Series>& series) {
     constexpr double widest = 180.0;
     constexpr double mark = 14.0;
-    const double share = std::min(widest, (width - left - right_margin) / static_cast<double>(series.size()));
-    double x = left;
+    const double share =
+        std::min(widest, (chart_width - chart_left - right_margin) / static_cast<double>(series.size()));
+    double x = chart_left;
     for (std::size_t n = 0; n < series.size(); ++n) {
         if (!series[n].label.empty()) {
             canvas.add("<rect x=\"{:.1f}\" y=\"{}\" width=\"{}\" height=\"3\" fill=\"{}\"/>\n",
                        x,
-                       top - 17,
+                       chart_top - 17,
                        mark,
                        colour_of(n));
-            canvas.text(x + mark + 5, top - 11, "start", series[n].label);
+            canvas.text(x + mark + 5, chart_top - 11, "start", series[n].label);
             x += share;
         }
     }
@@ -284,24 +286,25 @@ Range around_cells(const std::vector<double>& middles) {
 /// What the colours of the powers of ten from `value.from` to `value.to` mean.
 void draw_bar(Canvas& canvas, const Range& value, std::string_view label) {
     constexpr int parts = 64;
-    constexpr double x = width - bar_margin + 16.0;
+    constexpr double x = chart_width - bar_margin + 16.0;
     constexpr double wide = 16.0;
-    constexpr double high = height - top - bottom;
+    constexpr double high = chart_height - chart_top - chart_bottom;
     for (int n = 0; n < parts; ++n) {
         canvas.add("<rect x=\"{:.1f}\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
                    x,
-                   top + high * n / parts,
+                   chart_top + high * n / parts,
                    wide,
                    high / parts,
                    colour_at(1.0 - (n + 0.5) / parts));
     }
-    canvas.text(x, top - 11, "start", label);
+    canvas.text(x, chart_top - 11, "start", label);
     if (!(value.size() > 0.0)) {
-        return canvas.text(x + wide + 6, top + 0.5 * high + 4, "start", fmt::format("1e{:.3g}", value.from));
+        return canvas.text(
+            x + wide + 6, chart_top + 0.5 * high + 4, "start", fmt::format("1e{:.3g}", value.from));
     }
     const Ticks powers(value, true);
     for (const double power : powers.values()) {
-        const double y = top + high * (value.to - power) / value.size();
+        const double y = chart_top + high * (value.to - power) / value.size();
         canvas.text(x + wide + 6, y + 4, "start", powers.label(power));
     }
 }
@@ -349,8 +352,8 @@ std::string to_svg(const HeatMap& map) {
         value.include(power(v));
     }
     Canvas canvas(x, y, false, bar_margin);
-    const double cell_width = (width - left - bar_margin) / static_cast<double>(map.x.size());
-    const double cell_height = (height - top - bottom) / static_cast<double>(map.y.size());
+    const double cell_width = (chart_width - chart_left - bar_margin) / static_cast<double>(map.x.size());
+    const double cell_height = (chart_height - chart_top - chart_bottom) / static_cast<double>(map.y.size());
     for (std::size_t row = 0; row < map.y.size(); ++row) {
         for (std::size_t column = 0; column < map.x.size(); ++column) {
             const double v = power(map.values[row * map.x.size() + column]);

@@ -15,17 +15,17 @@ namespace {
 
 using Binary64 = FloatArithmetic<double>;
 
-constexpr double speed = 0.5;        // V of E5
-constexpr double acceleration = 0.3; // A of E5
+constexpr double e5_speed = 0.5;        // V of E5
+constexpr double e5_acceleration = 0.3; // A of E5
 constexpr double converges_deg = 97.0;
 
 constexpr Kernel<Binary64> kernel(Binary64(), thesis_sequence());
 
-struct Point {
+struct PlanePoint {
     double x = 0.0, y = 0.0;
 };
 
-Point on_circle(double deg) {
+PlanePoint on_circle(double deg) {
     return {std::cos(from_degrees(deg)), std::sin(from_degrees(deg))};
 }
 
@@ -54,7 +54,7 @@ void fold_everything(Experiments& all) {
     double outside = 0.0;
     double worst = 0.0;
     for (const double deg : steps(-180.0, 180.0, 0.1)) {
-        const Point in = on_circle(deg);
+        const PlanePoint in = on_circle(deg);
         const auto out = pre(Binary64(), in.x, in.y, overflow);
         const std::size_t flags = (out.f1 ? 1U : 0U) + (out.f2 ? 2U : 0U);
         const double angle = to_degrees(std::atan2(out.y, out.x));
@@ -83,7 +83,7 @@ void fold_everything(Experiments& all) {
 
 double rotation_error(double theta_deg, double z_deg) {
     bool overflow = false;
-    const Point in = on_circle(theta_deg);
+    const PlanePoint in = on_circle(theta_deg);
     const double z = from_degrees(z_deg);
     const auto out = kernel.rotated({in.x, in.y, z}, overflow);
     return std::max(std::abs(out.x - (in.x * std::cos(z) - in.y * std::sin(z))),
@@ -122,7 +122,7 @@ void vector_everything(Experiments& all) {
     for (const double r : {20.0, 40.0, 60.0, 80.0, 100.0}) {
         Series series{.label = "r = " + std::to_string(static_cast<int>(r))};
         for (const double deg : steps(-converges_deg, converges_deg, 0.5)) {
-            const Point in = on_circle(deg);
+            const PlanePoint in = on_circle(deg);
             const double error = kernel.vectored({r * in.x, r * in.y, 0.0}, overflow).x / r - 1.0;
             series.x.push_back(deg);
             series.y.push_back(r * error); // else all of them would lie on one another
@@ -136,7 +136,7 @@ void vector_everything(Experiments& all) {
     Series series;
     worst = 0.0;
     for (const double deg : steps(-180.0, 180.0, 0.5)) {
-        const Point in = on_circle(deg);
+        const PlanePoint in = on_circle(deg);
         const double error =
             std::abs(kernel.vectored({in.x, in.y, 0.0}, overflow).z - std::atan2(in.y, in.x));
         series.x.push_back(deg);
@@ -165,23 +165,24 @@ void all_directions(Experiments& all) {
     double worst_speed = 0.0;
     double worst_acceleration = 0.0;
     for (const double deg : steps(-180.0, 180.0, 0.1)) {
-        const Point to = on_circle(deg);
-        const auto set = line_set_point(kernel, to.x, to.y, 0.0, 0.0, speed, acceleration, overflow);
+        const PlanePoint to = on_circle(deg);
+        const auto set = line_set_point(kernel, to.x, to.y, 0.0, 0.0, e5_speed, e5_acceleration, overflow);
         const double length = std::hypot(to.x, to.y);
         const std::array<double, 4> found = {set.vx, set.vy, set.ax, set.ay};
         for (std::size_t n = 0; n < found.size(); ++n) {
             values.series[n].x.push_back(deg);
             values.series[n].y.push_back(found[n]);
         }
-        const std::array<double, 2> error = {set.vx - speed * to.x / length, set.vy - speed * to.y / length};
+        const std::array<double, 2> error = {set.vx - e5_speed * to.x / length,
+                                             set.vy - e5_speed * to.y / length};
         for (std::size_t n = 0; n < error.size(); ++n) {
             errors.series[n].x.push_back(deg);
-            errors.series[n].y.push_back(100.0 * error[n] / speed);
+            errors.series[n].y.push_back(100.0 * error[n] / e5_speed);
             worst_speed = std::max(worst_speed, std::abs(error[n]));
         }
         worst_acceleration = std::max({worst_acceleration,
-                                       std::abs(set.ax - acceleration * to.x / length),
-                                       std::abs(set.ay - acceleration * to.y / length)});
+                                       std::abs(set.ax - e5_acceleration * to.x / length),
+                                       std::abs(set.ay - e5_acceleration * to.y / length)});
     }
     all.pictures.push_back({"e5-values.svg", to_svg(values)});
     all.pictures.push_back({"e5-errors.svg", to_svg(errors)});
@@ -190,16 +191,16 @@ void all_directions(Experiments& all) {
 }
 
 struct Arc {
-    Point centre, start;
+    PlanePoint centre, start;
     double sweep = 0.0; ///< rad, > 0 counter-clockwise
     int chords = 0;
 };
 
 /// The points behind each chord.
-std::vector<Point> points_of(const Arc& arc) {
+std::vector<PlanePoint> points_of(const Arc& arc) {
     bool overflow = false;
-    std::vector<Point> points;
-    Point at = arc.start;
+    std::vector<PlanePoint> points;
+    PlanePoint at = arc.start;
     for (int n = 0; n < arc.chords; ++n) {
         const auto next =
             arc_point(kernel, arc.centre.x, arc.centre.y, at.x, at.y, arc.sweep / arc.chords, overflow);
@@ -222,7 +223,7 @@ struct ArcErrors {
     }
 };
 
-ArcErrors errors_of(const Arc& arc, const std::vector<Point>& points) {
+ArcErrors errors_of(const Arc& arc, const std::vector<PlanePoint>& points) {
     ArcErrors errors;
     const double dx = arc.start.x - arc.centre.x;
     const double dy = arc.start.y - arc.centre.y;
@@ -241,8 +242,8 @@ ArcErrors errors_of(const Arc& arc, const std::vector<Point>& points) {
     return errors;
 }
 
-void add_points(Series& series, const std::vector<Point>& points) {
-    for (const Point& point : points) {
+void add_points(Series& series, const std::vector<PlanePoint>& points) {
+    for (const PlanePoint& point : points) {
         series.x.push_back(point.x);
         series.y.push_back(point.y);
     }

@@ -6,24 +6,24 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr std::array<std::string_view, register_count> names = {"XI",
-                                                                "YJ",
-                                                                "Vmax",
-                                                                "Amax",
-                                                                "Dz",
-                                                                "N",
-                                                                "X0",
-                                                                "Y0",
-                                                                "Vx",
-                                                                "Vy",
-                                                                "Ax",
-                                                                "Ay",
-                                                                "PC",
-                                                                "Z",
-                                                                "Z0",
-                                                                "P",
-                                                                "Vz",
-                                                                "Az"};
+constexpr std::array<std::string_view, register_count> register_names = {"XI",
+                                                                         "YJ",
+                                                                         "Vmax",
+                                                                         "Amax",
+                                                                         "Dz",
+                                                                         "N",
+                                                                         "X0",
+                                                                         "Y0",
+                                                                         "Vx",
+                                                                         "Vy",
+                                                                         "Ax",
+                                                                         "Ay",
+                                                                         "PC",
+                                                                         "Z",
+                                                                         "Z0",
+                                                                         "P",
+                                                                         "Vz",
+                                                                         "Az"};
 
 constexpr std::array<NamedOpcode, 24> plain = {{
     {"NOP", Opcode::nop},   {"HLT", Opcode::hlt},   {"PAGE", Opcode::page}, {"G00", Opcode::g00},
@@ -41,15 +41,17 @@ char lower(char c) {
 } // namespace
 
 std::string_view to_text(Register name) {
-    return names[static_cast<std::size_t>(name)];
+    return register_names[static_cast<std::size_t>(name)];
 }
 
 std::optional<Register> register_of(std::string_view name) {
     const auto same = [&](std::string_view known) {
         return std::ranges::equal(known, name, {}, lower, lower);
     };
-    const auto* const found = std::ranges::find_if(names, same);
-    return found == names.end() ? std::nullopt : std::optional(static_cast<Register>(found - names.begin()));
+    const auto* const found = std::ranges::find_if(register_names, same);
+    return found == register_names.end()
+               ? std::nullopt
+               : std::optional(static_cast<Register>(found - register_names.begin()));
 }
 
 std::span<const NamedOpcode> named_opcodes() {

@@ -9,20 +9,20 @@
 namespace millwright::cordic {
 namespace {
 
-struct Point {
+struct SpacePoint {
     double x = 0.0, y = 0.0, z = 0.0;
 };
 
 /// Of a set-point.
 struct Found {
-    Point at, velocity;
+    SpacePoint at, velocity;
 };
 
-double length(const Point& p) {
+double length(const SpacePoint& p) {
     return std::hypot(p.x, p.y, p.z);
 }
 
-Point operator-(const Point& a, const Point& b) {
+SpacePoint operator-(const SpacePoint& a, const SpacePoint& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
@@ -33,21 +33,24 @@ Found found(const Processor& processor, const Published& record) {
 }
 
 /// In parts of the speed; 0 where the exact path does not move.
-double speed_error(const Found& found, const ExactPoint& exact, const Point& from) {
-    const Point way = Point{exact.x, exact.y, exact.z} - from;
+double speed_error(const Found& found, const ExactPoint& exact, const SpacePoint& from) {
+    const SpacePoint way = SpacePoint{exact.x, exact.y, exact.z} - from;
     const double far = length(way);
     if (!(far > 0.0) || !(exact.speed > 0.0)) {
         return 0.0;
     }
     const double scale = exact.speed / far;
-    return length(found.velocity - Point{scale * way.x, scale * way.y, scale * way.z}) / exact.speed;
+    return length(found.velocity - SpacePoint{scale * way.x, scale * way.y, scale * way.z}) / exact.speed;
 }
 
-void compare(RunReport& report, const Processor& processor, std::span<const ExactPoint> exact, Point from) {
+void compare(RunReport& report,
+             const Processor& processor,
+             std::span<const ExactPoint> exact,
+             SpacePoint from) {
     const auto& published = processor.published();
     for (std::size_t n = 0; n < std::min(exact.size(), published.size()); ++n) {
         const Found set = found(processor, published[n]);
-        const Point to{exact[n].x, exact[n].y, exact[n].z};
+        const SpacePoint to{exact[n].x, exact[n].y, exact[n].z};
         report.position_error = std::max(report.position_error, length(set.at - to));
         if (const double error = speed_error(set, exact[n], from); error > report.speed_error) {
             report.speed_error = error;
@@ -64,7 +67,7 @@ struct Motion {
 };
 
 /// While one motion is under way the next one is computed, and with it what between them moves nothing.
-void find_late(RunReport& report, const Processor& processor, double clock_hz, Point from) {
+void find_late(RunReport& report, const Processor& processor, double clock_hz, SpacePoint from) {
     const auto& published = processor.published();
     std::optional<Motion> under_way;
     for (std::size_t n = 0; n < published.size(); ++n) {
@@ -107,8 +110,8 @@ std::vector<PathDifference> path_differences(const Processor& processor, std::sp
     std::vector<PathDifference> differences;
     const std::size_t count = std::min(exact.size(), processor.published().size());
     for (std::size_t n = 0; n < count; ++n) {
-        const Point at = found(processor, processor.published()[n]).at;
-        const double distance = length(at - Point{exact[n].x, exact[n].y, exact[n].z});
+        const SpacePoint at = found(processor, processor.published()[n]).at;
+        const double distance = length(at - SpacePoint{exact[n].x, exact[n].y, exact[n].z});
         differences.push_back({exact[n], at.x, at.y, at.z, distance});
     }
     return differences;
@@ -125,7 +128,7 @@ RunReport report_of(const Processor& processor,
     report.expected = static_cast<std::int64_t>(exact.size());
     report.clocks = processor.state().clocks;
     report.seconds = static_cast<double>(report.clocks.total) / clock_hz;
-    const Point from{start[0], start[1], start[2]};
+    const SpacePoint from{start[0], start[1], start[2]};
     compare(report, processor, exact, from);
     find_late(report, processor, clock_hz, from);
     return report;

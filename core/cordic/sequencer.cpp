@@ -5,22 +5,22 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr std::array<std::string_view, micro_op_count> names = {"JZ",
-                                                                "CJS",
-                                                                "JMAP",
-                                                                "CJP",
-                                                                "PUSH",
-                                                                "JSRP",
-                                                                "CJV",
-                                                                "JRP",
-                                                                "RFCT",
-                                                                "RPCT",
-                                                                "CRTN",
-                                                                "CJPP",
-                                                                "LDCT",
-                                                                "LOOP",
-                                                                "CONT",
-                                                                "TWB"};
+constexpr std::array<std::string_view, micro_op_count> micro_op_names = {"JZ",
+                                                                         "CJS",
+                                                                         "JMAP",
+                                                                         "CJP",
+                                                                         "PUSH",
+                                                                         "JSRP",
+                                                                         "CJV",
+                                                                         "JRP",
+                                                                         "RFCT",
+                                                                         "RPCT",
+                                                                         "CRTN",
+                                                                         "CJPP",
+                                                                         "LDCT",
+                                                                         "LOOP",
+                                                                         "CONT",
+                                                                         "TWB"};
 
 constexpr int behind_last = 256;
 
@@ -89,12 +89,14 @@ Plan plan_of(const SequencerState& state, MicroOp op, const SequencerInputs& in,
 } // namespace
 
 std::string_view to_text(MicroOp op) {
-    return names[static_cast<std::size_t>(op)];
+    return micro_op_names[static_cast<std::size_t>(op)];
 }
 
 std::optional<MicroOp> micro_op_of(std::string_view name) {
-    const auto* const found = std::ranges::find(names, name);
-    return found == names.end() ? std::nullopt : std::optional(static_cast<MicroOp>(found - names.begin()));
+    const auto* const found = std::ranges::find(micro_op_names, name);
+    return found == micro_op_names.end()
+               ? std::nullopt
+               : std::optional(static_cast<MicroOp>(found - micro_op_names.begin()));
 }
 
 void step(SequencerState& state, MicroOp op, const SequencerInputs& inputs) {

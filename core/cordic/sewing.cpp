@@ -6,17 +6,12 @@
 #include <cmath>
 
 namespace millwright::cordic {
-namespace {
-
-constexpr double seconds_a_minute = 60.0;
-
-} // namespace
-
 StitchTimes stitch_times(const Sewing& sewing, double compute_seconds) {
     expects(sewing.needle_rpm > 0.0 && sewing.screw_pitch > 0.0 && sewing.needle_down < 1.0,
             "a machine that sews");
+    constexpr double seconds_per_minute = 60.0;
     StitchTimes times;
-    times.period = seconds_a_minute / sewing.needle_rpm;
+    times.period = seconds_per_minute / sewing.needle_rpm;
     times.window = (1.0 - sewing.needle_down) * times.period;
     times.screw_rpm =
         sewing.stitch * sewing.needle_rpm / (sewing.screw_pitch - sewing.needle_down * sewing.screw_pitch);

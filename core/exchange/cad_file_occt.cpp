@@ -1,11 +1,8 @@
-// Reading and writing by Open CASCADE 7.6; reading in a process of its own.
+// Reading and writing by Open CASCADE.
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/exchange/cad_file.h"
-#include "core/exchange/internal/cad_child.h"
 #include "core/exchange/internal/cad_contents.h"
 #include "core/exchange/internal/cad_faces.h"
-#include "core/exchange/internal/cad_frames.h"
 #include "core/exchange/internal/cad_lost_faces.h"
 #include "core/exchange/internal/cad_reading.h"
 #include "core/exchange/internal/cad_text.h"
@@ -36,17 +33,13 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <fstream>
 #include <istream>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace millwright::exchange {
@@ -187,7 +180,7 @@ Handle(Geom_BezierSurface) bezier_of(const geometry::BezierPatch& patch) {
     return patch.rational() ? new Geom_BezierSurface(points, weights) : new Geom_BezierSurface(points);
 }
 
-TopoDS_Face face_of(const geometry::BezierPatch& patch, const std::filesystem::path& file) {
+TopoDS_Face occt_face(const geometry::BezierPatch& patch, const std::filesystem::path& file) {
     if (std::max(patch.degree_u(), patch.degree_v()) > Geom_BezierSurface::MaxDegree()) {
         throw Error(fmt::format("a patch of degree {} x {} cannot be written, {} is the highest",
                                 patch.degree_u(),
@@ -203,15 +196,16 @@ TopoDS_Face face_of(const geometry::BezierPatch& patch, const std::filesystem::p
 }
 
 /// All of them together: the library's writer looks through its whole model for each shape it is given.
-TopoDS_Compound
-faces_of(const geometry::Surface& surface, const std::filesystem::path& file, const Progress& progress) {
+TopoDS_Compound shape_of_surface(const geometry::Surface& surface,
+                                 const std::filesystem::path& file,
+                                 const Progress& progress) {
     TopoDS_Compound all;
     const BRep_Builder builder;
     builder.MakeCompound(all);
     double done = 0.0;
     for (const geometry::BezierPatch& patch : surface.patches()) {
         progress.check();
-        builder.Add(all, face_of(patch, file));
+        builder.Add(all, occt_face(patch, file));
         progress.report(++done / surface.patch_count());
     }
     return all;
@@ -228,55 +222,7 @@ void name_product(const StepData_StepModel& model, const std::string& name) {
     }
 }
 
-/// A file of its own in the folder for such, gone with the object.
-class ScratchFile {
-public:
-    ScratchFile() : path_((std::filesystem::temp_directory_path() / "millwright-XXXXXX.step").string()) {
-        constexpr int suffix = 5;
-        const int handle = ::mkstemps(path_.data(), suffix);
-        if (handle < 0) {
-            throw Error("no file can be made there", path_);
-        }
-        ::close(handle);
-    }
-    ScratchFile(const ScratchFile&) = delete;
-    ScratchFile& operator=(const ScratchFile&) = delete;
-    ~ScratchFile() {
-        std::error_code gone_already;
-        std::filesystem::remove(path_, gone_already);
-    }
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-private:
-    std::string path_;
-};
-
 } // namespace
-
-namespace {
-
-/// Throws the error that the child tells.
-void heed(const Frame& frame,
-          std::optional<CadModel>& model,
-          const std::filesystem::path& file,
-          const Progress& progress) {
-    if (frame.kind == FrameKind::model) {
-        model = unpacked(frame.bytes);
-    } else if (frame.kind == FrameKind::error) {
-        Diagnostic diagnostic = told_error(frame);
-        diagnostic.place.file = file;
-        throw Error(std::move(diagnostic));
-    } else {
-        const Progress::Report report = told_progress(frame);
-        progress.report(report.fraction, report.text);
-    }
-}
-
-} // namespace
-
-bool reads_cad_files() {
-    return true;
-}
 
 CadModel read_cad_here(const std::filesystem::path& file, const Progress& progress) {
     const CadKind kind = checked_kind(file);
@@ -286,37 +232,16 @@ CadModel read_cad_here(const std::filesystem::path& file, const Progress& progre
     });
 }
 
-CadModel read_cad(const std::filesystem::path& file, const Progress& progress) {
-    (void)checked_kind(file);
-    CadChild child(file);
-    std::optional<CadModel> model;
-    std::string stream;
-    for (bool talks = true; talks;) {
-        progress.check();
-        talks = child.listen(stream);
-        while (const auto frame = take_frame(stream)) {
-            heed(*frame, model, file, progress);
-        }
-    }
-    const std::string fault = child.end();
-    if (!fault.empty() || !model) {
-        throw Error("the file is damaged: Open CASCADE ends while it reads it" +
-                        (fault.empty() ? "" : ", " + fault),
-                    file);
-    }
-    return std::move(*model);
-}
-
-void write_step(const geometry::Surface& surface,
-                const std::filesystem::path& file,
-                const Progress& progress) {
-    const ScratchFile scratch;
+void write_step_here(const geometry::Surface& surface,
+                     const std::string& name,
+                     const std::filesystem::path& file,
+                     const Progress& progress) {
     progress.report(0.0, "making the faces");
     with_occt(file, [&] {
         STEPControl_Writer writer;
         constexpr int one_part = 0; // else each face is a part of an assembly
         Interface_Static::SetIVal("write.step.assembly", one_part);
-        const TopoDS_Compound faces = faces_of(surface, file, progress.part(0.0, 0.1));
+        const TopoDS_Compound faces = shape_of_surface(surface, file, progress.part(0.0, 0.1));
         const Handle(OcctProgress) indicator = new OcctProgress(progress.part(0.1, 0.6));
         const bool taken =
             writer.Transfer(faces, STEPControl_AsIs, Standard_True, indicator->Start()) == IFSelect_RetDone;
@@ -325,19 +250,16 @@ void write_step(const geometry::Surface& surface,
         if (!taken) {
             throw Error("the surface cannot be written as STEP", file);
         }
-        name_product(*writer.Model(), file.stem().string());
+        name_product(*writer.Model(), name);
         // Without a time, so that the same surface is the same file.
         APIHeaderSection_MakeHeader header(writer.Model());
         header.SetTimeStamp(new TCollection_HAsciiString(""));
-        header.SetName(new TCollection_HAsciiString(file.stem().c_str()));
+        header.SetName(new TCollection_HAsciiString(name.c_str()));
         header.SetOriginatingSystem(new TCollection_HAsciiString("Millwright"));
-        if (writer.Write(scratch.path().c_str()) != IFSelect_RetDone) {
+        if (writer.Write(file.c_str()) != IFSelect_RetDone) {
             throw Error("the surface cannot be written as STEP", file);
         }
     });
-    progress.check();
-    write_file(file, read_file(scratch.path()));
-    progress.report(1.0);
 }
 
 } // namespace millwright::exchange

@@ -1,5 +1,7 @@
-// millwright-cad FILE: reads a STEP or IGES file and says on standard output what is in it, in frames. A
-// process of its own, so that a file that breaks the library breaks nothing else.
+// millwright-cad: Open CASCADE in a process of its own, so that a file that breaks the library breaks nothing
+// else and a program that needs none of it starts at once. It answers on standard output, in frames.
+//   millwright-cad read FILE          sends what is in a STEP or IGES file
+//   millwright-cad write FILE NAME    writes the patches of the model on standard input as a STEP file
 #include "core/base/error.h"
 #include "core/exchange/internal/cad_frames.h"
 #include "core/exchange/internal/cad_reading.h"
@@ -7,7 +9,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
+#include <iostream>
+#include <iterator>
 #include <string>
+#include <string_view>
 
 namespace millwright::exchange {
 
@@ -18,15 +24,36 @@ bool say(const Frame& frame) {
     return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0;
 }
 
-int read(const char* file) {
+geometry::Surface surface_from_input() {
+    const std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};
+    return geometry::Surface(unpacked(bytes).faces.at(0).patches);
+}
+
+/// Sends the model that `work` gives, or why there is none; the exit code.
+int answer(const std::function<CadModel(const Progress&)>& work) {
     const Progress progress([](const Progress::Report& report) { (void)say(progress_frame(report)); }, {});
     try {
-        return say({FrameKind::model, packed(read_cad_here(file, progress))}) ? 0 : 1;
+        return say({FrameKind::model, packed(work(progress))}) ? 0 : 1;
     } catch (const Error& error) {
         return say(error_frame(error.diagnostic())) ? 0 : 1;
     } catch (const std::exception& failure) {
-        return say(error_frame({{}, std::string("the file cannot be read: ") + failure.what(), ""})) ? 0 : 1;
+        return say(error_frame({{}, std::string("Open CASCADE fails: ") + failure.what(), ""})) ? 0 : 1;
     }
+}
+
+int run_cad(int argc, char** argv) {
+    const std::string_view task = argc > 1 ? argv[1] : "";
+    if (task == "read" && argc == 3) {
+        return answer([&](const Progress& progress) { return read_cad_here(argv[2], progress); });
+    }
+    if (task == "write" && argc == 4) {
+        return answer([&](const Progress& progress) {
+            write_step_here(surface_from_input(), argv[3], argv[2], progress);
+            return CadModel();
+        });
+    }
+    std::fputs("usage: millwright-cad read FILE | write FILE NAME\n", stderr);
+    return 2;
 }
 
 } // namespace
@@ -34,10 +61,6 @@ int read(const char* file) {
 } // namespace millwright::exchange
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fputs("usage: millwright-cad FILE\n", stderr);
-        return 2;
-    }
     // All is said and flushed; what the library still holds goes with the process.
-    std::_Exit(millwright::exchange::read(argv[1]));
+    std::_Exit(millwright::exchange::run_cad(argc, argv));
 }

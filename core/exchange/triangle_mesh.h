@@ -22,4 +22,11 @@ struct TriangleMesh {
     }
 };
 
+[[nodiscard]] inline TriangleMesh scaled(TriangleMesh mesh, double factor) {
+    for (Vec3& point : mesh.points) {
+        point *= factor;
+    }
+    return mesh;
+}
+
 } // namespace millwright::exchange

@@ -43,7 +43,7 @@ int first_known(const Program& program, const MachineModel& machine) {
     return n;
 }
 
-double length_of(const std::function<Frame(double)>& at) {
+double path_length(const std::function<Frame(double)>& at) {
     constexpr int chords = 8; // of a way that rotary axes bend
     double length = 0.0;
     for (int k = 0; k < chords; ++k) {
@@ -72,7 +72,7 @@ std::vector<ArmWay> arm_ways(std::shared_ptr<const Program> program,
             const AxisPositions& after = program->blocks[static_cast<std::size_t>(n)].target;
             return tool_at(*machine, before + share * (after - before), base_T_part);
         };
-        way.length = length_of(way.at);
+        way.length = path_length(way.at);
         way.duration = block.kind == BlockKind::feed ? block.duration : 0.0;
         way.line = block.source_line;
         ways.push_back(std::move(way));

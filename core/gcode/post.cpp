@@ -20,7 +20,6 @@ namespace {
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 using toolpath::AxisPath;
-using toolpath::MoveKind;
 using toolpath::Toolpath;
 
 /// Length of the way of the tip on the part while the axes go straight from `a` to `b`.
@@ -98,14 +97,15 @@ public:
     }
 
     void tracks(const Progress& progress) {
-        const auto tracks = std::count_if(toolpath_.points.begin(),
-                                          toolpath_.points.end(),
-                                          [](const auto& p) { return p.reached_by != MoveKind::track; });
+        const auto tracks =
+            std::count_if(toolpath_.points.begin(), toolpath_.points.end(), [](const auto& p) {
+                return p.reached_by != toolpath::MoveKind::track;
+            });
         int track = 1;
         comment(fmt::format("track {} of {}", track, tracks));
         for (int n = 1; n < std::ssize(toolpath_.points); ++n) {
             progress.check();
-            if (toolpath_.points[static_cast<std::size_t>(n)].reached_by == MoveKind::track) {
+            if (toolpath_.points[static_cast<std::size_t>(n)].reached_by == toolpath::MoveKind::track) {
                 cut(n);
                 continue;
             }
@@ -208,7 +208,8 @@ private:
 
     void link(int n) {
         ++result_.notes.links;
-        const bool lifts = toolpath_.points[static_cast<std::size_t>(n)].reached_by == MoveKind::over;
+        const bool lifts =
+            toolpath_.points[static_cast<std::size_t>(n)].reached_by == toolpath::MoveKind::over;
         if (settings_.link == LinkKind::on_surface && !lifts) {
             feed(at(n), MoveRole::link, settings_.cutting_feed, n);
             return;

@@ -4,9 +4,9 @@
 
 namespace millwright::gcode {
 
-AxisSet AxisSet::all(int axis_count) {
+AxisSet AxisSet::all(int axes) {
     AxisSet set;
-    set.bits_ = (1U << axis_count) - 1U;
+    set.bits_ = (1U << axes) - 1U;
     return set;
 }
 

@@ -44,7 +44,7 @@ enum class MoveRole { none, approach, plunge, cut, link, retract };
 class AxisSet {
 public:
     AxisSet() = default;
-    [[nodiscard]] static AxisSet all(int axis_count);
+    [[nodiscard]] static AxisSet all(int axes);
     [[nodiscard]] static AxisSet only(int axis);
     [[nodiscard]] bool contains(int axis) const { return ((bits_ >> axis) & 1U) != 0; }
     void insert(int axis) { bits_ |= 1U << axis; }

@@ -126,11 +126,9 @@ struct ClosestPointSearch::Samples {
     template <class BoundingBox> bool kdtree_get_bbox(BoundingBox&) const { return false; }
 
     [[nodiscard]] Vec2 nearest(const Vec3& point) const {
-        std::size_t found = 0;
+        std::uint32_t found = 0;
         double squared = 0.0;
-        nanoflann::KNNResultSet<double> result(1);
-        result.init(&found, &squared);
-        tree->findNeighbors(result, point.data(), nanoflann::SearchParams());
+        tree->knnSearch(point.data(), 1, &found, &squared);
         return parameters[found];
     }
 

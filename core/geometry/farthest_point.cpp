@@ -12,22 +12,22 @@ namespace millwright::geometry {
 
 namespace {
 
-using Net = Eigen::ArrayXXd;
+using HeightNet = Eigen::ArrayXXd;
 
 /// A part of the patch over a rectangle of its parameters, seen along the direction only.
 struct Piece {
-    Net weighted; ///< heights times weights
-    Net weights;
+    HeightNet weighted; ///< heights times weights
+    HeightNet weights;
     Vec2 corner = Vec2::Zero();
     Vec2 size = Vec2::Ones();
     double bound = 0.0; ///< no point of it is higher: of the control points none is
 
-    [[nodiscard]] Net heights() const { return weighted / weights; }
+    [[nodiscard]] HeightNet heights() const { return weighted / weights; }
 };
 
 Piece whole(const BezierPatch& patch, const Vec3& direction) {
     const ControlNet& net = patch.net();
-    Piece piece{Net(net.rows, net.columns), Net(net.rows, net.columns)};
+    Piece piece{HeightNet(net.rows, net.columns), HeightNet(net.rows, net.columns)};
     for (int i = 0; i < net.rows; ++i) {
         for (int j = 0; j < net.columns; ++j) {
             piece.weights(i, j) = net.weight(i, j);
@@ -39,8 +39,8 @@ Piece whole(const BezierPatch& patch, const Vec3& direction) {
 }
 
 /// Both halves of each column of the net, by de Casteljau.
-std::pair<Net, Net> halves(Net net) {
-    Net first(net.rows(), net.cols());
+std::pair<HeightNet, HeightNet> halves(HeightNet net) {
+    HeightNet first(net.rows(), net.cols());
     const Eigen::Index last = net.rows() - 1;
     for (Eigen::Index k = 0; k <= last; ++k) {
         first.row(k) = net.row(0);
@@ -51,11 +51,11 @@ std::pair<Net, Net> halves(Net net) {
     return {std::move(first), std::move(net)};
 }
 
-std::pair<Net, Net> halves(const Net& net, int axis) {
+std::pair<HeightNet, HeightNet> halves(const HeightNet& net, int axis) {
     if (axis == 0) {
         return halves(net);
     }
-    auto [first, second] = halves(Net(net.transpose()));
+    auto [first, second] = halves(HeightNet(net.transpose()));
     return {first.transpose(), second.transpose()};
 }
 
@@ -74,7 +74,7 @@ std::array<Piece, 2> halves(const Piece& piece, int axis) {
     return result;
 }
 
-double largest_bend(const Net& heights) {
+double largest_bend(const HeightNet& heights) {
     const Eigen::Index inner = heights.rows() - 2;
     return inner < 1
                ? 0.0
@@ -85,7 +85,7 @@ double largest_bend(const Net& heights) {
 
 /// A patch that is bent in neither direction is highest at a corner.
 int more_bent_axis(const Piece& piece) {
-    const Net heights = piece.heights();
+    const HeightNet heights = piece.heights();
     return largest_bend(heights) >= largest_bend(heights.transpose()) ? 0 : 1;
 }
 
@@ -114,7 +114,7 @@ FarthestPoint farthest_point(const BezierPatch& patch, const Vec3& direction) {
     constexpr double tolerance = 1e-9; // of the extent of the net
     constexpr int most_halvings = 5'000;
     Piece all = whole(patch, direction);
-    const Net heights = all.heights();
+    const HeightNet heights = all.heights();
     const double near = tolerance * (heights.maxCoeff() - heights.minCoeff());
     FarthestPoint best{Vec2::Zero(), -std::numeric_limits<double>::infinity()};
     raise(best, all);

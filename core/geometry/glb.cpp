@@ -330,17 +330,28 @@ private:
     std::size_t points_ = 0;
 };
 
+/// A file system without files. Version 2.8 added a function; without all of them the parser keeps its own
+/// ones.
+template <typename Callbacks> Callbacks no_files() {
+    Callbacks none{};
+    none.FileExists = [](const std::string&, void*) { return false; };
+    none.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    none.ReadWholeFile = [](std::vector<unsigned char>*, std::string* why, const std::string& path, void*) {
+        *why += "it needs another file, " + path;
+        return false;
+    };
+    none.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+        return false;
+    };
+    if constexpr (requires { none.GetFileSizeInBytes; }) {
+        none.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) { return false; };
+    }
+    return none;
+}
+
 /// Nothing outside of the file is opened, and pictures in it are left alone.
 void keep_inside(tinygltf::TinyGLTF& parser) {
-    parser.SetFsCallbacks(
-        {[](const std::string&, void*) { return false; },
-         [](const std::string& path, void*) { return path; },
-         [](std::vector<unsigned char>*, std::string* why, const std::string& path, void*) {
-             *why += "it needs another file, " + path;
-             return false;
-         },
-         [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-         nullptr});
+    parser.SetFsCallbacks(no_files<tinygltf::FsCallbacks>());
     parser.SetImageLoader([](tinygltf::Image*,
                              const int,
                              std::string*,

@@ -23,10 +23,6 @@ namespace millwright::geometry {
            at.x() < a.x() + (at.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
 }
 
-[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 /// The share of the way from `start`, `way` long, at which it crosses the edge from `a` to `b`; nothing at
 /// its ends, and where the two are parallel.
 [[nodiscard]] inline std::optional<double>

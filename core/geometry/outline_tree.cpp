@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t few_edges = 4; // looked at one by one
 /// Of the patch's side: what is nearer to a box is not decided by the box, but as the single edges have it.
-constexpr double rounding = 1e-9;
+constexpr double outline_rounding = 1e-9;
 
 /// Whether the way from `a` to `b` may come into the box.
 bool may_meet(const Vec2& low, const Vec2& high, const Vec2& a, const Vec2& b) {
     const Vec2 middle = 0.5 * (low + high);
-    const Vec2 half = 0.5 * (high - low) + Vec2::Constant(rounding);
+    const Vec2 half = 0.5 * (high - low) + Vec2::Constant(outline_rounding);
     const Vec2 way = b - a;
     const Vec2 apart = (0.5 * (a + b) - middle).cwiseAbs() - 0.5 * way.cwiseAbs();
     return apart.x() <= half.x() && apart.y() <= half.y() &&
@@ -66,10 +66,11 @@ bool OutlineTree::contains(const Vec2& uv) const {
 bool OutlineTree::odd_on_right(std::size_t number, const Vec2& at) const {
     const Stretch& stretch = stretches_[number];
     const auto above = [&](std::size_t n) { return corners_[n].y() > at.y(); };
-    if (stretch.high.y() <= at.y() || stretch.low.y() > at.y() || stretch.high.x() < at.x() - rounding) {
+    if (stretch.high.y() <= at.y() || stretch.low.y() > at.y() ||
+        stretch.high.x() < at.x() - outline_rounding) {
         return false;
     }
-    if (stretch.low.x() > at.x() + rounding) {
+    if (stretch.low.x() > at.x() + outline_rounding) {
         return above(stretch.first) != above(stretch.last);
     }
     if (stretch.second != 0) {

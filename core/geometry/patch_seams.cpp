@@ -179,10 +179,6 @@ Surroundings surroundings_of(const BezierPatch& patch, Side side) {
     return {.least = std::min(along, length_of(patch, other, middle)), .outwards = way.stableNormalized()};
 }
 
-double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 } // namespace
 
 std::string_view to_text(Side side) {

@@ -42,7 +42,7 @@ bool pierces(const Vec3& a, const Vec3& b, const Triangle& of) {
     return s > inside && t > inside && s + t < 1.0 - inside && along > inside && along < 1.0 - inside;
 }
 
-bool cross(const Triangle& a, const Triangle& b) {
+bool triangles_cross(const Triangle& a, const Triangle& b) {
     for (std::size_t n = 0; n < 3; ++n) {
         const std::size_t next = (n + 1) % 3;
         if (pierces(a.corners[n].at, a.corners[next].at, b) ||
@@ -53,9 +53,9 @@ bool cross(const Triangle& a, const Triangle& b) {
     return false;
 }
 
-class Mesh {
+class PatchMesh {
 public:
-    Mesh(const BezierPatch& patch, int cells) : cells_(cells) {
+    PatchMesh(const BezierPatch& patch, int cells) : cells_(cells) {
         std::vector<Corner> corners;
         for (int i = 0; i <= cells; ++i) {
             for (int j = 0; j <= cells; ++j) {
@@ -125,7 +125,7 @@ private:
                 neighbours = true;
             }
         }
-        return !neighbours && cross(a, b);
+        return !neighbours && triangles_cross(a, b);
     }
 
     [[nodiscard]] Vec2 middle(const Triangle& of) const {
@@ -144,7 +144,7 @@ private:
 } // namespace
 
 std::optional<SelfCrossing> self_crossing(const BezierPatch& patch, int cells) {
-    return Mesh(patch, cells).crossing();
+    return PatchMesh(patch, cells).crossing();
 }
 
 } // namespace millwright::geometry

@@ -56,7 +56,7 @@ Loop in_unit_square(Loop loop) {
 }
 
 /// Where the way from `a` to `b` crosses an edge, as shares of it.
-std::vector<double> crossings(const Trim& trim, const Vec2& a, const Vec2& b) {
+std::vector<double> shares_of_crossings(const Trim& trim, const Vec2& a, const Vec2& b) {
     std::vector<double> shares;
     for (const Loop& loop : trim.loops) {
         for (std::size_t n = 0; n < loop.size(); ++n) {
@@ -88,7 +88,7 @@ std::vector<WayPart> parts_inside(const Trim& trim, const Vec2& a, const Vec2& b
     if (trim.everything()) {
         return {{0.0, 1.0}};
     }
-    return parts_between(crossings(trim, a, b),
+    return parts_between(shares_of_crossings(trim, a, b),
                          [&](double share) { return trim.contains(a + share * (b - a)); });
 }
 

@@ -25,6 +25,11 @@ using Box3 = Eigen::AlignedBox3d;
     return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
 }
 
+/// The z of the cross product of two directions in a plane.
+[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
 /// The angle between two directions, rad in [0, pi], exact for nearly parallel ones too.
 [[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));

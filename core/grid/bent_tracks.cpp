@@ -6,15 +6,12 @@
 #include "core/grid/internal/outline.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 namespace millwright::grid {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One track of an array, by the number of its nodes.
 struct TrackOf {
@@ -30,7 +27,8 @@ struct TrackOf {
 };
 
 /// Where node k may go: a raster around it, itself first.
-std::vector<Vec2> places_of(const TrackOf& of, int k, const Vec2& cell, const BentTrackSettings& settings) {
+std::vector<Vec2>
+places_on_row(const TrackOf& of, int k, const Vec2& cell, const BentTrackSettings& settings) {
     const Vec2 free = freedom(of.nodes, of.row(k), of.column(k), true);
     const bool along_v = of.direction == TrackDirection::along_v;
     const int most_u = exactly_equal(free.x(), 0.0) ? 0
@@ -61,13 +59,13 @@ std::vector<std::size_t> ascending(const std::vector<double>& values) {
     return order;
 }
 
-std::vector<Vec2> shortest(const PathObjective& objective,
-                           const TrackOf& of,
-                           const BentTrackSettings& settings,
-                           const Progress& progress) {
+std::vector<Vec2> shortest_track(const PathObjective& objective,
+                                 const TrackOf& of,
+                                 const BentTrackSettings& settings,
+                                 const Progress& progress) {
     std::vector<std::vector<Vec2>> places;
     for (int k = 0; k < of.count(); ++k) {
-        places.push_back(places_of(of, k, objective.cell(), settings));
+        places.push_back(places_on_row(of, k, objective.cell(), settings));
     }
     std::vector<std::vector<std::size_t>> from;
     std::vector<double> reached(places.front().size());
@@ -120,7 +118,7 @@ NodeArray shortest_bent_tracks(const PathObjective& objective,
         const int count = (tracks - first + 1) / 2;
         each_track(count, progress.part(0.5 * first, 0.5 * (first + 1)), [&](std::size_t n) {
             const TrackOf of{nodes, direction, first + 2 * static_cast<int>(n)};
-            const std::vector<Vec2> found = shortest(objective, of, settings, progress);
+            const std::vector<Vec2> found = shortest_track(objective, of, settings, progress);
             for (int k = 0; k < of.count(); ++k) {
                 moved.at(of.row(k), of.column(k)) = found[static_cast<std::size_t>(k)];
             }

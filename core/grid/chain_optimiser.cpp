@@ -17,7 +17,7 @@ namespace millwright::grid {
 namespace {
 
 constexpr int iterations_a_step = 5;
-constexpr double still = 1e-4;           // cells: an iteration that moves no node further has settled
+constexpr double settled_step = 1e-4;    // cells: an iteration that moves no node further has settled
 constexpr double room_for_corners = 0.9; // of the start's smallest corner triangle, where that is small
 constexpr double usual_corner = 0.02;
 
@@ -33,22 +33,18 @@ constexpr double moving_price = 0.25;
 constexpr double start_measured = 0.02;
 constexpr double tracks_chosen = 0.4;
 constexpr double descents_done = 0.97;
-constexpr double path_judged = 0.99;
+constexpr double chain_judged = 0.99;
 
-bool within(double value, double least, double most) {
-    return value >= least && value <= most;
-}
-
-void check(const ChainSettings& s) {
+void check_chain_settings(const ChainSettings& s) {
     expects(s.candidates_a_gap >= 1 && s.candidates_a_gap <= 64, "there are 1 to 64 candidates a gap");
-    expects(within(s.narrowest_gap, 0.1, 1.0), "the narrowest gap is from 0.1 to 1");
-    expects(within(s.widest_gap, 1.0, 2.0), "the widest gap is from 1 to 2");
+    expects(lies_between(s.narrowest_gap, 0.1, 1.0), "the narrowest gap is from 0.1 to 1");
+    expects(lies_between(s.widest_gap, 1.0, 2.0), "the widest gap is from 1 to 2");
     expects(s.first_descent >= 0 && s.first_descent <= 100'000, "a descent has 0 to 100 000 iterations");
     expects(s.later_descents >= 0 && s.later_descents <= 100'000, "a descent has 0 to 100 000 iterations");
-    expects(within(s.leaps, 0, 100), "a descent leaps 0 to 100 times");
-    expects(std::ranges::all_of(s.exponents, [](double p) { return within(p, 1.0, 64.0); }),
+    expects(lies_between(s.leaps, 0, 100), "a descent leaps 0 to 100 times");
+    expects(std::ranges::all_of(s.exponents, [](double p) { return lies_between(p, 1.0, 64.0); }),
             "the exponents are from 1 to 64");
-    expects(within(s.least_jacobian, 0.0, 1.0), "the least corner triangle is from 0 to 1");
+    expects(lies_between(s.least_jacobian, 0.0, 1.0), "the least corner triangle is from 0 to 1");
 }
 
 double length_of(const std::vector<MoveError>& moves) {
@@ -97,7 +93,7 @@ ChainOptimiser::ChainOptimiser(const ErrorModel& model,
     : model_(model), direction_(direction), settings_(std::move(settings)),
       state_{.current = start.array(), .best = start, .start = {}, .now = {}, .of_best = {}, .note = {}},
       start_(straight_tracks(start, direction)), accepted_(start.array()), bests_{{start, {}}} {
-    check(settings_);
+    check_chain_settings(settings_);
     settings_.tracks = checked(settings_.tracks, start.nodes_per_track(direction));
 }
 
@@ -322,7 +318,7 @@ void ChainOptimiser::descend(const Progress& progress) {
     bool going = true;
     int done = 0;
     while (going && done < std::min(iterations_a_step, left)) {
-        going = next.iterate(progress) && next.last_step() > still;
+        going = next.iterate(progress) && next.last_step() > settled_step;
         ++done;
         progress.report(done_of_all(iterations_of_level_ + done));
     }
@@ -362,7 +358,7 @@ void ChainOptimiser::end_descent(const Progress& progress) {
     ++level_;
     iterations_of_level_ = 0;
     state_.done = done_of_all(iterations_of_level_);
-    begin_descent(progress.part(descents_done, path_judged));
+    begin_descent(progress.part(descents_done, chain_judged));
 }
 
 } // namespace millwright::grid

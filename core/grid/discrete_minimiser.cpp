@@ -12,9 +12,9 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr double longest_step = 0.3;         // of a uniform cell, for one node in one iteration
-constexpr double sufficient_decrease = 1e-4; // Armijo
-constexpr int most_halvings = 40;
+constexpr double longest_minimiser_step = 0.3; // of a uniform cell, for one node in one iteration
+constexpr double minimiser_decrease = 1e-4;    // Armijo
+constexpr int most_minimiser_halvings = 40;
 
 double norm_of(const NodeArray& gradient) {
     double largest = 0.0;
@@ -77,12 +77,12 @@ bool DiscreteMinimiser::search(const std::vector<Vec2>& direction) {
     if (!(slope < 0.0) || !(length > 0.0)) {
         return false;
     }
-    double factor = std::min(1.0, longest_step / length);
-    for (int halving = 0; halving < most_halvings; ++halving, factor /= 2.0) {
+    double factor = std::min(1.0, longest_minimiser_step / length);
+    for (int halving = 0; halving < most_minimiser_halvings; ++halving, factor /= 2.0) {
         NodeArray tried = nodes_;
         add(tried.nodes, factor, direction);
         DiscreteFunctional there = evaluate(tried);
-        if (there.value <= now_.value + sufficient_decrease * factor * slope) {
+        if (there.value <= now_.value + minimiser_decrease * factor * slope) {
             std::swap(nodes_, tried);
             std::swap(now_, there);
             remember(tried, there);

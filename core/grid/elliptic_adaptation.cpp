@@ -1,6 +1,7 @@
 #include "core/grid/elliptic_adaptation.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/grid/discrete_minimiser.h"
 #include "core/grid/grid_promise.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,10 +26,9 @@ constexpr int enough_kept = 6; // candidates to choose from at the end; each cos
 constexpr std::size_t most_candidates = 32; // each is a whole grid
 constexpr int most_falls = 3;
 constexpr double fall_of_adaptation = 0.1;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // What of the whole way is done, by where the time goes.
 constexpr double iterated = 0.5;
-constexpr double path_judged = 0.99;
+constexpr double adaptation_judged = 0.99;
 constexpr int shown_decimals = 4; // of a mean error in mm
 
 /// A cycle does what hundreds of plain iterations do.
@@ -128,7 +127,7 @@ bool dominates(const ErrorSummary& one, const ErrorSummary& other) {
     return one.mean <= other.mean && one.axis_max <= other.axis_max;
 }
 
-void expects_sense(const EllipticAdaptationSettings& settings) {
+void expects_valid_settings(const EllipticAdaptationSettings& settings) {
     expects(settings.functional.adaptation >= 0.0 && settings.functional.orthogonality >= 0.0,
             "LV and LO are not negative");
     expects(settings.tolerance >= 0.0 && settings.error_change >= 0.0 && settings.gap_allowance >= 0.0,
@@ -193,7 +192,7 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
       start_(start), at_{.state = {.current = start.array(), .best = start},
                          .round_start = start,
                          .functional = settings.functional} {
-    expects_sense(settings_);
+    expects_valid_settings(settings_);
     const bool has_stencil =
         settings_.method == EllipticMethod::reference || settings_.method == EllipticMethod::multigrid;
     expects(!has_stencil || (start.nu() >= 3 && start.nv() >= 3),
@@ -225,7 +224,7 @@ bool EllipticAdaptation::advance(const Progress& progress) {
         measure_start(next, progress);
     }
     if (next.ending != ImproverStatus::running) {
-        confirm(next, progress.part(iterated, path_judged));
+        confirm(next, progress.part(iterated, adaptation_judged));
     } else if (weight_ == nullptr && next.state.start.max <= no_error) {
         next.state.status = ImproverStatus::no_gain;
         next.state.note = "There is no error to reduce";
@@ -235,7 +234,7 @@ bool EllipticAdaptation::advance(const Progress& progress) {
     at_ = std::move(next);
     const bool more = at_.state.status == ImproverStatus::running;
     at_.state.done = more ? std::max(at_.state.done, share_done(at_)) : 1.0;
-    progress.report(std::min(at_.state.done, path_judged), at_.state.note);
+    progress.report(std::min(at_.state.done, adaptation_judged), at_.state.note);
     return more;
 }
 

@@ -117,7 +117,7 @@ Coefficients orthogonality(const Differences& d) {
 }
 
 // Eq 18, with the factor 2w that it lost.
-Coefficients combined(const Differences& d, double w, const FunctionalWeights& lambda) {
+Coefficients combined_coefficients(const Differences& d, double w, const FunctionalWeights& lambda) {
     const Coefficients s = smoothness(d);
     const Coefficients v = volume(d);
     const Coefficients o = orthogonality(d);
@@ -159,7 +159,7 @@ NodeEquations equations_of(const Differences& d,
                            const Slope& slope,
                            const FunctionalWeights& lambda,
                            const IndexDensity& n) {
-    const auto [a1, a2, a3, b1, b2, b3, c1, c2, c3] = combined(d, w, lambda);
+    const auto [a1, a2, a3, b1, b2, b3, c1, c2, c3] = combined_coefficients(d, w, lambda);
     const double LV = lambda.adaptation;
     const double xi = n.xi * n.xi;
     const double eta = n.eta * n.eta;

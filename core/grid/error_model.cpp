@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace millwright::grid {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_out_of_reach(const MoveError& move) {
     return !std::isfinite(move.tip) || !std::isfinite(move.axis);

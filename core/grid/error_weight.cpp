@@ -13,7 +13,7 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr int per_cell = 2;                     // samples of the raster in a uniform cell
+constexpr int error_samples_per_cell = 2;       // samples of the raster in a uniform cell
 constexpr double inside_triangle = -1e-9;       // barycentric, so that an edge belongs to both its triangles
 constexpr double shortest_move_squared = 1e-12; // of a uniform cell; shorter ones have no density
 
@@ -28,7 +28,7 @@ public:
     }
     void gradients(std::span<const Vec2> at, std::span<Vec2> gradient) const override {
         std::ranges::transform(at, gradient.begin(), [this](const Vec2& p) -> Vec2 {
-            return per_cell * Vec2(blend(p, slope_of, value_of), blend(p, value_of, slope_of));
+            return error_samples_per_cell * Vec2(blend(p, slope_of, value_of), blend(p, value_of, slope_of));
         });
     }
 
@@ -44,7 +44,8 @@ private:
         double away;
     };
     static Nearest nearest(double coordinate, int count) {
-        const double place = std::clamp(coordinate * per_cell, 0.0, static_cast<double>(count - 1));
+        const double place =
+            std::clamp(coordinate * error_samples_per_cell, 0.0, static_cast<double>(count - 1));
         const int index = static_cast<int>(std::lround(place));
         return {index, place - index};
     }
@@ -87,24 +88,20 @@ struct Painted {
     double value;
 };
 
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 void paint(Canvas& canvas, const Painted& a, const Painted& b, const Painted& c) {
     const double area = cross(b.at - a.at, c.at - a.at);
     if (!(area > 0.0)) {
         return;
     }
-    const Vec2 low = a.at.cwiseMin(b.at).cwiseMin(c.at) * per_cell;
-    const Vec2 high = a.at.cwiseMax(b.at).cwiseMax(c.at) * per_cell;
+    const Vec2 low = a.at.cwiseMin(b.at).cwiseMin(c.at) * error_samples_per_cell;
+    const Vec2 high = a.at.cwiseMax(b.at).cwiseMax(c.at) * error_samples_per_cell;
     const auto first = [](double edge) { return std::max(0, static_cast<int>(std::floor(edge))); };
     const auto last = [](double edge, int count) {
         return std::min(count - 1, static_cast<int>(std::ceil(edge)));
     };
     for (int i = first(low.x()); i <= last(high.x(), canvas.rows); ++i) {
         for (int j = first(low.y()); j <= last(high.y(), canvas.columns); ++j) {
-            const Vec2 p = Vec2(i, j) / per_cell;
+            const Vec2 p = Vec2(i, j) / error_samples_per_cell;
             const double of_b = cross(p - a.at, c.at - a.at) / area;
             const double of_c = cross(b.at - a.at, p - a.at) / area;
             const double of_a = 1.0 - of_b - of_c;
@@ -214,8 +211,9 @@ scaled_weight(std::vector<double> density, int rows, int columns, const ErrorWei
 WeightPtr weight_on(const Grid& grid, std::span<const double> w) {
     const NodeArray nodes = to_solver_coordinates(grid.array());
     expects(w.size() == nodes.nodes.size(), "every node has a weight");
-    Canvas canvas(
-        per_cell * (nodes.rows - 1) + 1, per_cell * (nodes.columns - 1) + 1, *std::ranges::min_element(w));
+    Canvas canvas(error_samples_per_cell * (nodes.rows - 1) + 1,
+                  error_samples_per_cell * (nodes.columns - 1) + 1,
+                  *std::ranges::min_element(w));
     const auto corner = [&](int i, int j) { return Painted{nodes.at(i, j), w[nodes.index(i, j)]}; };
     for (int i = 0; i + 1 < nodes.rows; ++i) {
         for (int j = 0; j + 1 < nodes.columns; ++j) {
@@ -227,8 +225,8 @@ WeightPtr weight_on(const Grid& grid, std::span<const double> w) {
 }
 
 std::size_t raster_bytes(int rows, int columns) {
-    return (static_cast<std::size_t>(rows) * per_cell) * (static_cast<std::size_t>(columns) * per_cell) *
-           sizeof(double);
+    return (static_cast<std::size_t>(rows) * error_samples_per_cell) *
+           (static_cast<std::size_t>(columns) * error_samples_per_cell) * sizeof(double);
 }
 
 } // namespace millwright::grid

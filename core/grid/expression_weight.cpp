@@ -51,7 +51,7 @@ std::string sentence(const mu::Parser::exception_type& fault) {
     return std::regex_replace(fault.GetMsg(), position, "");
 }
 
-[[noreturn]] void fail(const mu::Parser::exception_type& fault) {
+[[noreturn]] void fail_in_formula(const mu::Parser::exception_type& fault) {
     const int position = std::max(0, fault.GetPos());
     fail_at(static_cast<std::size_t>(position) + 1, sentence(fault), known_names);
 }
@@ -111,7 +111,7 @@ public:
                 of_surface, [&](const NamedVariable& each) { return used.count(each.name) > 0; });
             uses_error_ = used.count(of_error.name) > 0;
         } catch (const mu::Parser::exception_type& fault) {
-            fail(fault);
+            fail_in_formula(fault);
         }
     }
     Formula(const Formula&) = delete; // the parser points into the object
@@ -133,7 +133,7 @@ public:
             }
             return found[0];
         } catch (const mu::Parser::exception_type& fault) {
-            fail(fault);
+            fail_in_formula(fault);
         }
     }
 

@@ -26,8 +26,8 @@ struct Number {
     int column = 0;
 };
 
-[[noreturn]] void
-fail(const std::filesystem::path& file, int line, int column, std::string message, std::string hint = {}) {
+[[noreturn]] void fail_in_file(
+    const std::filesystem::path& file, int line, int column, std::string message, std::string hint = {}) {
     Diagnostic found;
     found.place = {.file = file, .line = line, .column = column};
     found.message = std::move(message);
@@ -53,13 +53,13 @@ double number(std::string_view word, const std::filesystem::path& file, int line
     double value = 0.0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (fault == std::errc::result_out_of_range) {
-        fail(file, line, column, quoted(word) + " is too large or too small for a number");
+        fail_in_file(file, line, column, quoted(word) + " is too large or too small for a number");
     }
     if (fault != std::errc{} || end != digits.data() + digits.size()) {
-        fail(file, line, column, quoted(word) + " is no number");
+        fail_in_file(file, line, column, quoted(word) + " is no number");
     }
     if (!std::isfinite(value)) {
-        fail(file, line, column, quoted(word) + " is not finite");
+        fail_in_file(file, line, column, quoted(word) + " is not finite");
     }
     return value;
 }
@@ -160,10 +160,10 @@ void require_near(const Placed& found, const std::filesystem::path& file) {
     const NodeArray& nodes = found.nodes;
     for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
         if (nodes.nodes[k].cwiseAbs().maxCoeff() > farthest) {
-            fail(file,
-                 found.places[k].line,
-                 found.places[k].column,
-                 "A coordinate of this node is beyond 1e9");
+            fail_in_file(file,
+                         found.places[k].line,
+                         found.places[k].column,
+                         "A coordinate of this node is beyond 1e9");
         }
     }
 }
@@ -175,11 +175,11 @@ void require_unfolded(const Placed& found, const std::filesystem::path& file, co
         for (int j = 0; j + 1 < nodes.columns; ++j) {
             if (const std::string fault = fault_of_cell(nodes, i, j); !fault.empty()) {
                 const Number& place = found.places[nodes.index(i, j)];
-                fail(file,
-                     place.line,
-                     place.column,
-                     "The cell from node " + node_name(i, j) + " " + fault,
-                     hint);
+                fail_in_file(file,
+                             place.line,
+                             place.column,
+                             "The cell from node " + node_name(i, j) + " " + fault,
+                             hint);
             }
         }
     }
@@ -223,10 +223,10 @@ NodeArray parse_pairs(std::string_view text, const std::filesystem::path& file, 
     const std::string sentence = std::to_string(rows) + " x " + std::to_string(columns) + " nodes need " +
                                  std::to_string(wanted) + " numbers, here are " + std::to_string(all.size());
     if (all.size() > wanted) {
-        fail(file, all[wanted].line, all[wanted].column, sentence);
+        fail_in_file(file, all[wanted].line, all[wanted].column, sentence);
     }
     if (all.size() < wanted) {
-        fail(file, all.empty() ? 1 : all.back().line, all.empty() ? 1 : all.back().column, sentence);
+        fail_in_file(file, all.empty() ? 1 : all.back().line, all.empty() ? 1 : all.back().column, sentence);
     }
     Placed found{NodeArray(rows, columns), {}};
     for (std::size_t k = 0; k < found.nodes.nodes.size(); ++k) {
@@ -241,20 +241,21 @@ NodeArray parse_pairs(std::string_view text, const std::filesystem::path& file, 
 NodeArray parse_blocks(std::string_view text, const std::filesystem::path& file, FileContents contents) {
     const std::vector<std::vector<Number>> lines = numbers_of(text, file);
     if (lines.size() < 4 || lines.size() % 2 != 0) {
-        fail(file,
-             lines.empty() ? 1 : lines.back().front().line,
-             1,
-             "Two blocks need an even number of lines, at least 4; here are " + std::to_string(lines.size()));
+        fail_in_file(file,
+                     lines.empty() ? 1 : lines.back().front().line,
+                     1,
+                     "Two blocks need an even number of lines, at least 4; here are " +
+                         std::to_string(lines.size()));
     }
     const std::size_t columns = lines.front().size();
     for (const std::vector<Number>& line : lines) {
         if (line.size() != columns || columns < 2) {
             const Number& at = line[std::min(columns, line.size() - 1)];
-            fail(file,
-                 at.line,
-                 at.column,
-                 std::to_string(line.size()) + " numbers in this line, " +
-                     std::to_string(std::max<std::size_t>(columns, 2)) + " are needed");
+            fail_in_file(file,
+                         at.line,
+                         at.column,
+                         std::to_string(line.size()) + " numbers in this line, " +
+                             std::to_string(std::max<std::size_t>(columns, 2)) + " are needed");
         }
     }
     const std::size_t rows = lines.size() / 2;

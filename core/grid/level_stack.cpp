@@ -14,7 +14,7 @@ constexpr int sweeps_before = 2;
 constexpr int sweeps_after = 2;
 constexpr int sweeps_on_coarsest = 20;
 constexpr int fewest_halved = 4;              // nodes in one direction
-constexpr int most_halvings = 8;              // of a correction
+constexpr int most_correction_halvings = 8;   // of a correction
 constexpr double most_growth = 10.0;          // of a norm by a correction; sweeps smooth out most of it
 constexpr std::size_t bytes_finest = 56;      // a node: itself, weight, residual, kept
 constexpr std::size_t bytes_coarse = 56 + 72; // ... right side, begun with its weight and slope, change
@@ -54,21 +54,22 @@ LevelStack::LevelStack(NodeArray start,
     levels_.emplace_back(start.rows, start.columns, density, rules, weight_);
     levels_.front().nodes = std::move(start);
     for (;;) {
-        const MultigridLevel& fine = levels_.back();
-        residuals_.emplace_back(fine.rows(), fine.columns());
-        kept_.emplace_back(fine.rows(), fine.columns());
-        const int rows = coarser(fine.rows());
-        const int columns = coarser(fine.columns());
-        if (rows == fine.rows() && columns == fine.columns()) {
+        const MultigridLevel& fine_level = levels_.back();
+        residuals_.emplace_back(fine_level.rows(), fine_level.columns());
+        kept_.emplace_back(fine_level.rows(), fine_level.columns());
+        const int rows = coarser(fine_level.rows());
+        const int columns = coarser(fine_level.columns());
+        if (rows == fine_level.rows() && columns == fine_level.columns()) {
             return;
         }
-        sample_.push_back(
-            {LineMap::interpolation(fine.rows(), rows), LineMap::interpolation(fine.columns(), columns)});
-        means_.push_back({LineMap::means(fine.rows(), rows), LineMap::means(fine.columns(), columns)});
-        back_.push_back(
-            {LineMap::interpolation(rows, fine.rows()), LineMap::interpolation(columns, fine.columns())});
+        sample_.push_back({LineMap::interpolation(fine_level.rows(), rows),
+                           LineMap::interpolation(fine_level.columns(), columns)});
+        means_.push_back(
+            {LineMap::means(fine_level.rows(), rows), LineMap::means(fine_level.columns(), columns)});
+        back_.push_back({LineMap::interpolation(rows, fine_level.rows()),
+                         LineMap::interpolation(columns, fine_level.columns())});
         change_.emplace_back(rows, columns);
-        levels_.emplace_back(rows, columns, coarser(fine, rows, columns), rules, nullptr);
+        levels_.emplace_back(rows, columns, coarser(fine_level, rows, columns), rules, nullptr);
     }
 }
 
@@ -84,10 +85,10 @@ void LevelStack::come_up() {
     if (levels_.size() < 2) {
         return;
     }
-    const MultigridLevel& coarse = levels_[1];
-    NodeArray start(coarse.rows(), coarse.columns());
+    const MultigridLevel& coarse_level = levels_[1];
+    NodeArray start(coarse_level.rows(), coarse_level.columns());
     transfer_nodes(sample_[0], nodes(), start);
-    LevelStack below(start, weight_, coarse.density(), rules_);
+    LevelStack below(start, weight_, coarse_level.density(), rules_);
     if (!below.sound()) {
         return;
     }
@@ -134,18 +135,19 @@ bool LevelStack::cycle_from(std::size_t level) {
 /// Sets the problem of the next level: there R = R (what was sampled) + the mean of what is left here. False
 /// if what was sampled is folded.
 bool LevelStack::descend(std::size_t level) {
-    const MultigridLevel& fine = levels_[level];
-    MultigridLevel& coarse = levels_[level + 1];
-    transfer_nodes(sample_[level], fine.nodes, coarse.nodes);
-    transfer<double>(means_[level], fine.w, 0.0, [&](std::size_t k, double w) { coarse.w[k] = w; });
-    if (!coarse.sound()) {
+    const MultigridLevel& fine_level = levels_[level];
+    MultigridLevel& coarse_level = levels_[level + 1];
+    transfer_nodes(sample_[level], fine_level.nodes, coarse_level.nodes);
+    transfer<double>(
+        means_[level], fine_level.w, 0.0, [&](std::size_t k, double w) { coarse_level.w[k] = w; });
+    if (!coarse_level.sound()) {
         return false;
     }
-    coarse.begin();
-    change_[level].nodes = coarse.nodes.nodes;
-    NodeArray& f = coarse.right_side;
+    coarse_level.begin();
+    change_[level].nodes = coarse_level.nodes.nodes;
+    NodeArray& f = coarse_level.right_side;
     std::ranges::fill(f.nodes, Vec2::Zero());
-    coarse.residual(residuals_[level + 1]); // -R of what was sampled
+    coarse_level.residual(residuals_[level + 1]); // -R of what was sampled
     transfer<Vec2>(means_[level], residuals_[level].nodes, Vec2::Zero(), [&](std::size_t k, const Vec2& r) {
         f.nodes[k] = r - residuals_[level + 1].nodes[k];
     });
@@ -161,7 +163,7 @@ void LevelStack::correct(std::size_t level) {
     const double before = largest(residuals_[level]);
     kept_[level].nodes = levels_[level].nodes.nodes;
     double factor = 1.0;
-    for (int halving = 0; halving < most_halvings; ++halving, factor /= 2.0) {
+    for (int halving = 0; halving < most_correction_halvings; ++halving, factor /= 2.0) {
         if (takes(level, factor, most_growth * before)) {
             return;
         }
@@ -171,14 +173,14 @@ void LevelStack::correct(std::size_t level) {
 
 /// Puts the nodes of `level` where they were kept plus `factor` times the change of the next level.
 bool LevelStack::takes(std::size_t level, double factor, double largest_residual) {
-    MultigridLevel& fine = levels_[level];
+    MultigridLevel& fine_level = levels_[level];
     transfer<Vec2>(back_[level], change_[level].nodes, Vec2::Zero(), [&](std::size_t k, const Vec2& p) {
-        fine.nodes.nodes[k] = kept_[level].nodes[k] + factor * p;
+        fine_level.nodes.nodes[k] = kept_[level].nodes[k] + factor * p;
     });
-    if (!fine.sound() || !fine.ask_weight()) {
+    if (!fine_level.sound() || !fine_level.ask_weight()) {
         return false;
     }
-    fine.residual(residuals_[level]);
+    fine_level.residual(residuals_[level]);
     return largest(residuals_[level]) <= largest_residual;
 }
 

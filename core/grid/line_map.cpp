@@ -11,12 +11,12 @@ namespace millwright::grid {
 namespace {
 
 /// Where target k of `targets` lies among `sources`.
-struct Place {
+struct LinePlace {
     int first;    ///< source at or before it
     double share; ///< of the next one
 };
 
-Place place(int k, int sources, int targets) {
+LinePlace place(int k, int sources, int targets) {
     const auto cells = static_cast<long>(sources) - 1;
     const auto target_cells = static_cast<long>(targets) - 1;
     const long scaled = k * cells;
@@ -38,7 +38,7 @@ LineMap LineMap::interpolation(int sources, int targets) {
     LineMap map;
     map.sources_ = sources;
     for (int k = 0; k < targets; ++k) {
-        const Place at = place(k, sources, targets);
+        const LinePlace at = place(k, sources, targets);
         if (at.share > 0.0) {
             map.append(at.first, std::array{1.0 - at.share, at.share});
         } else {

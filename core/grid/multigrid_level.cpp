@@ -15,17 +15,9 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr double longest_step =
+constexpr double longest_node_step =
     0.3; // of the side of a mean cell: farther, and neighbours may pass each other
 constexpr double most_change = 10.0; // of a restricted weight by its slope, up or down: it keeps its sign
-
-int mirrored(int k, int count) {
-    return k < 0 ? 1 : (k >= count ? count - 2 : k);
-}
-
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The four corner triangles of a cell are positive.
 bool sound_cell(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -106,8 +98,8 @@ bool MultigridLevel::ask_weight() {
 NodeStencil MultigridLevel::stencil(int i, int j) const {
     NodeStencil s;
     const bool inside = i > 0 && j > 0 && i + 1 < rows() && j + 1 < columns();
-    const auto row = [&](int a) { return inside ? i + a - 1 : mirrored(i + a - 1, rows()); };
-    const auto column = [&](int b) { return inside ? j + b - 1 : mirrored(j + b - 1, columns()); };
+    const auto row = [&](int a) { return inside ? i + a - 1 : mirrored_index(i + a - 1, rows()); };
+    const auto column = [&](int b) { return inside ? j + b - 1 : mirrored_index(j + b - 1, columns()); };
     for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) {
             Vec2& p = s.p[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
@@ -145,7 +137,7 @@ void MultigridLevel::smooth_node(int i, int j) {
     }
     const Vec2 step = displacement(nodes, e, i, j, rules_.boundary, 1.0).step;
     const double length2 = step.squaredNorm();
-    const double most2 = square(longest_step / std::max(density_.xi, density_.eta)) * e.J;
+    const double most2 = square(longest_node_step / std::max(density_.xi, density_.eta)) * e.J;
     if (std::isfinite(length2)) {
         nodes.at(i, j) += length2 > most2 ? Vec2(std::sqrt(most2 / length2) * step) : step;
     }

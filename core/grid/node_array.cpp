@@ -12,10 +12,6 @@ namespace {
 
 constexpr double none = -std::numeric_limits<double>::infinity();
 
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 void expects_cells(const NodeArray& array) {
     expects(array.rows >= 2 && array.columns >= 2, "an array of nodes with cells is at least 2 x 2");
     expects(std::ssize(array.nodes) == static_cast<std::ptrdiff_t>(array.rows) * array.columns,

@@ -6,15 +6,6 @@
 
 namespace millwright::grid {
 
-namespace {
-
-/// The index whose mirror image stands at `k` of the wider array; -1 and `count` are across the sides.
-int mirrored(int k, int count) {
-    return k < 0 ? 1 : (k >= count ? count - 2 : k);
-}
-
-} // namespace
-
 bool is_axis_rectangle(const NodeArray& nodes) {
     const int last_row = nodes.rows - 1;
     const int last_column = nodes.columns - 1;
@@ -36,7 +27,7 @@ NodeArray with_mirrored_ring(const NodeArray& nodes) {
     NodeArray wider(nodes.rows + 2, nodes.columns + 2);
     for (int i = -1; i <= nodes.rows; ++i) {
         for (int j = -1; j <= nodes.columns; ++j) {
-            Vec2 p = nodes.at(mirrored(i, nodes.rows), mirrored(j, nodes.columns));
+            Vec2 p = nodes.at(mirrored_index(i, nodes.rows), mirrored_index(j, nodes.columns));
             if (i < 0 || i == nodes.rows) {
                 p.x() = 2.0 * (i < 0 ? low.x() : high.x()) - p.x();
             }
@@ -55,8 +46,8 @@ std::vector<double> with_mirrored_ring(const std::vector<double>& values, int ro
     for (int i = -1; i <= rows; ++i) {
         for (int j = -1; j <= columns; ++j) {
             const auto index =
-                static_cast<std::size_t>(mirrored(i, rows)) * static_cast<std::size_t>(columns) +
-                static_cast<std::size_t>(mirrored(j, columns));
+                static_cast<std::size_t>(mirrored_index(i, rows)) * static_cast<std::size_t>(columns) +
+                static_cast<std::size_t>(mirrored_index(j, columns));
             wider.push_back(values[index]);
         }
     }

@@ -11,9 +11,9 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr double longest_step = 0.3;         // cells, for one node in one iteration
-constexpr double sufficient_decrease = 1e-4; // Armijo
-constexpr int most_halvings = 20;
+constexpr double longest_descent_step = 0.3; // cells, for one node in one iteration
+constexpr double descent_decrease = 1e-4;    // Armijo
+constexpr int most_descent_halvings = 20;
 
 // Of a leap. Wider rasters or one sweep more cost more than they bring.
 constexpr int sweeps = 5;
@@ -36,11 +36,11 @@ bool PathDescent::search(const std::vector<Vec2>& direction, const Progress& pro
     if (!(slope < 0.0) || !(length > 0.0)) {
         return false;
     }
-    double factor = std::min(1.0, longest_step / length);
-    for (int halving = 0; halving < most_halvings; ++halving, factor /= 2.0) {
+    double factor = std::min(1.0, longest_descent_step / length);
+    for (int halving = 0; halving < most_descent_halvings; ++halving, factor /= 2.0) {
         NodeArray tried = objective_.moved(nodes_, factor, direction);
         const PathCost there = objective_.cost(tried, progress);
-        if (there.sum <= value_ + sufficient_decrease * factor * slope) {
+        if (there.sum <= value_ + descent_decrease * factor * slope) {
             std::vector<Vec2> gradient = objective_.gradient(tried, there, progress);
             std::vector<Vec2> change = gradient;
             add(change, -1.0, gradient_);

@@ -6,14 +6,12 @@
 #include "core/grid/internal/outline.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace millwright::grid {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double difference = 1e-6; // cells: bends and rounding both stay below 1e-3 of a slope
 
 } // namespace

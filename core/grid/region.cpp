@@ -12,10 +12,11 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr int raster = 129; // places a side: a cell of the field is finer than a border that people draw
+constexpr int region_raster =
+    129; // places a side: a cell of the field is finer than a border that people draw
 constexpr int chords_a_side = 16; // of the outline on the surface
 
-bool inside(const std::vector<Vec2>& outline, const Vec2& p) {
+bool inside_outline(const std::vector<Vec2>& outline, const Vec2& p) {
     bool in = false;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2& a = outline[k];
@@ -101,14 +102,14 @@ private:
 Field share_of(const Region& region, const geometry::BezierPatch& patch) {
     expects(std::ssize(region.outline) >= fewest_corners && region.border_mm >= 0.0,
             "an outline has at least three corners, and a border no negative width");
-    Field field = Field::constant(raster, raster, 0.0);
+    Field field = Field::constant(region_raster, region_raster, 0.0);
     const std::vector<Vec3> chords = chords_of(region.outline, patch);
     parallel_for(field.rows, 1, [&](std::ptrdiff_t row) {
         const auto i = static_cast<int>(row);
         for (int j = 0; j < field.columns; ++j) {
             const Vec2 uv = field.place(i, j);
             field.values[field.index(i, j)] =
-                inside(region.outline, uv)
+                inside_outline(region.outline, uv)
                     ? 1.0
                     : faded(distance_from(chords, patch.position(uv.x(), uv.y())), region.border_mm);
         }

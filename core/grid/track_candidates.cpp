@@ -12,7 +12,7 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr double still = 1e-4; // mean steps: a sweep that moves no node further has settled
+constexpr double settled_polish = 1e-4; // mean steps: a sweep that moves no node further has settled
 
 /// Between two tracks, `share` of the way; nodes go along.
 PlacedTrack between(const PlacedTrack& a, const PlacedTrack& b, double share) {
@@ -60,7 +60,7 @@ PlacedTrack polished(const ErrorModel& model,
         track,
         {.cost = cost_by(settings, 1.0), .limits = {}, .min_gap = settings.shortest_move * step});
     for (int sweep = 0; sweep < settings.polish_sweeps; ++sweep) {
-        if (polish.sweep(progress) < still * step) {
+        if (polish.sweep(progress) < settled_polish * step) {
             break;
         }
     }

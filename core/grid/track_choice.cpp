@@ -1,16 +1,15 @@
 #include "core/grid/track_choice.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace millwright::grid {
 
 std::optional<std::vector<int>>
 cheapest_choice(std::span<const double> costs, int count, int nearest, int furthest) {
     expects(count >= 2 && nearest >= 1 && nearest <= furthest, "two tracks or more, at positive distances");
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const int size = static_cast<int>(std::ssize(costs));
     std::vector<double> reached(costs.size(), infinity);
     std::vector<std::vector<int>> from; // [choices before, candidate]

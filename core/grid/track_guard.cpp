@@ -36,7 +36,7 @@ bool not_above(const std::vector<MoveError>& is, const std::vector<MoveError>& w
     });
 }
 
-bool inside(const TrackPromise& promise, const MeasuredTrack& track) {
+bool keeps_promise(const TrackPromise& promise, const MeasuredTrack& track) {
     return std::ranges::all_of(track.moves, [&](const MoveError& move) {
         const bool in_reach = std::isfinite(move.tip) && std::isfinite(move.axis); // the start may not be
         return in_reach && move.tip <= promise.tip + negligible_mm &&
@@ -66,7 +66,7 @@ std::vector<Choice> choices(const std::vector<Tracks>& versions,
     for (std::size_t t = 0; t < start.size(); ++t) {
         for (const Tracks& version : versions) {
             const bool good = judging == Judging::by_limits || not_above(version[t].moves, start[t].moves);
-            if (good && inside(promise, version[t])) {
+            if (good && keeps_promise(promise, version[t])) {
                 found[t].candidates.push_back(&version[t]);
             }
         }

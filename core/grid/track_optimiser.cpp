@@ -23,7 +23,7 @@ constexpr double lattices_measured = 0.5;
 constexpr double paths_found = 0.6;
 constexpr double polish_done = 0.98;
 
-constexpr double still = 1e-4; // mean steps: a sweep that moves no node further has settled
+constexpr double settled_sweep = 1e-4; // mean steps: a sweep that moves no node further has settled
 
 std::vector<PlacedTrack> placed(const std::vector<MeasuredTrack>& tracks) {
     std::vector<PlacedTrack> found;
@@ -184,7 +184,7 @@ void TrackOptimiser::sweep(const Progress& progress) {
         longest[t] = next[t].sweep(progress) / mean_step(start_[t]);
     });
     const double norm = *std::ranges::max_element(longest);
-    const bool settled = norm < still;
+    const bool settled = norm < settled_sweep;
     if (settled || state_.iteration + 1 >= settings_.polish_sweeps) {
         end_polish(next, settled ? ImproverStatus::converged : ImproverStatus::iteration_limit, progress);
     } else {

@@ -11,7 +11,6 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double window_slack = 1e-9; // of a window: a move exactly as long as the window is inside
 
 /// The moves of a table as numbers, in rows that the dynamic programming runs along.

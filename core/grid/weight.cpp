@@ -13,9 +13,9 @@ namespace millwright::grid {
 namespace {
 
 /// A weight given by two functions of one point.
-template <class Value, class Gradient> class Formula final : public Weight {
+template <class Value, class Gradient> class PointwiseWeight final : public Weight {
 public:
-    Formula(Value value, Gradient gradient) : value_(value), gradient_(gradient) {}
+    PointwiseWeight(Value value, Gradient gradient) : value_(value), gradient_(gradient) {}
 
     void values(std::span<const Vec2> at, std::span<double> w) const override {
         std::ranges::transform(at, w.begin(), value_);
@@ -30,7 +30,7 @@ private:
 };
 
 template <class Value, class Gradient> WeightPtr formula(Value value, Gradient gradient) {
-    return std::make_shared<Formula<Value, Gradient>>(value, gradient);
+    return std::make_shared<PointwiseWeight<Value, Gradient>>(value, gradient);
 }
 
 } // namespace

@@ -13,15 +13,15 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr int per_cell = 2;            // samples of the raster in a cell of the uniform grid
-constexpr double error_exponent = 0.7; // of the error density, as in ErrorWeightSettings
+constexpr int mix_samples_per_cell = 2; // samples of the raster in a cell of the uniform grid
+constexpr double error_exponent = 0.7;  // of the error density, as in ErrorWeightSettings
 
 /// A raster over the parameters, fine enough for the cells of a grid.
 Field raster_of(int nu, int nv) {
-    return Field::constant(per_cell * (nu - 1) + 1, per_cell * (nv - 1) + 1, 0.0);
+    return Field::constant(mix_samples_per_cell * (nu - 1) + 1, mix_samples_per_cell * (nv - 1) + 1, 0.0);
 }
 
-std::vector<Vec2> places_of(const Field& raster, int nu, int nv) {
+std::vector<Vec2> raster_places(const Field& raster, int nu, int nv) {
     std::vector<Vec2> places;
     places.reserve(raster.values.size());
     for (int i = 0; i < raster.rows; ++i) {
@@ -75,7 +75,7 @@ void divide_by_largest(std::vector<double>& values) {
     }
 }
 
-double combined(Combination how, double so_far, double share_of_value) {
+double combined_weight(Combination how, double so_far, double share_of_value) {
     switch (how) {
     case Combination::product:
         return so_far * (1.0 + share_of_value);
@@ -105,7 +105,7 @@ double in_steps(double value) {
     return std::round(value * steps) / steps;
 }
 
-void expects_sense(const MixSettings& settings) {
+void expects_valid_mix(const MixSettings& settings) {
     expects(settings.error >= 0.0 && settings.curvature >= 0.0 && settings.painted >= 0.0 &&
                 settings.expression >= 0.0,
             "shares are not negative");
@@ -135,9 +135,9 @@ double Field::at(const Vec2& uv) const {
 }
 
 WeightPtr mixed_weight(const MixedReasons& reasons, const MixSettings& settings, int nu, int nv) {
-    expects_sense(settings);
+    expects_valid_mix(settings);
     Field raster = raster_of(nu, nv);
-    const std::vector<Vec2> places = places_of(raster, nu, nv);
+    const std::vector<Vec2> places = raster_places(raster, nu, nv);
     std::ranges::fill(raster.values, settings.combination == Combination::product ? 1.0 : 0.0);
     std::vector<double> found(places.size());
     const auto add = [&](const WeightPtr& reason, double share, bool is_error) {
@@ -151,7 +151,7 @@ WeightPtr mixed_weight(const MixedReasons& reasons, const MixSettings& settings,
         }
         for (std::size_t k = 0; k < found.size(); ++k) {
             const double value = is_error ? std::pow(std::max(0.0, found[k]), error_exponent) : found[k];
-            raster.values[k] = combined(settings.combination, raster.values[k], share * value);
+            raster.values[k] = combined_weight(settings.combination, raster.values[k], share * value);
         }
     };
     add(reasons.error, settings.error, true);

@@ -4,6 +4,7 @@
 #include "core/base/json.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_zone.h"
+#include "core/kinematics/internal/file_bounds.h"
 
 #include <fmt/format.h>
 
@@ -16,9 +17,7 @@ namespace millwright::kinematics {
 
 namespace {
 
-constexpr double farthest_mm = 1e5;
-constexpr double most_degrees = 36000.0;
-constexpr double fastest = 1e6;
+constexpr double fastest_joint = 1e6;
 constexpr double most_counts = 1e9;
 
 double length(const JsonValue& value) {
@@ -29,7 +28,7 @@ double angle(const JsonValue& value) {
     return from_degrees(value.number(-most_degrees, most_degrees));
 }
 
-JointKind kind(const JsonValue& value) {
+JointKind joint_kind(const JsonValue& value) {
     const std::string text = value.text();
     if (text != "revolute" && text != "prismatic") {
         value.fail(fmt::format("'{}' is neither \"revolute\" nor \"prismatic\"", text));
@@ -42,7 +41,7 @@ ArmJoint joint(const JsonValue& value) {
         {"name", "kind", "alpha", "a", "d", "theta", "limits", "max_velocity", "max_acceleration"});
     ArmJoint result;
     result.name = value.at("name").text();
-    result.kind = kind(value.at("kind"));
+    result.kind = joint_kind(value.at("kind"));
     result.alpha = angle(value.at("alpha"));
     result.a = length(value.at("a"));
     result.d = length(value.at("d"));
@@ -56,16 +55,16 @@ ArmJoint joint(const JsonValue& value) {
     }
     constexpr double slowest = 1e-6;
     const double unit = turns ? from_degrees(1.0) : 1.0;
-    result.max_velocity = unit * value.at("max_velocity").number(slowest, fastest);
-    result.max_acceleration = unit * value.at("max_acceleration").number(slowest, fastest);
+    result.max_velocity = unit * value.at("max_velocity").number(slowest, fastest_joint);
+    result.max_acceleration = unit * value.at("max_acceleration").number(slowest, fastest_joint);
     return result;
 }
 
 DriveScale drive(const JsonValue& value, bool turns) {
     value.expect_only({"scale", "offset"});
     const double unit = turns ? from_degrees(1.0) : 1.0;
-    return {unit * value.at("scale").number(-fastest, fastest),
-            unit * value.at("offset").number(-fastest, fastest)};
+    return {unit * value.at("scale").number(-fastest_joint, fastest_joint),
+            unit * value.at("offset").number(-fastest_joint, fastest_joint)};
 }
 
 Linkage linkage(const JsonValue& value) {

@@ -85,7 +85,7 @@ double turned_inside(const ArmJoint& joint, double angle, double previous) {
     return fits ? std::clamp(lifted, joint.min, joint.max) : near;
 }
 
-std::string limit_sentence(const ArmModel& arm, const JointPositions& positions) {
+std::string joint_limit_sentence(const ArmModel& arm, const JointPositions& positions) {
     const int n = arm.joint_outside(positions);
     const ArmJoint& joint = arm.joint(n);
     return fmt::format("joint {} would have to go to {:.3f} deg, outside of {:.3f} to {:.3f}",
@@ -113,7 +113,7 @@ void add_branch(InverseSolution& found,
     if (arm.joint_outside(positions) < 0) {
         found.branches.push_back(positions);
     } else if (found.why.empty()) {
-        found.why = limit_sentence(arm, positions);
+        found.why = joint_limit_sentence(arm, positions);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "core/kinematics/arm_motion_file.h"
 
 #include "core/base/error.h"
+#include "core/kinematics/internal/file_bounds.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,7 @@ namespace millwright::kinematics {
 
 namespace {
 
-constexpr std::string_view letters = "GXYZIJKABCRFMS";
-constexpr double farthest_mm = 1e5;
+constexpr std::string_view arm_word_letters = "GXYZIJKABCRFMS";
 
 struct Word {
     char letter = 0;
@@ -71,7 +71,7 @@ private:
         word.place = place_;
         const char found = text_[at_];
         word.letter = found >= 'a' && found <= 'z' ? static_cast<char>(found - 'a' + 'A') : found;
-        if (letters.find(word.letter) == std::string_view::npos) {
+        if (arm_word_letters.find(word.letter) == std::string_view::npos) {
             const bool printable = found > ' ' && found < 127;
             fail(place_,
                  printable ? fmt::format("'{}' is no word of a motion file", found)
@@ -110,14 +110,14 @@ class Words {
 public:
     explicit Words(const std::vector<Word>& words) {
         for (const Word& word : words) {
-            const Word*& seat = by_letter_[letters.find(word.letter)];
+            const Word*& seat = by_letter_[arm_word_letters.find(word.letter)];
             if (seat != nullptr) {
                 Reader::fail(word.place, fmt::format("{} stands twice in this block", word.letter));
             }
             seat = &word;
         }
     }
-    [[nodiscard]] const Word* find(char letter) const { return by_letter_[letters.find(letter)]; }
+    [[nodiscard]] const Word* find(char letter) const { return by_letter_[arm_word_letters.find(letter)]; }
     [[nodiscard]] std::optional<double> value(char letter) const {
         const Word* word = find(letter);
         return word != nullptr ? std::optional(word->value) : std::nullopt;
@@ -135,7 +135,7 @@ public:
     }
 
 private:
-    std::array<const Word*, letters.size()> by_letter_{};
+    std::array<const Word*, arm_word_letters.size()> by_letter_{};
 };
 
 ArmBlock block_of(const Words& words, const Place& place, ArmMotion modal) {

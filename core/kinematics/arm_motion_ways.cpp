@@ -19,7 +19,7 @@ namespace {
 
 constexpr double radius_tolerance = 0.01; // mm between the radii at both ends of an arc
 
-[[noreturn]] void fail(const std::filesystem::path& file, int line, std::string message) {
+[[noreturn]] void fail_in_motion(const std::filesystem::path& file, int line, std::string message) {
     throw Error(Diagnostic{.place = {.file = file, .line = line}, .message = std::move(message), .hint = {}});
 }
 
@@ -35,10 +35,10 @@ Vec3 center_by_radius(const ArmBlock& block, const std::filesystem::path& file) 
     const double chord = way.head<2>().norm();
     const double radius = std::abs(*block.radius);
     if (!(chord > 0.0) || std::abs(way.z()) > 0.0) {
-        fail(file, block.line, "an arc by its radius needs an end elsewhere in the XY plane");
+        fail_in_motion(file, block.line, "an arc by its radius needs an end elsewhere in the XY plane");
     }
     if (radius < 0.5 * chord - radius_tolerance) {
-        fail(
+        fail_in_motion(
             file,
             block.line,
             fmt::format("the radius {} is shorter than half the way, {:.4f}", shortest(radius), 0.5 * chord));
@@ -54,18 +54,20 @@ Way arc(const ArmBlock& block, const std::filesystem::path& file) {
     const Vec3 from = -center, to = block.way - center;
     const double radius = from.norm();
     if (!(radius > 0.0) || std::abs(to.norm() - radius) > radius_tolerance) {
-        fail(file,
-             block.line,
-             fmt::format("the end is {:.4f} mm from the center, the start {:.4f}", to.norm(), radius));
+        fail_in_motion(
+            file,
+            block.line,
+            fmt::format("the end is {:.4f} mm from the center, the start {:.4f}", to.norm(), radius));
     }
     // Counter-clockwise as seen from above; of a plane on edge, from its positive side.
     Vec3 normal = from.cross(to);
     const bool in_line = !(normal.norm() > 1e-9 * radius * radius);
     if (in_line && std::abs(from.z()) > radius_tolerance) {
-        fail(file,
-             block.line,
-             "start, end and center are on a line that leaves the XY plane: nothing tells the plane of the "
-             "arc");
+        fail_in_motion(
+            file,
+            block.line,
+            "start, end and center are on a line that leaves the XY plane: nothing tells the plane of the "
+            "arc");
     }
     normal = in_line ? Vec3(Vec3::UnitZ()) : normal.normalized();
     const double above = std::abs(normal.z()) > 1e-9 ? normal.z() : normal.x() + normal.y();
@@ -111,7 +113,7 @@ std::vector<ArmWay> ways_of(const ArmModel& arm,
         const Vec3 axis = block.tool_axis.value_or(Vec3(tool.linear().col(2)));
         feed = block.feed.value_or(feed);
         if (!(feed > 0.0)) {
-            fail(file, block.line, "a feed is above 0");
+            fail_in_motion(file, block.line, "a feed is above 0");
         }
         const auto at = [tool, axis, from = way.at, end = block.way](double share) {
             Frame there = tool;

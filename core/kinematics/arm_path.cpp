@@ -20,7 +20,7 @@ constexpr double shortest_share = 1e-7; // of a way on which the tool turns on t
 constexpr double border = 0.5;          // mm: as exactly is it told where trouble begins
 
 /// A place on a way, and the joints there.
-struct Place {
+struct ArmPlace {
     double share = 0.0;
     ArmHold hold;
 
@@ -54,7 +54,7 @@ private:
         const ArmWay& way = ways_[static_cast<std::size_t>(number)];
         expects(way.at && std::isfinite(way.length) && way.length >= 0.0, "a way has a finite length");
         way_ = number;
-        Place here = place(way, 0.0, joints_);
+        ArmPlace here = place(way, 0.0, joints_);
         // A tool that turns on the spot has steps too: of the angle by which it turns.
         const Frame first = way.at(0.0), last = way.at(1.0);
         const double turn = angle_between(first.linear().col(2), last.linear().col(2));
@@ -68,14 +68,14 @@ private:
     }
 
     /// The first point of a way is where the last one ended: if the joints are others there, they jump.
-    [[nodiscard]] ArmHold come_from(const Place& here) const {
+    [[nodiscard]] ArmHold come_from(const ArmPlace& here) const {
         const bool moved = !path_.points.empty() && path_.points.back().trouble == ArmTrouble::none;
         return moved && here.is_held() ? jump_free(here, joints_, 0.0) : here.hold;
     }
 
     /// To `share` of the way, in as many steps as it needs.
-    void go(const ArmWay& way, Place& here, double share) {
-        Place there = place(way, share, here.hold.joints);
+    void go(const ArmWay& way, ArmPlace& here, double share) {
+        ArmPlace there = place(way, share, here.hold.joints);
         const double step = (share - here.share) * way.length;
         const double middle = 0.5 * (here.share + share);
         if (here.is_held() != there.is_held() && step > border) {
@@ -96,8 +96,8 @@ private:
 
     /// Half way between the joints the tool is where it should be.
     [[nodiscard]] bool
-    near_enough(const ArmWay& way, const Place& here, const Place& there, double middle) const {
-        const Place wanted = place(way, middle, here.hold.joints);
+    near_enough(const ArmWay& way, const ArmPlace& here, const ArmPlace& there, double middle) const {
+        const ArmPlace wanted = place(way, middle, here.hold.joints);
         if (wanted.hold.trouble != ArmTrouble::none) {
             return false;
         }
@@ -107,12 +107,13 @@ private:
                angle_between(is.linear().col(2), should.linear().col(2)) <= settings_.axis_tolerance;
     }
 
-    [[nodiscard]] Place place(const ArmWay& way, double share, const JointPositions& previous) const {
+    [[nodiscard]] ArmPlace place(const ArmWay& way, double share, const JointPositions& previous) const {
         return {share, hold_tool(arm_, way.at(share), settings_.aim, previous)};
     }
 
     /// The hold itself, or why it cannot be reached from `before`, which is `distance` mm away.
-    [[nodiscard]] ArmHold jump_free(const Place& there, const JointPositions& before, double distance) const {
+    [[nodiscard]] ArmHold
+    jump_free(const ArmPlace& there, const JointPositions& before, double distance) const {
         constexpr double same = 1e-6; // rad; rounding at the ends of ways
         if (joint_step(arm_, there.hold.joints, before) <= std::max(same, settings_.axis_tolerance)) {
             return there.hold;
@@ -132,7 +133,7 @@ private:
         return jumped;
     }
 
-    void add(const Place& here, const ArmHold& hold) {
+    void add(const ArmPlace& here, const ArmHold& hold) {
         if (path_.points.size() >= settings_.most_points) {
             const int line = ways_[static_cast<std::size_t>(way_)].line;
             throw Error(fmt::format("line {}: more than {} positions of the arm are needed; allow a larger "

@@ -11,16 +11,16 @@ namespace millwright::kinematics {
 namespace {
 
 constexpr int steps_a_turn = 180;
-constexpr double beside = 0.05; // mm off a curve, where one side is reached and the other is not
+constexpr double curve_offset = 0.05; // mm off a curve, where one side is reached and the other is not
 
 /// Of joints 2 and 3; positive angles lower the arm.
-Vec2 wrist(const PlanarElbow& lengths, double second, double third) {
+Vec2 elbow_wrist(const PlanarElbow& lengths, double second, double third) {
     const double a = -second, b = -second - third;
     return lengths.upper_arm * Vec2(std::cos(a), std::sin(a)) +
            lengths.forearm * Vec2(std::cos(b), std::sin(b));
 }
 
-bool inside(const ArmJoint& joint, double angle) {
+bool within_limits(const ArmJoint& joint, double angle) {
     const double first = angle + 2.0 * pi * std::ceil((joint.min - angle) / (2.0 * pi));
     return first <= joint.max;
 }
@@ -48,13 +48,14 @@ std::vector<Curve> candidates(const ArmModel& arm) {
     const auto [third_low, third_high] = range(third);
     std::vector<Curve> all;
     for (const double angle : {third_low, third_high, 0.0, -pi, pi}) {
-        if (inside(third, angle)) {
-            all.push_back(
-                swept(second_low, second_high, [&](double turn) { return wrist(lengths, turn, angle); }));
+        if (within_limits(third, angle)) {
+            all.push_back(swept(
+                second_low, second_high, [&](double turn) { return elbow_wrist(lengths, turn, angle); }));
         }
     }
     for (const double angle : {second_low, second_high}) {
-        all.push_back(swept(third_low, third_high, [&](double turn) { return wrist(lengths, angle, turn); }));
+        all.push_back(
+            swept(third_low, third_high, [&](double turn) { return elbow_wrist(lengths, angle, turn); }));
     }
     return all;
 }
@@ -73,7 +74,7 @@ bool wrist_reaches(const ArmModel& arm, const Vec2& place) {
         const double third = sign * std::acos(cosine);
         const double second =
             std::atan2(-place.y(), place.x()) - std::atan2(b * std::sin(third), a + b * std::cos(third));
-        if (inside(arm.joint(1), second) && inside(arm.joint(2), third)) {
+        if (within_limits(arm.joint(1), second) && within_limits(arm.joint(2), third)) {
             return true;
         }
     }
@@ -97,8 +98,8 @@ ReachShell reach_shell(const ArmModel& arm) {
             const Vec2 across = length > 0.0 ? Vec2(Vec2(-way.y(), way.x()) / length) : Vec2(Vec2::UnitX());
             // The middle of a chord lies inside its arc by more than the offset: a point of the curve is
             // asked.
-            const bool one = wrist_reaches(arm, curve[n] + beside * across);
-            const bool other = wrist_reaches(arm, curve[n] - beside * across);
+            const bool one = wrist_reaches(arm, curve[n] + curve_offset * across);
+            const bool other = wrist_reaches(arm, curve[n] - curve_offset * across);
             if (one == other) {
                 finish();
                 continue;

@@ -18,7 +18,7 @@ namespace {
 constexpr int cells_across = 100; ///< of the reach, along the longer side
 constexpr int room = 4;           ///< cells that stay empty at each side
 
-Vec3 wrist(const ArmModel& arm, const JointPositions& joints) {
+Vec3 wrist_position(const ArmModel& arm, const JointPositions& joints) {
     return base_T_joints(arm, joints).back().translation();
 }
 
@@ -45,10 +45,10 @@ std::vector<int> moving_joints(const ArmModel& arm) {
     for (int n = 1; n < arm.joint_count(); ++n) {
         for (const double share : {0.31, 0.67}) { // no arm is singular at both
             JointPositions joints = at_shares(arm, share);
-            const Vec3 before = wrist(arm, joints);
+            const Vec3 before = wrist_position(arm, joints);
             const auto [low, high] = range_of(arm.joint(n));
             joints[n] += 0.01 * (high - low);
-            if ((wrist(arm, joints) - before).norm() > moved) {
+            if ((wrist_position(arm, joints) - before).norm() > moved) {
                 moving.push_back(n);
                 break;
             }
@@ -76,7 +76,7 @@ std::vector<Vec3> places(const ArmModel& arm, const std::vector<int>& moving) {
             const auto [low, high] = range_of(arm.joint(joint));
             joints[joint] = std::lerp(low, high, at - std::floor(at));
         }
-        all.push_back(wrist(arm, joints));
+        all.push_back(wrist_position(arm, joints));
     }
     return all;
 }

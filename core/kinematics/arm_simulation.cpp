@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_records = 10'000'000;
 
-[[noreturn]] void fail(const std::filesystem::path& file, int line, std::string message) {
+[[noreturn]] void fail_in_simulation(const std::filesystem::path& file, int line, std::string message) {
     throw Error(Diagnostic{.place = {.file = file, .line = line}, .message = std::move(message), .hint = {}});
 }
 
@@ -38,7 +38,7 @@ Vec3 axis_at(const Vec3& tip, const Vec3& wanted, const std::filesystem::path& f
     goal.linear() = frame_along(wanted);
     const auto projected = projected_goal(goal);
     if (!projected) {
-        fail(file, line, "the tool axis is across the plane of the arm");
+        fail_in_simulation(file, line, "the tool axis is across the plane of the arm");
     }
     return projected->linear().col(2);
 }
@@ -71,13 +71,14 @@ private:
 
     void add(const Frame& exact, int line, int number) {
         if (records_.size() >= most_records) {
-            fail(file_, line, fmt::format("more than {} points; take longer steps", most_records));
+            fail_in_simulation(
+                file_, line, fmt::format("more than {} points; take longer steps", most_records));
         }
         const Vec3 tip = single(exact.translation());
         const Vec3 axis = axis_at(tip, exact.linear().col(2), file_, line);
         const InverseSolution found = arm_inverse(arm_, PointedGoal{tip, axis}, joints_);
         if (found.branches.empty()) {
-            fail(
+            fail_in_simulation(
                 file_,
                 line,
                 fmt::format(
@@ -112,7 +113,7 @@ public:
     /// Takes `words` from the front of `line`.
     void expect(std::string_view& line, std::string_view words) const {
         if (!line.starts_with(words)) {
-            fail(file_, number_, fmt::format("'{}' is expected here", words));
+            fail_in_simulation(file_, number_, fmt::format("'{}' is expected here", words));
         }
         line.remove_prefix(words.size());
     }
@@ -121,7 +122,7 @@ public:
         double found = 0.0;
         const auto [end, failure] = std::from_chars(line.data(), line.data() + line.size(), found);
         if (failure != std::errc() || !std::isfinite(found)) {
-            fail(file_, number_, "a number is expected here");
+            fail_in_simulation(file_, number_, "a number is expected here");
         }
         line.remove_prefix(static_cast<std::size_t>(end - line.data()));
         expect(line, " ");
@@ -129,7 +130,7 @@ public:
     }
     void expect_end(std::string_view line) const {
         if (!line.empty()) {
-            fail(file_, number_, "nothing more is expected in this line");
+            fail_in_simulation(file_, number_, "nothing more is expected in this line");
         }
     }
 

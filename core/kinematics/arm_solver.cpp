@@ -47,7 +47,7 @@ ArmJacobian demanded(ArmJacobian jacobian, const Frame& now, ArmDemand demand) {
     return jacobian;
 }
 
-JointPositions inside(const ArmModel& arm, JointPositions positions) {
+JointPositions held_inside(const ArmModel& arm, JointPositions positions) {
     for (int n = 0; n < arm.joint_count(); ++n) {
         positions[n] = std::clamp(positions[n], arm.joint(n).min, arm.joint(n).max);
     }
@@ -61,7 +61,7 @@ public:
           length_(std::max(stretched_length(arm), 1.0)) {}
 
     [[nodiscard]] ArmSolverResult from(const JointPositions& start) {
-        move_to(inside(arm_, start));
+        move_to(held_inside(arm_, start));
         double damping = 1e-3;
         int iteration = 0;
         for (; iteration < settings_.most_iterations && !met(); ++iteration) {
@@ -123,7 +123,7 @@ private:
         for (int n = 0; n < arm_.joint_count(); ++n) {
             delta[n] *= arm_.joint(n).kind == JointKind::prismatic ? length_ : 1.0;
         }
-        return inside(arm_, positions_ + delta);
+        return held_inside(arm_, positions_ + delta);
     }
 
     const ArmModel& arm_;
@@ -207,7 +207,7 @@ JointPositions pulled(const ArmModel& arm,
         if (step.norm() < still) {
             break;
         }
-        const JointPositions start = inside(arm, found + JointPositions(step.cwiseProduct(unit)));
+        const JointPositions start = held_inside(arm, found + JointPositions(step.cwiseProduct(unit)));
         const ArmSolverResult there = solve_arm(arm, goal, demand, start);
         if (!there.converged || (there.positions - found).cwiseQuotient(unit).norm() < still) {
             break;

@@ -135,7 +135,7 @@ int axis_outside(const MachineModel& machine, const AxisPositions& q) {
     return -1;
 }
 
-std::string limit_sentence(const MachineAxis& axis, double position) {
+std::string axis_limit_sentence(const MachineAxis& axis, double position) {
     const bool rotary = axis.kind == AxisKind::rotary;
     const auto shown = [&](double value) { return rotary ? to_degrees(value) : value; };
     return fmt::format("axis {} would have to go to {:.3f}, outside {:.3f} ... {:.3f} {}",
@@ -193,7 +193,7 @@ std::string turn_sentence(const MachineModel& machine, const std::vector<AxisPos
         }
     }
     expects(nearest.axis >= 0, "an angle is outside where no turn is inside");
-    return limit_sentence(machine.axis(nearest.axis), nearest.position);
+    return axis_limit_sentence(machine.axis(nearest.axis), nearest.position);
 }
 
 } // namespace
@@ -250,7 +250,7 @@ inverse(const MachineModel& machine, const geometry::ToolPose& pose, const AxisP
                 solution.branches.push_back(turned);
             } else if (beyond(machine.axis(outside), turned[outside]) < least_outside) {
                 least_outside = beyond(machine.axis(outside), turned[outside]);
-                solution.why = limit_sentence(machine.axis(outside), turned[outside]);
+                solution.why = axis_limit_sentence(machine.axis(outside), turned[outside]);
             }
         }
     }

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
+#include "core/kinematics/internal/file_bounds.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +14,7 @@ namespace millwright::kinematics {
 
 namespace {
 
-constexpr double farthest_mm = 1e5;
-constexpr double most_degrees = 36000.0;
-constexpr double fastest = 1e5;
+constexpr double fastest_axis = 1e5;
 constexpr double hardest = 1e7;
 constexpr double sharpest = 1e10;
 
@@ -42,7 +41,7 @@ char letter(const JsonValue& value) {
     return text.front();
 }
 
-AxisKind kind(const JsonValue& value) {
+AxisKind axis_kind(const JsonValue& value) {
     const std::string text = value.text();
     if (text != "linear" && text != "rotary") {
         value.fail(fmt::format("'{}' is neither \"linear\" nor \"rotary\"", text));
@@ -62,7 +61,7 @@ MachineAxis axis(const JsonValue& value) {
                        "max_jerk"});
     MachineAxis result;
     result.letter = letter(value.at("axis"));
-    result.kind = kind(value.at("kind"));
+    result.kind = axis_kind(value.at("kind"));
     result.direction = direction(value.at("direction"));
     const bool rotary = result.kind == AxisKind::rotary;
     const double unit = rotary ? from_degrees(1.0) : 1.0;
@@ -82,7 +81,7 @@ MachineAxis axis(const JsonValue& value) {
         }
     }
     constexpr double slowest = 1e-6;
-    result.max_velocity = unit * value.at("max_velocity").number(slowest, fastest);
+    result.max_velocity = unit * value.at("max_velocity").number(slowest, fastest_axis);
     result.max_acceleration = unit * value.at("max_acceleration").number(slowest, hardest);
     if (const auto jerk = value.find("max_jerk")) {
         result.max_jerk = unit * jerk->number(slowest, sharpest);

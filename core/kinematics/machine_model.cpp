@@ -13,7 +13,7 @@ namespace millwright::kinematics {
 
 namespace {
 
-constexpr std::string_view letters = "XYZABCUVW";
+constexpr std::string_view machine_axis_letters = "XYZABCUVW";
 constexpr double unit_tolerance = 1e-9; // machine files are written by hand with nine digits or more
 
 [[noreturn]] void refuse(const MachineDescription& machine, const std::string& why) {
@@ -26,7 +26,7 @@ bool is_unit(const Vec3& direction) {
 
 void check(const MachineDescription& machine, const MachineAxis& axis) {
     const std::string where = fmt::format("axis {}", axis.letter);
-    if (letters.find(axis.letter) == std::string_view::npos) {
+    if (machine_axis_letters.find(axis.letter) == std::string_view::npos) {
         refuse(machine, where + " is none of X Y Z A B C U V W");
     }
     if (!is_unit(axis.direction)) {
@@ -55,7 +55,7 @@ void check(const MachineDescription& machine, const MachineBody& body) {
 }
 
 int place(char letter) {
-    return static_cast<int>(letters.find(letter));
+    return static_cast<int>(machine_axis_letters.find(letter));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/json.h"
+#include "core/kinematics/internal/solid_colors.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,7 @@ using geometry::Circle;
 using geometry::Extent;
 using geometry::SolidMesh;
 
-const Vec3 paint(0.86, 0.87, 0.88), graphite(0.27, 0.29, 0.32), steel(0.60, 0.64, 0.68),
-    carbide(0.78, 0.60, 0.33);
+const Vec3 carbide(0.78, 0.60, 0.33);
 
 constexpr double widest_edge = 3.0; // mm
 constexpr double widest_corner = 12.0;

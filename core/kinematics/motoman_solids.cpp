@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/kinematics/internal/solid_colors.h"
 
 #include <array>
 #include <cmath>
@@ -16,8 +17,7 @@ using geometry::Extent;
 using geometry::hull_of;
 using geometry::SolidMesh;
 
-const Vec3 paint(0.86, 0.87, 0.88), graphite(0.27, 0.29, 0.32), steel(0.60, 0.64, 0.68),
-    bronze(0.78, 0.60, 0.33), grip(0.20, 0.50, 0.62);
+const Vec3 bronze(0.78, 0.60, 0.33), grip(0.20, 0.50, 0.62);
 
 constexpr double least_link = 400.0;
 constexpr double floor_z = -900.0; // below the shoulder
@@ -127,7 +127,7 @@ std::vector<SolidMesh> forearm(double length, const Linkage& linkage) {
     return all;
 }
 
-std::vector<SolidMesh> wrist() {
+std::vector<SolidMesh> wrist_meshes() {
     return {hull({circle(0.0, 0.0, 32.0), circle(0.0, -48.0, 30.0)}, -22.0, 22.0, paint),
             hull({circle(0.0, 0.0, 17.0)}, -48.0, 48.0, steel)};
 }
@@ -154,7 +154,7 @@ std::vector<SolidMesh> gripper() {
 }
 
 /// In the frame of a cylinder or rod, whose y is across the arm.
-std::vector<SolidMesh> beside(std::vector<SolidMesh> meshes, double across) {
+std::vector<SolidMesh> moved_across(std::vector<SolidMesh> meshes, double across) {
     Frame aside = Frame::Identity();
     aside.translation().y() = across;
     for (SolidMesh& mesh : meshes) {
@@ -201,13 +201,13 @@ MotomanSolids motoman_solids(const ArmModel& arm, const ArmActuators& actuators)
     add("column", ArmCarrier::joint, 0, column(actuators));
     add("upper arm", ArmCarrier::joint, 1, upper_arm(lengths.upper_arm, actuators.second));
     add("forearm", ArmCarrier::joint, 2, forearm(lengths.forearm, actuators.third));
-    add("wrist", ArmCarrier::joint, 3, wrist());
+    add("wrist", ArmCarrier::joint, 3, wrist_meshes());
     add("flange", ArmCarrier::joint, 4, flange());
     add("tool", ArmCarrier::joint, 4, gripper());
-    add("drive 2 cylinder", ArmCarrier::cylinder, 2, beside(cylinder(), drive_middle));
-    add("drive 2 rod", ArmCarrier::rod, 2, beside(rod(), drive_middle));
-    add("drive 3 cylinder", ArmCarrier::cylinder, 3, beside(cylinder(), -drive_middle));
-    add("drive 3 rod", ArmCarrier::rod, 3, beside(rod(), -drive_middle));
+    add("drive 2 cylinder", ArmCarrier::cylinder, 2, moved_across(cylinder(), drive_middle));
+    add("drive 2 rod", ArmCarrier::rod, 2, moved_across(rod(), drive_middle));
+    add("drive 3 cylinder", ArmCarrier::cylinder, 3, moved_across(cylinder(), -drive_middle));
+    add("drive 3 rod", ArmCarrier::rod, 3, moved_across(rod(), -drive_middle));
     add("drive 3 lever", ArmCarrier::lever, 3, lever(actuators.third));
     add("drive 3 coupler", ArmCarrier::coupler, 3, coupler(lengths.upper_arm));
     JointPositions rest = JointPositions::Zero(arm.joint_count());

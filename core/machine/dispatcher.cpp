@@ -21,7 +21,7 @@ namespace {
 constexpr double poll_time = 0.02; // s: a fifth of what a person notices
 
 /// Throws what is wrong first, and says how much else there is.
-void throw_first(std::vector<Diagnostic> faults) {
+void throw_first_with_count(std::vector<Diagnostic> faults) {
     if (faults.empty()) {
         return;
     }
@@ -302,7 +302,7 @@ Dispatcher::Dispatcher(Driver& driver, Clock& clock, std::filesystem::path log_f
 
 JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Listener& listener) {
     const Turn turn(*this);
-    throw_first(preflight(job));
+    throw_first_with_count(preflight(job));
     driver_.connect();
     const DriverStatus before = driver_.status();
     if (before.state != DriverState::idle && before.state != DriverState::stopped) {
@@ -430,7 +430,7 @@ Dispatcher::check(const Job& job, const Capabilities& able, const DriverStatus& 
     const Survey found =
         survey(job.listing->text, job.project, {*able.dialect, able.axes, before.position, offsets});
     if (job.program == nullptr) { // else it was checked block by block
-        throw_first(faults_of(found, driver_.limits(), job.project));
+        throw_first_with_count(faults_of(found, driver_.limits(), job.project));
     }
     return {found, able.axes, before, offsets};
 }

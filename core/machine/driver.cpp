@@ -8,7 +8,7 @@ namespace millwright::machine {
 
 namespace {
 
-[[noreturn]] void refuse(const Driver& driver, const std::string& what) {
+[[noreturn]] void refuse_unsupported(const Driver& driver, const std::string& what) {
     throw Error("the " + driver.name() + " driver cannot " + what);
 }
 
@@ -17,11 +17,11 @@ namespace {
 void Driver::check(const gcode::Listing&, const std::filesystem::path&) const {}
 
 void Driver::set_overrides(const Overrides&) {
-    refuse(*this, "override feeds");
+    refuse_unsupported(*this, "override feeds");
 }
 
 void Driver::jog(const Jog&) {
-    refuse(*this, "jog");
+    refuse_unsupported(*this, "jog");
 }
 
 void Driver::stop_jog() {}
@@ -33,36 +33,36 @@ void Driver::break_off(std::string) {
 void Driver::trust_position() {}
 
 void Driver::stands_at(const kinematics::AxisPositions&) {
-    refuse(*this, "be told where it stands");
+    refuse_unsupported(*this, "be told where it stands");
 }
 
 void Driver::enable() {
-    refuse(*this, "switch the power of its motors");
+    refuse_unsupported(*this, "switch the power of its motors");
 }
 
 void Driver::doubt_position(std::string) {}
 
 void Driver::home() {
-    refuse(*this, "home");
+    refuse_unsupported(*this, "home");
 }
 
 int Driver::command(const std::string&) {
-    refuse(*this, "execute single lines");
+    refuse_unsupported(*this, "execute single lines");
 }
 
 int Driver::load(const std::vector<std::string>&) {
-    refuse(*this, "load files of settings");
+    refuse_unsupported(*this, "load files of settings");
 }
 
 void Driver::set_single_block(bool on) {
     if (on) {
-        refuse(*this, "go block by block");
+        refuse_unsupported(*this, "go block by block");
     }
 }
 
 void Driver::set_optional_stop(bool on) {
     if (on) {
-        refuse(*this, "stop at M1 by a switch of ours");
+        refuse_unsupported(*this, "stop at M1 by a switch of ours");
     }
 }
 

@@ -28,8 +28,8 @@ using Json = nlohmann::ordered_json;
 using kinematics::AxisKind;
 using kinematics::AxisPositions;
 
-constexpr std::string_view format_name = "millwright-job-log";
-constexpr int format_version = 1;
+constexpr std::string_view log_format_name = "millwright-job-log";
+constexpr int log_format_version = 1;
 
 std::string reason(int error_number) {
     return std::error_code(error_number, std::generic_category()).message();
@@ -85,10 +85,10 @@ LogStart start_from(const JsonValue& value) {
                        "from_line",
                        "address",
                        "options"});
-    if (value.at("record").text() != "start" || value.at("format").text() != format_name) {
+    if (value.at("record").text() != "start" || value.at("format").text() != log_format_name) {
         value.fail("this is not the first line of a job log");
     }
-    (void)value.at("version").integer(1, format_version);
+    (void)value.at("version").integer(1, log_format_version);
     LogStart start;
     start.job = value.at("job").text();
     start.project = value.at("project").text();
@@ -243,8 +243,8 @@ void JobLog::write(const LogStart& start) {
                         {"unit", axis.kind == AxisKind::rotary ? "deg" : "mm"}});
     }
     Json line{{"record", "start"},
-              {"format", format_name},
-              {"version", format_version},
+              {"format", log_format_name},
+              {"version", log_format_version},
               {"job", start.job},
               {"project", start.project},
               {"machine", start.machine},

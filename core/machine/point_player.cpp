@@ -14,14 +14,14 @@ using kinematics::MachineModel;
 
 namespace {
 
-constexpr std::string_view letters = "XYZ";
+constexpr std::string_view table_letters = "XYZ";
 
 std::array<std::size_t, 3> indices_of(const MachineModel& model) {
     std::array<std::size_t, 3> found{};
     for (std::size_t n = 0; n < found.size(); ++n) {
-        const int axis = model.axis_index(letters[n]);
+        const int axis = model.axis_index(table_letters[n]);
         if (axis < 0) {
-            throw Error(fmt::format("machine '{}' has no axis {}", model.name(), letters[n]));
+            throw Error(fmt::format("machine '{}' has no axis {}", model.name(), table_letters[n]));
         }
         found[n] = static_cast<std::size_t>(axis);
     }
@@ -41,7 +41,7 @@ void expect_within(double value, double least, double most, const char* what) {
     }
 }
 
-PlayerOptions checked(const PlayerOptions& options) {
+PlayerOptions checked_options(const PlayerOptions& options) {
     expect_within(options.period, 0.0005, 10.0, "a period");
     expect_within(options.speed, 0.01, 100.0, "a speed");
     expect_within(options.decimals, 0, 9, "a number of decimals");
@@ -70,7 +70,7 @@ std::vector<Diagnostic> check_points(const std::vector<Vec3>& points,
         if (told.insert({axis, place}).second) {
             found.push_back({{file, static_cast<int>(n) + 1, 0, -1},
                              std::move(sentence),
-                             place ? std::string() : slower(letters[axis])});
+                             place ? std::string() : slower(table_letters[axis])});
         }
     };
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -128,7 +128,7 @@ PointPlayer::PointPlayer(std::unique_ptr<Link> link,
                          std::shared_ptr<const std::vector<Vec3>> points,
                          const MachineModel& model,
                          const PlayerOptions& options)
-    : link_(std::move(link)), clock_(clock), points_(std::move(points)), options_(checked(options)),
+    : link_(std::move(link)), clock_(clock), points_(std::move(points)), options_(checked_options(options)),
       text_(options.format, model, options.decimals),
       path_(options.format.relative, options.period, options.decimals), index_(indices_of(model)),
       axes_(static_cast<std::size_t>(model.axis_count())) {

@@ -15,16 +15,16 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::string_view format_name = "millwright-position-doubt";
-constexpr int format_version = 1;
+constexpr std::string_view position_doubt_format_name = "millwright-position-doubt";
+constexpr int position_doubt_format_version = 1;
 
 std::string read_doubt(const std::filesystem::path& file) {
     const JsonValue whole = JsonValue::read(file);
     whole.expect_only({"format", "version", "controller", "doubt"});
-    if (whole.at("format").text() != format_name) {
+    if (whole.at("format").text() != position_doubt_format_name) {
         whole.at("format").fail("this is no doubt about a position");
     }
-    (void)whole.at("version").integer(1, format_version);
+    (void)whole.at("version").integer(1, position_doubt_format_version);
     return whole.at("doubt").text();
 }
 
@@ -59,8 +59,8 @@ void PositionMemory::keep(const DriverStatus& status) {
             throw Error("cannot be removed: " + why.message(), file_);
         }
     } else {
-        const nlohmann::ordered_json whole{{"format", format_name},
-                                           {"version", format_version},
+        const nlohmann::ordered_json whole{{"format", position_doubt_format_name},
+                                           {"version", position_doubt_format_version},
                                            {"controller", controller_},
                                            {"doubt", kept_}};
         make_folder(std::filesystem::absolute(folder_));

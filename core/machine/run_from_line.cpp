@@ -29,7 +29,7 @@ using internal::has_code;
 constexpr int z_axis = 2;
 
 [[noreturn]] void
-refuse(const std::filesystem::path& file, int line, std::string why, std::string hint = {}) {
+refuse_start(const std::filesystem::path& file, int line, std::string why, std::string hint = {}) {
     throw Error(Diagnostic{{file, line, 0, -1}, std::move(why), std::move(hint)});
 }
 
@@ -49,13 +49,13 @@ void check_flow(const std::vector<std::string_view>& lines, const std::filesyste
         const std::string text = internal::bare_line(lines[n]);
         const int number = static_cast<int>(n) + 1;
         if (internal::is_flow(text)) {
-            refuse(file, number, "a program with subroutines or loops cannot be begun in its middle");
+            refuse_start(file, number, "a program with subroutines or loops cannot be begun in its middle");
         }
         if (text.find('#') != std::string::npos) {
-            refuse(file, number, "a program with parameters cannot be begun in its middle");
+            refuse_start(file, number, "a program with parameters cannot be begun in its middle");
         }
         if (text.find("G38.") != std::string::npos) {
-            refuse(file, number, "a program that probes cannot be begun in its middle");
+            refuse_start(file, number, "a program that probes cannot be begun in its middle");
         }
     }
 }
@@ -177,28 +177,29 @@ ModalState state_before(
         const std::string words = internal::bare_line(lines[static_cast<std::size_t>(next) - 1]);
         known.take(words, reader.state().incremental);
         if (has_code(words, "G10") || has_code(words, "G92") || has_code(words, "G52")) {
-            refuse(
+            refuse_start(
                 file, next, "the lines before change offsets (G10, G52, G92)", "run it from its beginning");
         }
         if (!reader.errors().empty()) {
             throw Error(reader.errors().front());
         }
         if (!more) {
-            refuse(file, line, fmt::format("the program ends at line {}", reader.place().line));
+            refuse_start(file, line, fmt::format("the program ends at line {}", reader.place().line));
         }
     }
     if (const char axis = known.unknown(); axis != '\0') {
-        refuse(file,
-               line,
-               known.left()
-                   ? fmt::format(
-                         "the lines before go to a machine position (G53, G28, G30), and none tells {} since",
-                         axis)
-                   : fmt::format(
-                         "none of the lines before tells where {} is (by G90), so nobody knows where the "
-                         "machine would be here",
-                         axis),
-               "begin a few lines later, or run it from its beginning");
+        refuse_start(
+            file,
+            line,
+            known.left()
+                ? fmt::format(
+                      "the lines before go to a machine position (G53, G28, G30), and none tells {} since",
+                      axis)
+                : fmt::format(
+                      "none of the lines before tells where {} is (by G90), so nobody knows where the "
+                      "machine would be here",
+                      axis),
+            "begin a few lines later, or run it from its beginning");
     }
     return reader.state();
 }
@@ -211,19 +212,19 @@ void check_state(const ModalState& state,
     constexpr int no_motion = 800;
     constexpr int last_cycle = 890;
     if (state.cutter.on()) {
-        refuse(file, line, "cutter compensation is on here (G41, G42)", "begin where it is off");
+        refuse_start(file, line, "cutter compensation is on here (G41, G42)", "begin where it is off");
     }
     if (state.motion >= first_cycle && state.motion <= last_cycle && state.motion != no_motion) {
-        refuse(file, line, "a canned cycle is in force here", "begin at its first line, or after G80");
+        refuse_start(file, line, "a canned cycle is in force here", "begin at its first line, or after G80");
     }
     if (state.constant_surface_speed) {
-        refuse(file, line, "constant surface speed is in force here (G96)");
+        refuse_start(file, line, "constant surface speed is in force here (G96)");
     }
     const std::string text = internal::bare_line(first_line);
     const bool straight = state.motion == 0 || state.motion == 10 || state.motion == no_motion;
     const bool names_motion = text.find('G') != std::string::npos;
     if (!straight && !names_motion) {
-        refuse(
+        refuse_start(
             file, line, "the line goes on with an arc or a spline", "begin at a line that names its motion");
     }
 }
@@ -272,7 +273,7 @@ double plunge_feed(const ModalState& state, const Watcher& watcher) {
 }
 
 /// What the way down has changed: motion, distance and feed as they were.
-void restore(const ModalState& state, double plunge, std::vector<std::string>& lines) {
+void restore_modes(const ModalState& state, double plunge, std::vector<std::string>& lines) {
     const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
     std::string line = state.motion == 0 ? "G0" : "G1";
     line += state.incremental ? " G91" : "";
@@ -306,19 +307,19 @@ approach(const ModalState& state, const Watcher& watcher, const RunFromSettings&
     const double plunge = plunge_feed(state, watcher);
     lines.push_back("G1 " + number_word('Z', state.position[z_axis]) + " " + number_word('F', plunge) +
                     (state.mist ? " M7" : ""));
-    restore(state, plunge, lines);
+    restore_modes(state, plunge, lines);
     return lines;
 }
 
 /// The approach stands above the line, each of its own in the place of one that is left out.
 void check_room(const std::vector<std::string>& before, const std::filesystem::path& file, int line) {
     if (line <= std::ssize(before)) {
-        refuse(file,
-               line,
-               fmt::format("the approach to this line takes {} lines, and {} stand above it",
-                           before.size(),
-                           line - 1),
-               "run it from its beginning");
+        refuse_start(file,
+                     line,
+                     fmt::format("the approach to this line takes {} lines, and {} stand above it",
+                                 before.size(),
+                                 line - 1),
+                     "run it from its beginning");
     }
 }
 
@@ -330,7 +331,7 @@ RunFrom run_from_line(std::string_view text,
                       const RunFromSettings& settings) {
     const std::vector<std::string_view> lines = lines_of(text);
     if (line < 1 || line > std::ssize(lines)) {
-        refuse(file, line, fmt::format("the program has {} lines", lines.size()));
+        refuse_start(file, line, fmt::format("the program has {} lines", lines.size()));
     }
     check_flow(lines, file);
     Watcher watcher;
@@ -340,7 +341,7 @@ RunFrom run_from_line(std::string_view text,
     const std::optional<double> clearance =
         settings.clearance ? std::optional(*settings.clearance / mm_of(state.unit)) : watcher.highest();
     if (!clearance || !(*clearance >= z)) {
-        refuse(
+        refuse_start(
             file,
             line,
             clearance

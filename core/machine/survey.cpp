@@ -148,7 +148,8 @@ std::size_t index_of(char letter) {
                                     gcode::axis_letters.begin());
 }
 
-AxisValues values_of(const kinematics::AxisPositions& axes, const std::vector<gcode::ProgramAxis>& letters) {
+AxisValues values_by_letter(const kinematics::AxisPositions& axes,
+                            const std::vector<gcode::ProgramAxis>& letters) {
     AxisValues values;
     for (Eigen::Index n = 0; n < axes.size() && n < std::ssize(letters); ++n) {
         const gcode::ProgramAxis& axis = letters[static_cast<std::size_t>(n)];
@@ -214,13 +215,13 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
     gcode::ReaderSettings reading;
     reading.dialect = settings.dialect;
     reading.any_tool = true;
-    reading.start = values_of(settings.start, settings.axes);
+    reading.start = values_by_letter(settings.start, settings.axes);
     constexpr int most_errors = 100;
     reading.most_errors = most_errors;
     const std::filesystem::path folder = file.parent_path();
     reading.subroutine_folders.push_back(folder.empty() ? "." : folder);
     for (const StoredOffset& offset : settings.offsets) {
-        const AxisValues values = values_of(offset.value, settings.axes);
+        const AxisValues values = values_by_letter(offset.value, settings.axes);
         const int first = first_parameter(offset.name);
         for (std::size_t n = 0; first > 0 && n < gcode::axis_count; ++n) {
             reading.parameters.emplace_back(first + static_cast<int>(n), values[n]);

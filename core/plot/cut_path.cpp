@@ -13,7 +13,7 @@
 namespace millwright::plot {
 namespace {
 
-void check(const CutSettings& settings) {
+void check_cut_settings(const CutSettings& settings) {
     const auto refuse = [](const Level& level, const std::string& what) {
         throw Error(fmt::format("pen {}: {}", level.pen, what));
     };
@@ -189,7 +189,7 @@ std::vector<Level> levels_for(const Strokes& strokes, const Level& like) {
 }
 
 CutPath cut_path(const Strokes& strokes, const CutSettings& settings) {
-    check(settings);
+    check_cut_settings(settings);
     std::vector<Level> levels = settings.levels;
     std::ranges::stable_sort(levels, {}, &Level::order);
     CutPathBuilder builder(settings);

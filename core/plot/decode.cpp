@@ -14,7 +14,7 @@
 namespace millwright::plot {
 namespace {
 
-void check(const DecodeSettings& settings) {
+void check_decode_settings(const DecodeSettings& settings) {
     const auto positive = [](double value, const char* what) {
         if (!(value > 0.0) || !std::isfinite(value)) {
             throw Error(fmt::format("the {} is {}; it has to be above 0", what, value));
@@ -267,7 +267,7 @@ private:
     std::vector<Vec3> points_;
 };
 
-void check(double fastest, const DecodeSettings& settings) {
+void check_decode_settings(double fastest, const DecodeSettings& settings) {
     const double most = std::max(
         {settings.velocity, settings.travel_velocity.value_or(0.0), settings.plunge_velocity.value_or(0.0)});
     if (!(fastest >= most && std::isfinite(fastest))) {
@@ -293,14 +293,14 @@ std::vector<Vec3> decoded(const Strokes& strokes,
 } // namespace
 
 std::vector<Vec3> decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start) {
-    check(settings);
+    check_decode_settings(settings);
     return decoded(strokes, settings, std::nullopt, start);
 }
 
 std::vector<Vec3>
 decode_within(double fastest, const Strokes& strokes, const DecodeSettings& settings, const Vec2& start) {
-    check(settings);
-    check(fastest, settings);
+    check_decode_settings(settings);
+    check_decode_settings(fastest, settings);
     return decoded(strokes, settings, fastest, start);
 }
 
@@ -308,9 +308,9 @@ std::vector<Vec3> decode_path(const CutPath& path,
                               const DecodeSettings& settings,
                               const std::optional<double>& fastest,
                               const Vec2& start) {
-    check(settings);
+    check_decode_settings(settings);
     if (fastest) {
-        check(*fastest, settings);
+        check_decode_settings(*fastest, settings);
     }
     const double above = path.empty() ? 0.0 : path.front().at.z();
     Decoder decoder(settings, fastest, {start.x(), start.y(), above});

@@ -79,7 +79,7 @@ void hatch_at(const Region& region, const LineFrame& frame, int pen, Strokes& st
     }
 }
 
-void check(const Region& region, const HatchSettings& settings) {
+void check_hatch_settings(const Region& region, const HatchSettings& settings) {
     if (!(settings.pitch > 0.0) || !std::isfinite(settings.pitch) || !std::isfinite(settings.angle) ||
         !is_finite(settings.origin)) {
         throw Error("a hatch needs a pitch above 0, and an angle and an origin that are numbers");
@@ -94,7 +94,7 @@ void check(const Region& region, const HatchSettings& settings) {
 } // namespace
 
 double line_count(const Region& region, const HatchSettings& settings) {
-    check(region, settings);
+    check_hatch_settings(region, settings);
     const LineFrame frame(settings, settings.angle);
     double low = 0.0;
     double high = 0.0;
@@ -111,7 +111,7 @@ double line_count(const Region& region, const HatchSettings& settings) {
 }
 
 Strokes hatch(const Region& region, const HatchSettings& settings, int pen) {
-    check(region, settings);
+    check_hatch_settings(region, settings);
     Strokes strokes;
     hatch_at(region, LineFrame(settings, settings.angle), pen, strokes);
     if (settings.cross) {

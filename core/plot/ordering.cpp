@@ -253,7 +253,7 @@ private:
 };
 
 /// The strokes of each pen, pens in the order in which they first draw.
-std::vector<std::vector<const Stroke*>> by_pen(const Strokes& strokes) {
+std::vector<std::vector<const Stroke*>> strokes_by_pen(const Strokes& strokes) {
     std::map<int, std::size_t> place;
     std::vector<std::vector<const Stroke*>> groups;
     for (const Stroke& stroke : strokes) {
@@ -272,7 +272,7 @@ Strokes ordered(const Strokes& strokes, const Vec2& start, const Vec2& end, cons
     Strokes found;
     found.reserve(strokes.size());
     Vec2 at = start;
-    for (const auto& group : by_pen(strokes)) {
+    for (const auto& group : strokes_by_pen(strokes)) {
         Tour tour(group, at, end);
         tour.nearest_neighbours(progress);
         tour.improve(progress);

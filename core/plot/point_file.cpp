@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
                                            : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::optional<double> number(std::string_view text) {
+std::optional<double> finite_number(std::string_view text) {
     text = trimmed(text);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -37,7 +37,7 @@ std::optional<Vec3> point(std::string_view line) {
         if ((comma == std::string_view::npos) != (axis == 2)) {
             return std::nullopt;
         }
-        const auto value = number(line.substr(0, comma));
+        const auto value = finite_number(line.substr(0, comma));
         if (!value) {
             return std::nullopt;
         }
@@ -59,7 +59,7 @@ std::string point_file_text(const std::vector<Vec3>& points, int decimals) {
 
 PointFile read_points(std::string_view text, const std::filesystem::path& file) {
     PointFile read;
-    for (int number = 1; !text.empty(); ++number) {
+    for (int finite_number = 1; !text.empty(); ++finite_number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
@@ -68,11 +68,11 @@ PointFile read_points(std::string_view text, const std::filesystem::path& file) 
         }
         if (const auto p = point(line)) {
             read.points.push_back(*p);
-            read.lines.push_back(number);
+            read.lines.push_back(finite_number);
         } else if (read.diagnostics.size() < most_diagnostics) {
             constexpr std::size_t most_shown = 60;
             read.diagnostics.push_back(
-                {.place = {.file = file, .line = number},
+                {.place = {.file = file, .line = finite_number},
                  .message = fmt::format("'{}' is no point", line.substr(0, most_shown)),
                  .hint = "three numbers with commas between: X, Y, Z"});
         }

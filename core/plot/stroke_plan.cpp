@@ -24,7 +24,7 @@ struct PenStrokes {
 };
 
 /// By pen, in the order in which they first draw.
-std::vector<std::pair<int, PenStrokes>> by_pen(const Strokes& strokes) {
+std::vector<std::pair<int, PenStrokes>> pen_strokes(const Strokes& strokes) {
     std::vector<std::pair<int, PenStrokes>> pens;
     for (const Level& level : levels_for(strokes)) {
         PenStrokes& found = pens.emplace_back(level.pen, PenStrokes()).second;
@@ -79,7 +79,7 @@ ShapedStrokes shaped(const Strokes& drawn, const StrokePlan& plan) {
     settings.side = plan.side;
     settings.corners = plan.corners;
     ShapedStrokes result;
-    for (auto& [pen, found] : by_pen(drawn)) {
+    for (auto& [pen, found] : pen_strokes(drawn)) {
         result.open += found.open.size();
         append(result.strokes, found.open);
         append(result.strokes, compensated(found.closed, settings, pen));
@@ -103,7 +103,7 @@ std::vector<Ring> link_bounds(const Strokes& drawn, const StrokePlan& plan) {
     std::vector<Ring> rings = closed_outlines(drawn);
     if (plan.side != CutterSide::on_line) {
         const double radius = plan.tool_diameter / 2.0;
-        for (const auto& [pen, found] : by_pen(drawn)) {
+        for (const auto& [pen, found] : pen_strokes(drawn)) {
             const Region kept =
                 offset(found.closed, plan.side == CutterSide::inside ? -radius : radius, plan.corners);
             rings.insert(rings.end(), kept.begin(), kept.end());

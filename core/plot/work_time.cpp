@@ -29,7 +29,7 @@ double seconds_of(const WorkTime& time, const TimeModel& model) {
 }
 
 /// By pen, as they stand.
-std::map<int, std::vector<const Stroke*>> by_pen(const Strokes& strokes) {
+std::map<int, std::vector<const Stroke*>> strokes_of_pens(const Strokes& strokes) {
     std::map<int, std::vector<const Stroke*>> pens;
     for (const Stroke& stroke : strokes) {
         pens[stroke.pen].push_back(&stroke);
@@ -55,7 +55,7 @@ WorkTime work_time(const Strokes& strokes,
                    const Vec2& start,
                    const Vec2& end) {
     expect_usable(model);
-    const auto pens = by_pen(strokes);
+    const auto pens = strokes_of_pens(strokes);
     std::vector<Level> in_order = levels;
     std::ranges::stable_sort(in_order, {}, &Level::order);
     WorkTime time;

@@ -1,6 +1,7 @@
 #include "core/project/assets.h"
 
 #include "core/base/error.h"
+#include "core/base/program_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,10 +64,7 @@ named_file(std::string_view kind, const std::string& name, const fs::path& folde
 
 fs::path assets_folder() {
     const char* named = std::getenv("MILLWRIGHT_ASSETS");
-    std::error_code failure;
-    return assets_folder({named == nullptr ? "" : named,
-                          fs::read_symlink("/proc/self/exe", failure),
-                          MILLWRIGHT_SOURCE_ASSETS});
+    return assets_folder({named == nullptr ? "" : named, executable(), MILLWRIGHT_SOURCE_ASSETS});
 }
 
 fs::path assets_folder(const AssetsSearch& search) {
@@ -76,13 +74,9 @@ fs::path assets_folder(const AssetsSearch& search) {
         }
         return search.named;
     }
-    for (fs::path above = search.executable.parent_path(); !above.empty(); above = above.parent_path()) {
-        if (is_assets(above / "assets")) {
-            return above / "assets";
-        }
-        if (above == above.root_path()) {
-            break;
-        }
+    if (const auto machines =
+            find_above(search.executable, {"assets/machines", "share/millwright/assets/machines"})) {
+        return machines->parent_path();
     }
     if (!is_assets(search.fallback)) {
         throw Error("the folder assets/ that ships with the program is not there",

@@ -9,15 +9,15 @@
 
 namespace millwright::project {
 
-/// The folder of what ships with the program: $MILLWRIGHT_ASSETS, else assets/ beside or above the
-/// executable, else the source tree's. Throws Error if none is there.
+/// The folder of what ships with the program: $MILLWRIGHT_ASSETS, else assets/ or share/millwright/assets/
+/// beside or above the executable, else the source tree's. Throws Error if there is none.
 [[nodiscard]] std::filesystem::path assets_folder();
 
 /// Where assets_folder looks.
 struct AssetsSearch {
     std::filesystem::path named;      ///< by the user; nothing else is tried unless empty
-    std::filesystem::path executable; ///< assets/ in its folder and in those above it
-    std::filesystem::path fallback;
+    std::filesystem::path executable; ///< its folder and those above it are searched
+    std::filesystem::path fallback;   ///< empty: none
 };
 [[nodiscard]] std::filesystem::path assets_folder(const AssetsSearch& search);
 

@@ -26,7 +26,8 @@ bool keeps_promise(const Evaluation& found,
 }
 
 /// One that cannot be made is none.
-std::optional<Evaluation> made(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
+std::optional<Evaluation>
+grid_if_possible(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
     try {
         return evaluation_by(by, uniform, progress);
     } catch (const Error&) {
@@ -52,7 +53,7 @@ Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Prog
     double from = chain;
     for (const GridMethod other : others) {
         const double to = from + (1.0 - chain) / static_cast<double>(others.size());
-        auto found = made({other, standard, by.workpiece}, uniform, progress.part(from, to));
+        auto found = grid_if_possible({other, standard, by.workpiece}, uniform, progress.part(from, to));
         from = to;
         if (!found || keeps_grid(*found, uniform) || !keeps_promise(*found, uniform, by.workpiece, gap) ||
             (kept && score(*found) >= score(best))) {

@@ -34,7 +34,7 @@ Json bites(const CutStudy& study) {
     return json;
 }
 
-Json local_gouges(const CutStudy& study) {
+Json local_gouges_json(const CutStudy& study) {
     Json json = Json::array();
     for (const LocalGouge& gouge : study.local_gouges) {
         Json entry;
@@ -79,7 +79,7 @@ std::string cut_report_text(const Project& project, const Plan& plan) {
     json["step_over_mm"] = std::isfinite(study.step_over) ? Json(rounded(study.step_over)) : Json();
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
     json["bites"] = bites(study);
-    json["local_gouges"] = local_gouges(study);
+    json["local_gouges"] = local_gouges_json(study);
     json["estimated_time_s"] = rounded(plan.trajectory->duration());
     return json_text(json);
 }

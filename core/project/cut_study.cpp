@@ -1,6 +1,7 @@
 #include "core/project/cut_study.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/geometry/outline_tree.h"
 #include "core/project/internal/cut_reach.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -21,8 +21,6 @@ namespace {
 using toolpath::MoveKind;
 using toolpath::PathPoint;
 using toolpath::Toolpath;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The contact's shape and the surface at one path point.
 struct Contact {
@@ -44,7 +42,7 @@ contact_at(const Workpiece& workpiece, const toolpath::Profile& cutter, const To
 }
 
 std::vector<LocalGouge>
-local_gouges(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path) {
+find_local_gouges(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path) {
     constexpr double flat = 1e-9; // 1/mm: a radius of a thousand kilometres
     std::vector<LocalGouge> found;
     for (std::size_t n = 0; n < path.points.size(); ++n) {
@@ -65,7 +63,7 @@ struct Stretch {
 
 /// The stretches of each track, in the order of the path: more than one where the surface is cut off, or was
 /// done before the rest.
-std::vector<std::vector<Stretch>> tracks_of(const Toolpath& path) {
+std::vector<std::vector<Stretch>> stretches_by_track(const Toolpath& path) {
     std::vector<std::vector<Stretch>> tracks;
     int last = 0;
     for (std::size_t n = 0; n < path.points.size(); ++n) {
@@ -101,7 +99,7 @@ double gap_to(const Toolpath& path, const std::vector<Stretch>& track, const Vec
 /// How far a point is from what was or will be cut beside it, mm; 0 where nothing is.
 class Gaps {
 public:
-    explicit Gaps(const Toolpath& path) : path_(path), tracks_(tracks_of(path)) {
+    explicit Gaps(const Toolpath& path) : path_(path), tracks_(stretches_by_track(path)) {
         if (tracks_.size() != 1) {
             return;
         }
@@ -208,7 +206,8 @@ sweep_settings(const grid::Grid& grid, const toolpath::Profile& cutter, double h
 }
 
 /// Of the points inside `trim`.
-ScallopFigures figures_of(const toolpath::SweptCut& swept, const geometry::Trim& trim, double by_formula) {
+ScallopFigures
+scallop_figures(const toolpath::SweptCut& swept, const geometry::Trim& trim, double by_formula) {
     ScallopFigures figures;
     figures.by_formula = by_formula;
     std::vector<double> left;
@@ -268,7 +267,7 @@ CutStudy study(const Workpiece& workpiece,
         throw Error("the tool is a point, which leaves nothing and fits everywhere");
     }
     CutStudy study;
-    study.local_gouges = local_gouges(workpiece, *tool.cutter, path.toolpath);
+    study.local_gouges = find_local_gouges(workpiece, *tool.cutter, path.toolpath);
     const Ridges ridges = ridges_of(workpiece, *tool.cutter, path.toolpath, input.scallop_mm);
     study.step_over = ridges.step_over;
     progress.report(0.0, "Sweeping the tool over the surface");
@@ -280,7 +279,7 @@ CutStudy study(const Workpiece& workpiece,
                                       moves.moves,
                                       sweep_settings(path.outcome.grid, *tool.cutter, ridges.highest),
                                       progress);
-    study.scallops = figures_of(study.swept, workpiece.trim, ridges.highest);
+    study.scallops = scallop_figures(study.swept, workpiece.trim, ridges.highest);
     add_bites(study, listing, moves.blocks, input.gouge_limit_mm);
     return study;
 }

@@ -36,7 +36,7 @@ grid::Field field_of(const JsonValue& value) {
     return field;
 }
 
-Json json_of(const grid::Field& field) {
+Json field_json(const grid::Field& field) {
     Json rows = Json::array();
     for (int i = 0; i < field.rows; ++i) {
         Json row = Json::array();
@@ -68,7 +68,7 @@ grid::Region region_of(const JsonValue& value) {
     return region;
 }
 
-Json json_of(const grid::Region& region) {
+Json region_json(const grid::Region& region) {
     Json json;
     json["outline"] = Json::array();
     for (const Vec2& corner : region.outline) {
@@ -78,7 +78,7 @@ Json json_of(const grid::Region& region) {
     return json;
 }
 
-Json json_of(const grid::MixSettings& mix) {
+Json mix_json(const grid::MixSettings& mix) {
     Json json;
     add_numbers<grid::MixSettings>(json, mix_numbers(), mix);
     json["combination"] = row_of(combinations(), mix.combination).id;
@@ -125,13 +125,13 @@ Json json_of(const EllipticInput& input) {
     json["weight"] = row_of(weight_sources(), input.weight).id;
     json["expression"] = input.expression;
     if (input.mix != grid::MixSettings{}) {
-        json["mix"] = json_of(input.mix);
+        json["mix"] = mix_json(input.mix);
     }
     if (input.painted) {
-        json["painted"] = json_of(*input.painted);
+        json["painted"] = field_json(*input.painted);
     }
     if (!(input.region == grid::Region{})) {
-        json["region"] = json_of(input.region);
+        json["region"] = region_json(input.region);
     }
     if (input.solver != EllipticInput{}.solver) {
         json["solver"] = row_of(elliptic_solvers(), input.solver).id;

@@ -18,7 +18,7 @@ namespace {
 
 using grid::Track;
 
-Workpiece workpiece_of(const FewestPointsCase& of, const Folders& folders) {
+Workpiece workpiece_of_case(const FewestPointsCase& of, const Folders& folders) {
     Project project = project_from_preset(of.surface);
     project.machine.file = of.machine;
     project.grid.direction = grid::TrackDirection::along_u;
@@ -112,7 +112,7 @@ void add(std::optional<int>& sum, const std::optional<int>& more) {
     sum = sum && more ? std::optional(*sum + *more) : std::nullopt;
 }
 
-std::string text_of(const std::optional<int>& count) {
+std::string count_text(const std::optional<int>& count) {
     return count ? fmt::format("{}", *count) : std::string();
 }
 
@@ -124,7 +124,7 @@ std::vector<FewestPointsRow> fewest_points(const FewestPointsCase& of,
                                            const Progress& progress) {
     expects(of.tracks >= 1 && of.tracks <= 1000, "a study has 1 to 1000 tracks");
     expects(std::ranges::all_of(tolerances, [](double t) { return t > 0.0; }), "a tolerance is positive");
-    const toolpath::KinematicError model = workpiece_of(of, folders).error_model();
+    const toolpath::KinematicError model = workpiece_of_case(of, folders).error_model();
     const std::vector<Track> tracks = tracks_of(of);
     const auto per_row = std::ssize(tracks);
     const auto jobs = std::ssize(tolerances) * per_row;
@@ -161,8 +161,8 @@ std::string fewest_points_csv(const FewestPointsCase& of, std::span<const Fewest
                             of.machine,
                             of.tracks,
                             row.tolerance,
-                            text_of(row.uniform),
-                            text_of(row.fewest),
+                            count_text(row.uniform),
+                            count_text(row.fewest),
                             row.largest,
                             to_degrees(row.largest_axis));
     }

@@ -11,7 +11,7 @@ namespace millwright::project {
 
 namespace {
 
-Evaluation made(const GridMaking& by, const Progress& progress) {
+Evaluation evaluated_grid(const GridMaking& by, const Progress& progress) {
     const toolpath::KinematicError error = by.workpiece.error_model();
     const auto improver = make_improver(by.method, by.input, error, by.effort);
     constexpr double measuring = 0.9; // share of the improvement
@@ -31,7 +31,7 @@ std::string refusal(const Evaluation& found, const Evaluation& uniform, bool tur
 } // namespace
 
 Evaluation evaluation_by(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
-    Evaluation found = made(by, progress);
+    Evaluation found = evaluated_grid(by, progress);
     if (!is_worse(found, uniform, by.workpiece.machine)) {
         return found;
     }

@@ -50,7 +50,7 @@ constexpr std::array<NumberSetting<RedistributionInput>, 2> of_redistribution{{
      field<&RedistributionInput::smoothing_passes>},
 }};
 
-constexpr std::array<NumberSetting<grid::Region>, 1> of_region{{
+constexpr std::array<NumberSetting<grid::Region>, 1> numbers_of_region{{
     {"border_mm",
      "Border",
      "mm",
@@ -289,7 +289,7 @@ std::span<const NumberSetting<RedistributionInput>> redistribution_numbers() {
     return of_redistribution;
 }
 std::span<const NumberSetting<grid::Region>> region_numbers() {
-    return of_region;
+    return numbers_of_region;
 }
 bool is_of_harmonic_map(std::string_view id) {
     return id != "adaptation" && id != "orthogonality";

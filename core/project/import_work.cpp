@@ -13,7 +13,7 @@ namespace millwright::project {
 
 namespace {
 
-std::string name_of(const std::filesystem::path& file) {
+std::string file_name(const std::filesystem::path& file) {
     return file.filename().string();
 }
 
@@ -30,7 +30,7 @@ public:
             found.file = file;
             found.choice = choice;
             found.failure = failure_of([&] {
-                progress.report(0.0, fmt::format("Reading {}", name_of(file)));
+                progress.report(0.0, fmt::format("Reading {}", file_name(file)));
                 found.source =
                     std::make_shared<const ImportSource>(read_source(file, progress.part(0.0, 0.5)));
                 make(found, progress.part(0.5, 1.0));
@@ -68,7 +68,7 @@ public:
 private:
     /// Where the choice cannot be made the file is looked at all the same.
     static void make(ImportResult& found, const Progress& progress) {
-        progress.report(0.0, fmt::format("Importing {}", name_of(found.file)));
+        progress.report(0.0, fmt::format("Importing {}", file_name(found.file)));
         const auto look = [&] {
             found.reference = std::make_shared<const ReferenceMesh>(
                 reference_mesh(*found.source, found.choice, found.surface.get(), progress));

@@ -51,13 +51,6 @@ void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
     imported.fit = std::move(fit);
 }
 
-TriangleMesh scaled(TriangleMesh mesh, double factor) {
-    for (Vec3& point : mesh.points) {
-        point *= factor;
-    }
-    return mesh;
-}
-
 ImportedSurface
 import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
@@ -150,7 +143,9 @@ const CadFace& chosen_face(const exchange::CadModel& model, const std::filesyste
 }
 
 /// Before it is fitted, which makes noise of it.
-void check_size(const exchange::TriangleMesh& mesh, double mm_per_unit, const std::filesystem::path& file) {
+void check_imported_size(const exchange::TriangleMesh& mesh,
+                         double mm_per_unit,
+                         const std::filesystem::path& file) {
     const double size = mm_per_unit * size_of(mesh.points);
     if (const std::string fault = fault_of_size(size); !fault.empty()) {
         throw Error("the mesh " + fault, file, question_of_unit(size / mm_per_unit));
@@ -158,7 +153,9 @@ void check_size(const exchange::TriangleMesh& mesh, double mm_per_unit, const st
 }
 
 /// Throws Error with `hint` about what is too small.
-void check_size(const ImportedSurface& imported, const std::string& hint, const std::filesystem::path& file) {
+void check_imported_size(const ImportedSurface& imported,
+                         const std::string& hint,
+                         const std::filesystem::path& file) {
     std::vector<Vec3> points;
     for (const geometry::ControlNet& net : imported.surface.patches) {
         points.insert(points.end(), net.points.begin(), net.points.end());
@@ -174,7 +171,7 @@ void tell(ImportedSurface& imported, std::string doubt) {
     }
 }
 
-std::string question_of_unit(const CadModel& model) {
+std::string question_of_cad_unit(const CadModel& model) {
     return fmt::format("is the unit that the file names, {}, right?", model.unit);
 }
 
@@ -227,7 +224,7 @@ std::string doubt_of_size(const CadModel& model) {
     }
     const double size = box.isEmpty() ? doubtful_mm : box.sizes().maxCoeff();
     return size < doubtful_mm
-               ? fmt::format("all of it is only {:.3g} mm large: {}", size, question_of_unit(model))
+               ? fmt::format("all of it is only {:.3g} mm large: {}", size, question_of_cad_unit(model))
                : std::string();
 }
 
@@ -253,7 +250,7 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
     ImportedSurface imported;
     if (source.mesh) {
         check_reach(source.mesh->mesh, choice.mm_per_unit, source.file);
-        check_size(source.mesh->mesh, choice.mm_per_unit, source.file);
+        check_imported_size(source.mesh->mesh, choice.mm_per_unit, source.file);
         imported = import_mesh(*source.mesh, choice, progress);
         const double unit = choice.mm_per_unit;
         tell(imported, doubt_of_size(unit * size_of(source.mesh->mesh.points), unit));
@@ -262,7 +259,7 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
         const exchange::CadModel& model = *source.model;
         imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());
         imported.notes.insert(imported.notes.end(), model.left_out.begin(), model.left_out.end());
-        check_size(imported, question_of_unit(model), source.file);
+        check_imported_size(imported, question_of_cad_unit(model), source.file);
         tell(imported, doubt_of_size(model));
     }
     check_reach(imported, source.file);

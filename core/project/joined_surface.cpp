@@ -12,8 +12,8 @@ namespace millwright::project {
 
 namespace {
 
-std::vector<geometry::SeamFigures> figures_of(const std::vector<geometry::BezierPatch>& patches,
-                                              const std::vector<geometry::Seam>& seams) {
+std::vector<geometry::SeamFigures> seam_figures(const std::vector<geometry::BezierPatch>& patches,
+                                                const std::vector<geometry::Seam>& seams) {
     std::vector<geometry::SeamFigures> figures;
     for (const geometry::Seam& seam : seams) {
         figures.push_back(geometry::figures_of(patches, seam));
@@ -77,8 +77,8 @@ JoinedSurface joined_surface(const SurfaceInput& surface, geometry::Continuity c
         refuse(patches, gap_mm);
     }
     const geometry::Joined joined = geometry::joined(patches, result.seams, continuity);
-    result.before = figures_of(patches, result.seams);
-    result.after = figures_of(joined.patches, result.seams);
+    result.before = seam_figures(patches, result.seams);
+    result.after = seam_figures(joined.patches, result.seams);
     result.open =
         open_seams(patches, result.seams); // joining moves corners: what is open was too wide before
     result.largest_move = joined.largest_move;

@@ -35,7 +35,8 @@ Project project_of(const StudyCase& of) {
     return project;
 }
 
-StudyFigures figures_of(const Evaluation& evaluation, const Workpiece& workpiece, const Progress& progress) {
+StudyFigures
+study_figures(const Evaluation& evaluation, const Workpiece& workpiece, const Progress& progress) {
     return {evaluation.closest,
             evaluation.track_gap.value(), // of a zigzag
             evaluation.path_length,
@@ -74,7 +75,7 @@ public:
           uniform_(evaluate(workpiece_, uniform_outcome(input_), report_sampling, progress)) {}
 
     [[nodiscard]] StudyRow uniform_row(StudyMethod method, const Progress& progress) const {
-        return {of_, method, figures_of(uniform_, workpiece_, progress), {}};
+        return {of_, method, study_figures(uniform_, workpiece_, progress), {}};
     }
     [[nodiscard]] StudyRow
     improved_row(StudyMethod method, GridMethod grid_method, const Progress& progress) const {
@@ -114,7 +115,7 @@ private:
     }
     [[nodiscard]] StudyRow
     row_of(StudyMethod method, const Evaluation& found, const Progress& progress) const {
-        return {of_, method, figures_of(found, workpiece_, progress), found.outcome.note};
+        return {of_, method, study_figures(found, workpiece_, progress), found.outcome.note};
     }
     [[nodiscard]] StudyRow
     row_of_grid(StudyMethod method, const Evaluation& found, const Progress& progress) const {
@@ -129,7 +130,7 @@ private:
     Evaluation uniform_;
 };
 
-double score(const StudyRow& row) {
+double row_score(const StudyRow& row) {
     return row.figures->error.max * row.figures->error.mean;
 }
 
@@ -138,7 +139,7 @@ double score(const StudyRow& row) {
 void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
     const grid::ErrorSummary& before = unmoved.figures->error;
     const grid::ErrorSummary& now = row.figures->error;
-    if (!(now.mean <= before.mean && score(row) < (1.0 - visible_gain) * score(unmoved))) {
+    if (!(now.mean <= before.mean && row_score(row) < (1.0 - visible_gain) * row_score(unmoved))) {
         row.figures = unmoved.figures;
         row.no_gain = true;
         row.note =
@@ -161,7 +162,7 @@ void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
     }
 }
 
-const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
+const StudyRow& row_with(const std::vector<StudyRow>& rows, StudyMethod method) {
     return *std::ranges::find(rows, method, &StudyRow::method);
 }
 
@@ -170,17 +171,17 @@ std::vector<StudyRow>
 rows_there(const Bench& there, const std::vector<StudyRow>& unmoved, const Progress& progress) {
     StudyRow uniform = there.uniform_row(StudyMethod::set_up, progress.part(0.0, 0.0));
     auto [chain, sequenced] = there.chain_rows(StudyMethod::set_up_chain, StudyMethod::everything, progress);
-    compare_with_unmoved(uniform, row_of(unmoved, StudyMethod::uniform));
-    compare_with_unmoved(chain, row_of(unmoved, StudyMethod::chain));
-    const StudyRow& without = row_of(unmoved, StudyMethod::sequencing);
-    compare_with_unmoved(sequenced, score(chain) < score(without) ? chain : without);
+    compare_with_unmoved(uniform, row_with(unmoved, StudyMethod::uniform));
+    compare_with_unmoved(chain, row_with(unmoved, StudyMethod::chain));
+    const StudyRow& without = row_with(unmoved, StudyMethod::sequencing);
+    compare_with_unmoved(sequenced, row_score(chain) < row_score(without) ? chain : without);
     return {std::move(uniform), std::move(chain), std::move(sequenced)};
 }
 
 /// The same where no place is better: the part stays.
 std::vector<StudyRow> unmoved_rows(const std::vector<StudyRow>& rows) {
     const auto kept = [&](StudyMethod method, StudyMethod without) {
-        StudyRow row = row_of(rows, without);
+        StudyRow row = row_with(rows, without);
         row.method = method;
         row.note = "No place on the table changes the error by more than rounding: the part stays.";
         row.no_gain = true;

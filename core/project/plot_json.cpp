@@ -18,7 +18,7 @@ plot::Level level_of(const JsonValue& value) {
     return level;
 }
 
-Json json_of(const plot::Level& level) {
+Json level_json(const plot::Level& level) {
     Json json;
     json["pen"] = level.pen;
     json["enabled"] = level.enabled;
@@ -120,10 +120,10 @@ Json json_of(const PlotInput& plot) {
     if (!settings.spindle_rpm) {
         json.erase("spindle_rpm");
     }
-    json["usual_level"] = json_of(settings.level);
+    json["usual_level"] = level_json(settings.level);
     json["levels"] = Json::array();
     for (const plot::Level& level : settings.levels) {
-        json["levels"].push_back(json_of(level));
+        json["levels"].push_back(level_json(level));
     }
     json["through"] = settings.through;
     json["machine"] = settings.machine;

@@ -22,7 +22,7 @@ using plot::ToolTip;
 using plot::TraceSettings;
 
 constexpr auto hpgl = &PlotSettings::hpgl;
-constexpr auto size = &PlotSettings::size;
+constexpr auto plot_size = &PlotSettings::size;
 constexpr auto strokes = &PlotSettings::strokes;
 constexpr auto tip = &PlotSettings::tip;
 constexpr auto tracing = &PlotSettings::tracing;
@@ -40,7 +40,7 @@ inline constexpr NumberField<PlotSettings> of_spindle{
 
 /// All of them 0: the whole picture.
 template <int PixelRegion::*side>
-inline constexpr NumberField<PlotSettings> of_region{
+inline constexpr NumberField<PlotSettings> of_picture_region{
     [](const PlotSettings& settings) {
         return static_cast<double>(settings.picture.region.value_or(PixelRegion{}).*side);
     },
@@ -83,7 +83,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      0.0,
      2000.0,
      1,
-     maybe<size, &PictureSize::width>},
+     maybe<plot_size, &PictureSize::width>},
     {"dpi",
      "Pixels an inch",
      "",
@@ -91,7 +91,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      0.0,
      100'000.0,
      1,
-     maybe<size, &PictureSize::dots_per_inch>},
+     maybe<plot_size, &PictureSize::dots_per_inch>},
     {"pixel_mm",
      "A pixel",
      "mm",
@@ -99,7 +99,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      0.0,
      100.0,
      4,
-     maybe<size, &PictureSize::pixel>},
+     maybe<plot_size, &PictureSize::pixel>},
     {"region_left_px",
      "From the left",
      "px",
@@ -107,7 +107,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      0,
      1e6,
      0,
-     of_region<&PixelRegion::left>},
+     of_picture_region<&PixelRegion::left>},
     {"region_top_px",
      "From the top",
      "px",
@@ -115,9 +115,23 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      0,
      1e6,
      0,
-     of_region<&PixelRegion::top>},
-    {"region_width_px", "Wide", "px", "0: up to the right edge", 0, 1e6, 0, of_region<&PixelRegion::width>},
-    {"region_height_px", "High", "px", "0: up to the lower edge", 0, 1e6, 0, of_region<&PixelRegion::height>},
+     of_picture_region<&PixelRegion::top>},
+    {"region_width_px",
+     "Wide",
+     "px",
+     "0: up to the right edge",
+     0,
+     1e6,
+     0,
+     of_picture_region<&PixelRegion::width>},
+    {"region_height_px",
+     "High",
+     "px",
+     "0: up to the lower edge",
+     0,
+     1e6,
+     0,
+     of_picture_region<&PixelRegion::height>},
     {"threshold",
      "Dark up to",
      "",

@@ -79,7 +79,7 @@ void check_trims(Faults& faults, const SurfaceInput& surface) {
 }
 
 /// Of what is machined alone: beside it a patch may be as narrow as the program that made it liked.
-void check_size(Faults& faults, const SurfaceInput& surface) {
+void check_part_size(Faults& faults, const SurfaceInput& surface) {
     const int patch = surface.machined_patch;
     if (patch < 0 || patch >= std::ssize(surface.patches)) {
         return;
@@ -101,7 +101,7 @@ void check_surface(Faults& faults, const SurfaceInput& surface) {
             faults, fmt::format("surface/patches[{}]", n), surface.patches[static_cast<std::size_t>(n)]);
     }
     check_trims(faults, surface);
-    check_size(faults, surface);
+    check_part_size(faults, surface);
     if (surface.machined_patch < 0 || surface.machined_patch >= std::max(count, 1)) {
         faults.push_back(fmt::format("surface/machined_patch: there is no patch {} among {}, counted from 0",
                                      surface.machined_patch,

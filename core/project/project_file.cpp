@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format_name = "millwright-project";
-constexpr int format_version = 1;
+constexpr std::string_view project_format_name = "millwright-project";
+constexpr int project_format_version = 1;
 
 Vec3 point(const JsonValue& value) {
     const auto items = value.items(3);
@@ -37,7 +37,7 @@ Vec3 point(const JsonValue& value) {
 }
 
 /// The elements of a list of equally long lists, row by row.
-std::vector<std::vector<JsonValue>> table(const JsonValue& value) {
+std::vector<std::vector<JsonValue>> rows_of_table(const JsonValue& value) {
     std::vector<std::vector<JsonValue>> rows;
     for (const JsonValue& row : value.items()) {
         rows.push_back(rows.empty() ? row.items() : row.items(rows.front().size()));
@@ -74,12 +74,12 @@ geometry::Trim trim(const JsonValue& value) {
 
 geometry::ControlNet net(const JsonValue& value) {
     value.expect_only({"points", "weights", "trim"});
-    const auto points = table(value.at("points"));
+    const auto points = rows_of_table(value.at("points"));
     const int rows = static_cast<int>(points.size());
     const int columns = static_cast<int>(points.front().size());
     geometry::ControlNet result = geometry::ControlNet::sized(rows, columns);
     const auto weights = value.find("weights");
-    const auto weight_rows = weights ? table(*weights) : std::vector<std::vector<JsonValue>>{};
+    const auto weight_rows = weights ? rows_of_table(*weights) : std::vector<std::vector<JsonValue>>{};
     if (weights &&
         (weight_rows.size() != points.size() || weight_rows.front().size() != points.front().size())) {
         weights->fail(fmt::format("expected {} x {} weights, one a point", rows, columns));
@@ -114,7 +114,7 @@ void expect_size(const JsonValue& machined, const SurfaceInput& surface) {
     }
 }
 
-SurfaceInput surface(const JsonValue& value) {
+SurfaceInput read_surface(const JsonValue& value) {
     value.expect_only({"preset", "patches", "machined_patch", "flipped"});
     SurfaceInput result;
     if (const auto preset = value.find("preset")) {
@@ -143,7 +143,7 @@ SurfaceInput surface(const JsonValue& value) {
     return result;
 }
 
-MachineInput machine(const JsonValue& value) {
+MachineInput read_machine(const JsonValue& value) {
     value.expect_only({"file", "workpiece_offset", "angle_mode"});
     MachineInput result;
     result.file = value.at("file").text();
@@ -219,7 +219,7 @@ SequencingInput sequencing(const JsonValue& value) {
     return result;
 }
 
-ProgramInput program(const JsonValue& value) {
+ProgramInput read_program(const JsonValue& value) {
     expect_fields<ProgramInput>(value, program_numbers(), {"link"});
     ProgramInput result;
     read_numbers<ProgramInput>(value, program_numbers(), result);
@@ -251,14 +251,14 @@ Project project(const JsonValue& root, const fs::path& folder) {
                       "program",
                       "plot",
                       "arm"});
-    if (root.at("format").text() != format_name) {
-        root.at("format").fail("not a project file", fmt::format("expected \"{}\"", format_name));
+    if (root.at("format").text() != project_format_name) {
+        root.at("format").fail("not a project file", fmt::format("expected \"{}\"", project_format_name));
     }
-    (void)root.at("version").integer(format_version, format_version);
+    (void)root.at("version").integer(project_format_version, project_format_version);
     Project result;
     result.name = root.at("name").text();
-    result.surface = surface(root.at("surface"));
-    result.machine = machine(root.at("machine"));
+    result.surface = read_surface(root.at("surface"));
+    result.machine = read_machine(root.at("machine"));
     if (const auto value = root.find("tool")) {
         result.tool = tool_from(*value);
     }
@@ -272,7 +272,7 @@ Project project(const JsonValue& root, const fs::path& folder) {
         result.sequencing = sequencing(*value);
     }
     if (const auto value = root.find("program")) {
-        result.program = program(*value);
+        result.program = read_program(*value);
     }
     if (const auto value = root.find("plot")) {
         result.plot = plot_of(*value);
@@ -282,10 +282,6 @@ Project project(const JsonValue& root, const fs::path& folder) {
         result.arm = arm_of(*value);
     }
     return result;
-}
-
-Json json_of(const Vec3& p) {
-    return Json::array({p.x(), p.y(), p.z()});
 }
 
 template <class Of> Json table_of(const geometry::ControlNet& net, Of of) {
@@ -300,9 +296,9 @@ template <class Of> Json table_of(const geometry::ControlNet& net, Of of) {
     return rows;
 }
 
-Json json_of(const geometry::ControlNet& net) {
+Json net_json(const geometry::ControlNet& net) {
     Json json;
-    json["points"] = table_of(net, [&](int i, int j) { return json_of(net.point(i, j)); });
+    json["points"] = table_of(net, [&](int i, int j) { return point_json(net.point(i, j)); });
     const auto is_one = [](double weight) { return exactly_equal(weight, 1.0); };
     if (!std::all_of(net.weights.begin(), net.weights.end(), is_one)) {
         json["weights"] = table_of(net, [&](int i, int j) { return net.weight(i, j); });
@@ -310,7 +306,7 @@ Json json_of(const geometry::ControlNet& net) {
     return json;
 }
 
-Json json_of(const geometry::Trim& trim) {
+Json trim_json(const geometry::Trim& trim) {
     Json loops = Json::array();
     for (const geometry::Trim::Loop& loop : trim.loops) {
         Json corners = Json::array();
@@ -322,17 +318,17 @@ Json json_of(const geometry::Trim& trim) {
     return loops;
 }
 
-Json json_of(const SurfaceInput& surface) {
+Json surface_input_json(const SurfaceInput& surface) {
     Json json;
     if (!surface.preset.empty()) {
         json["preset"] = surface.preset;
     }
     json["patches"] = Json::array();
     for (const geometry::ControlNet& net : surface.patches) {
-        json["patches"].push_back(json_of(net));
+        json["patches"].push_back(net_json(net));
         const std::size_t n = json["patches"].size() - 1;
         if (n < surface.trims.size() && !surface.trims[n].everything()) {
-            json["patches"].back()["trim"] = json_of(surface.trims[n]);
+            json["patches"].back()["trim"] = trim_json(surface.trims[n]);
         }
     }
     json["machined_patch"] = surface.machined_patch;
@@ -340,17 +336,17 @@ Json json_of(const SurfaceInput& surface) {
     return json;
 }
 
-Json json_of(const MachineInput& machine) {
+Json machine_input_json(const MachineInput& machine) {
     Json json;
     json["file"] = machine.file;
     if (machine.workpiece_offset) {
-        json["workpiece_offset"] = json_of(*machine.workpiece_offset);
+        json["workpiece_offset"] = point_json(*machine.workpiece_offset);
     }
     json["angle_mode"] = row_of(angle_modes(), machine.angle_mode).id;
     return json;
 }
 
-Json json_of(const GridInput& grid) {
+Json grid_input_json(const GridInput& grid) {
     Json json;
     add_numbers<GridInput>(json, grid_numbers(), grid);
     json["direction"] = row_of(track_directions(), grid.direction).id;
@@ -365,21 +361,21 @@ Json json_of(const GridInput& grid) {
     return json;
 }
 
-Json json_of(const ToolpathInput& toolpath) {
+Json toolpath_input_json(const ToolpathInput& toolpath) {
     Json json;
     json["strategy"] = row_of(strategies(), toolpath.strategy).id;
     add_numbers<ToolpathInput>(json, toolpath_numbers(), toolpath);
     return json;
 }
 
-Json json_of(const SequencingInput& sequencing) {
+Json sequencing_input_json(const SequencingInput& sequencing) {
     Json json;
     json["goal"] = row_of(sequencing_goals(), sequencing.goal).id;
     add_numbers<SequencingInput>(json, sequencing_numbers(), sequencing);
     return json;
 }
 
-Json json_of(const ProgramInput& program) {
+Json program_input_json(const ProgramInput& program) {
     Json json;
     add_numbers<ProgramInput>(json, program_numbers(), program);
     json["link"] = row_of(links(), program.link).id;
@@ -401,22 +397,22 @@ std::string project_text(const Project& project) {
         throw Error(faults.front());
     }
     Json json;
-    json["format"] = format_name;
-    json["version"] = format_version;
+    json["format"] = project_format_name;
+    json["version"] = project_format_version;
     json["name"] = project.name;
-    json["surface"] = json_of(project.surface);
-    json["machine"] = json_of(project.machine);
+    json["surface"] = surface_input_json(project.surface);
+    json["machine"] = machine_input_json(project.machine);
     if (!(project.tool == ToolInput{})) {
         json["tool"] = json_of(project.tool);
     }
-    json["grid"] = json_of(project.grid);
+    json["grid"] = grid_input_json(project.grid);
     if (!(project.toolpath == ToolpathInput{})) {
-        json["toolpath"] = json_of(project.toolpath);
+        json["toolpath"] = toolpath_input_json(project.toolpath);
     }
     if (!(project.sequencing == SequencingInput{})) {
-        json["sequencing"] = json_of(project.sequencing);
+        json["sequencing"] = sequencing_input_json(project.sequencing);
     }
-    json["program"] = json_of(project.program);
+    json["program"] = program_input_json(project.program);
     if (!(project.plot == PlotInput{})) {
         json["plot"] = json_of(project.plot);
     }

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format_name = "millwright-recovery";
-constexpr int format_version = 1;
+constexpr std::string_view recovery_format_name = "millwright-recovery";
+constexpr int recovery_format_version = 1;
 
 fs::path lock_of(fs::path copy) {
     return copy.replace_extension(".lock");
@@ -35,8 +35,8 @@ std::int64_t time_of(const LeftBehind& left) {
 
 std::string recovery_text(const UnsavedWork& work) {
     nlohmann::ordered_json json;
-    json["format"] = format_name;
-    json["version"] = format_version;
+    json["format"] = recovery_format_name;
+    json["version"] = recovery_format_version;
     json["file"] = work.file.string();
     json["time"] = work.time_s;
     json["project"] = project_text(work.project);
@@ -46,10 +46,10 @@ std::string recovery_text(const UnsavedWork& work) {
 UnsavedWork read_recovery(const fs::path& copy) {
     const JsonValue json = JsonValue::read(copy);
     json.expect_only({"format", "version", "file", "time", "project"});
-    if (json.at("format").text() != format_name) {
+    if (json.at("format").text() != recovery_format_name) {
         json.at("format").fail("this is no copy of unsaved work");
     }
-    (void)json.at("version").integer(format_version, format_version);
+    (void)json.at("version").integer(recovery_format_version, recovery_format_version);
     constexpr double latest = 1e11; // s; the year 5138
     UnsavedWork work;
     work.file = json.at("file").text();

@@ -130,13 +130,6 @@ void add_faces_but(ReferenceMesh& reference,
     }
 }
 
-TriangleMesh scaled(TriangleMesh mesh, double factor) {
-    for (Vec3& point : mesh.points) {
-        point *= factor;
-    }
-    return mesh;
-}
-
 } // namespace
 
 ReferenceMesh reference_mesh(const ImportSource& source,

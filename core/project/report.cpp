@@ -147,7 +147,7 @@ Json all_errors(const Project& project, const Plan& plan) {
     return json;
 }
 
-Json surface(const Project& project, const Plan& plan) {
+Json surface_json(const Project& project, const Plan& plan) {
     const geometry::BezierPatch& patch = plan.workpiece->patch;
     Json json;
     json["preset"] = project.surface.preset;
@@ -161,7 +161,7 @@ Json surface(const Project& project, const Plan& plan) {
     return json;
 }
 
-Json machine(const Project& project, const Plan& plan) {
+Json machine_json(const Project& project, const Plan& plan) {
     const kinematics::MachineModel& model = plan.workpiece->machine;
     Json json;
     json["file"] = project.machine.file;
@@ -226,7 +226,7 @@ Json singular_points(const Plan& plan) {
     return json;
 }
 
-Json program(const Plan& plan) {
+Json program_json(const Plan& plan) {
     const gcode::PostNotes& notes = plan.program_notes;
     Json json;
     json["blocks"] = plan.program->block_count();
@@ -254,8 +254,8 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["version"] = 1;
     json["made_by"] = "Millwright " + std::string(version());
     json["project"] = project.name;
-    json["surface"] = surface(project, plan);
-    json["machine"] = machine(project, plan);
+    json["surface"] = surface_json(project, plan);
+    json["machine"] = machine_json(project, plan);
     json["tool"] = tool(project.tool);
     json["grid"] = grid_json(project, chosen);
     json["error"] = all_errors(project, plan);
@@ -267,7 +267,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(chosen.closest.axis_max));
     json["axis_deviation_deg"]["mean"] = rounded(to_degrees(chosen.closest.axis_mean));
     json["remarks"] = path_remarks(project, plan);
-    json["program"] = program(plan);
+    json["program"] = program_json(plan);
     if (plan.cut) {
         json["cut"] = cut(*plan.cut);
     }

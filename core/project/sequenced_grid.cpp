@@ -19,7 +19,7 @@ namespace {
 
 using toolpath::SequencingGoal;
 
-std::string_view name_of(SequencingGoal goal) {
+std::string_view goal_name(SequencingGoal goal) {
     return goal == SequencingGoal::error ? "the branches of least error" : "the nearest branches";
 }
 
@@ -78,7 +78,7 @@ with_the_way(std::string note, const Evaluation& found, const Evaluation& unifor
             with_sentence(std::move(note),
                           fmt::format("By the goal of the sequencing its path would be worse than that over "
                                       "the uniform grid; it follows {}.",
-                                      name_of(found.goal)));
+                                      goal_name(found.goal)));
     }
     if (const std::string added = added_points_sentence(found); !added.empty()) {
         note = with_sentence(std::move(note), added);

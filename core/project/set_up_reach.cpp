@@ -17,7 +17,7 @@ namespace {
 using toolpath::SetUpParameter;
 
 /// "a -60.0 ... 60.0 mm, b ..."; a turn where it was searched.
-std::string text_of(const toolpath::SetUpSearchSettings& within) {
+std::string range_text(const toolpath::SetUpSearchSettings& within) {
     std::string text;
     for (const SetUpParameter parameter :
          {SetUpParameter::a, SetUpParameter::b, SetUpParameter::c, SetUpParameter::turn}) {
@@ -66,7 +66,7 @@ void expect_in_reach(const toolpath::SetUpSearch& search,
     throw Error(
         fmt::format("the machine does not reach the whole part from any place that was searched ({}); "
                     "where the part stands, {}",
-                    text_of(within),
+                    range_text(within),
                     why),
         {},
         "search farther off or with a turn, make the part smaller, or choose another machine");

@@ -20,7 +20,7 @@ std::string in_quotes(std::string_view text) {
     return quoted + '"';
 }
 
-Json json_of(const StudyFigures& figures) {
+Json figures_json(const StudyFigures& figures) {
     const grid::ErrorSummary& error = figures.error;
     Json json;
     json["max_mm"] = error.max;
@@ -56,7 +56,7 @@ std::string cell(const StudyRow& row) {
 }
 
 /// The rows of one table, one line a number of points: `rows` has all methods of a case one after another.
-std::string table(std::span<const StudyRow> rows) {
+std::string text_table(std::span<const StudyRow> rows) {
     const StudyCase& first = rows.front().of;
     std::string text =
         fmt::format("\n## {} on {}, {} tracks\n\n| points |", first.surface, first.machine, first.tracks);
@@ -88,7 +88,7 @@ std::string study_csv(std::span<const StudyRow> rows) {
                             row.of.points,
                             row.of.tracks,
                             label(row.method));
-        const Json figures = row.figures ? json_of(*row.figures) : Json();
+        const Json figures = row.figures ? figures_json(*row.figures) : Json();
         for (const char* column : {"max_mm",
                                    "mean_mm",
                                    "lmean_mm",
@@ -122,7 +122,7 @@ std::string study_json(std::span<const StudyRow> rows) {
         entry["points"] = row.of.points;
         entry["tracks"] = row.of.tracks;
         entry["method"] = label(row.method);
-        entry["figures"] = row.figures ? json_of(*row.figures) : Json();
+        entry["figures"] = row.figures ? figures_json(*row.figures) : Json();
         entry["no_gain"] = row.no_gain;
         entry["loss"] = row.loss;
         entry["note"] = row.note;
@@ -144,7 +144,7 @@ std::string study_markdown(std::span<const StudyRow> rows) {
         while (to < rows.size() && same_table(rows[from], rows[to])) {
             ++to;
         }
-        text += table(rows.subspan(from, to - from));
+        text += text_table(rows.subspan(from, to - from));
         from = to;
     }
     return text;

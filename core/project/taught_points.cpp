@@ -4,6 +4,7 @@
 #include "core/base/files.h"
 #include "core/project/internal/arm_json.h"
 #include "core/project/internal/json_text.h"
+#include "core/project/internal/setting_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,8 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view format_name = "millwright-arm-points";
-constexpr int format_version = 1;
+constexpr std::string_view points_format_name = "millwright-arm-points";
+constexpr int points_format_version = 1;
 constexpr std::size_t most_joints = 9;
 constexpr double most_speed = 100.0, least_speed = 0.1, farthest = 1e5;
 
@@ -28,10 +29,6 @@ Vec3 vector_of(const JsonValue& value) {
     return {items[0].number(-farthest, farthest),
             items[1].number(-farthest, farthest),
             items[2].number(-farthest, farthest)};
-}
-
-Json json_of(const Vec3& p) {
-    return Json::array({p.x(), p.y(), p.z()});
 }
 
 TaughtPoint point_of(const JsonValue& value) {
@@ -99,8 +96,8 @@ Json json_of(const ArmInput& arm) {
     Json json;
     json["points"] = json_of(arm.points);
     json["program"] = arm.program;
-    json["path"] = {{"at_mm", json_of(arm.path.at_mm)},
-                    {"turned_deg", json_of(arm.path.turned_deg)},
+    json["path"] = {{"at_mm", point_json(arm.path.at_mm)},
+                    {"turned_deg", point_json(arm.path.turned_deg)},
                     {"most_lean_deg", arm.path.most_lean_deg}};
     return json;
 }
@@ -108,10 +105,11 @@ Json json_of(const ArmInput& arm) {
 std::vector<TaughtPoint> taught_points_from_text(std::string_view text, const std::filesystem::path& named) {
     const JsonValue root = JsonValue::parse(text, named);
     root.expect_only({"format", "version", "points"});
-    if (root.at("format").text() != format_name) {
-        root.at("format").fail("not a file of taught points", fmt::format("expected \"{}\"", format_name));
+    if (root.at("format").text() != points_format_name) {
+        root.at("format").fail("not a file of taught points",
+                               fmt::format("expected \"{}\"", points_format_name));
     }
-    (void)root.at("version").integer(format_version, format_version);
+    (void)root.at("version").integer(points_format_version, points_format_version);
     return points_of(root.at("points"));
 }
 
@@ -124,8 +122,8 @@ std::string taught_points_text(const std::vector<TaughtPoint>& points) {
         throw Error(faults.front());
     }
     Json json;
-    json["format"] = format_name;
-    json["version"] = format_version;
+    json["format"] = points_format_name;
+    json["version"] = points_format_version;
     json["points"] = json_of(points);
     return json_text(json);
 }

@@ -12,8 +12,8 @@ namespace millwright::project {
 
 namespace {
 
-constexpr std::string_view format_name = "millwright-tool";
-constexpr int format_version = 1;
+constexpr std::string_view tool_format_name = "millwright-tool";
+constexpr int tool_format_version = 1;
 
 } // namespace
 
@@ -37,11 +37,11 @@ Json json_of(const ToolInput& tool) {
 
 ToolInput read_tool(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
-    if (root.at("format").text() != format_name) {
-        root.at("format").fail("not a tool file", fmt::format("expected \"{}\"", format_name));
+    if (root.at("format").text() != tool_format_name) {
+        root.at("format").fail("not a tool file", fmt::format("expected \"{}\"", tool_format_name));
     }
     root.expect_only({"format", "version", "tool"});
-    (void)root.at("version").integer(format_version, format_version);
+    (void)root.at("version").integer(tool_format_version, tool_format_version);
     return tool_from(root.at("tool"));
 }
 
@@ -50,8 +50,8 @@ std::string tool_file_text(const ToolInput& tool) {
         throw Error(fault);
     }
     Json json;
-    json["format"] = format_name;
-    json["version"] = format_version;
+    json["format"] = tool_format_name;
+    json["version"] = tool_format_version;
     json["tool"] = json_of(tool);
     return json_text(json);
 }

@@ -203,9 +203,9 @@ std::vector<Stretch> to_do(const Across& before) {
 }
 
 /// What is written down of the tracks.
-class Writer {
+class TrackWriter {
 public:
-    explicit Writer(const Covering& of) : of_(of) { path_.direction = of.direction; }
+    explicit TrackWriter(const Covering& of) : of_(of) { path_.direction = of.direction; }
 
     void add(const Across& track, std::vector<Stretch> stretches, bool forward) {
         if (!forward) {
@@ -258,7 +258,7 @@ Toolpath ConstantScallop::contacts(const Covering& of, const Progress& progress)
     }
     const int nodes = of.grid.nodes_per_track(of.direction);
     Stepper stepper(of, height_, static_cast<std::size_t>(nodes));
-    Writer writer(of);
+    TrackWriter writer(of);
     writer.add(stepper.track(), {{0, nodes - 1}}, true);
     for (int n = 1; !done(stepper.track()); ++n) {
         progress.check();

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace millwright::toolpath {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double inverse(double radius) {
     constexpr double sharpest = 1e9; // 1/mm: of an edge

@@ -125,7 +125,7 @@ Ground ground_under(const geometry::BezierPatch& patch, const Way& way) {
 /// under it: along the way, and in any direction as far as the curve leaves the way. A body turns about the
 /// point. The axis is compared with a normal that turns as fast as the machine does, or as the ground is
 /// bent.
-LookBend bend_of(const Cut& cut, const Way& way, const kinematics::StraightForward& motion, double length) {
+LookBend look_bend(const Cut& cut, const Way& way, const kinematics::StraightForward& motion, double length) {
     constexpr double between = 2.0; // places that were not looked at, and 1 / (r - d) for a curvature 1 / r
     const kinematics::Bend bend = motion.bend();
     const Ground ground = ground_under(cut.patch, way);
@@ -228,7 +228,7 @@ ErrorField error_field(const geometry::BezierPatch& patch,
                      looks_until_known(nodes[n],
                                        end,
                                        toolpath.tool.cutter ? parts_of_a_cutter : parts_of_a_point,
-                                       bend_of(cut, way, motion, length),
+                                       look_bend(cut, way, motion, length),
                                        look));
     });
     return field;

@@ -92,9 +92,9 @@ struct Models {
 
 /// The pieces of one track, to or fro, numbered through. From track to track it goes along the surface where
 /// both have their own ends there, else over it, as between pieces.
-class Writer {
+class PointWriter {
 public:
-    explicit Writer(const Covering& of) : of_(of) { path_.direction = of.direction; }
+    explicit PointWriter(const Covering& of) : of_(of) { path_.direction = of.direction; }
 
     void add(std::vector<grid::PlacedTrack> pieces, std::size_t track) {
         const bool backwards = track % 2 == 1;
@@ -131,7 +131,7 @@ private:
     bool at_end_of_track_ = false;
 };
 
-[[noreturn]] void refuse(const grid::Track& track, double tolerance) {
+[[noreturn]] void refuse_tolerance(const grid::Track& track, double tolerance) {
     throw Error(fmt::format("no points keep the track at {} = {:.6g} within {:.6g} mm",
                             track.direction == grid::TrackDirection::along_v ? "u" : "v",
                             track.across,
@@ -161,13 +161,13 @@ Toolpath FewestPoints::contacts(const Covering& of, const Progress& progress) co
         found[n] = models.placed(tracks[pieces[n].track], pieces[n], tolerance_, unreported);
         progress.report(static_cast<double>(++done) / static_cast<double>(pieces.size()));
     });
-    Writer path(of);
+    PointWriter path(of);
     std::size_t next = 0;
     for (std::size_t track = 0; track < tracks.size(); ++track) {
         std::vector<grid::PlacedTrack> placed;
         for (; next < pieces.size() && pieces[next].track == track; ++next) {
             if (!found[next]) {
-                refuse(tracks[track], tolerance_);
+                refuse_tolerance(tracks[track], tolerance_);
             }
             placed.push_back(*std::move(found[next]));
         }

@@ -1,6 +1,7 @@
 #include "core/toolpath/kinematic_error.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/geometry/surface_point.h"
 #include "core/kinematics/branch.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -28,8 +28,6 @@ using geometry::BezierPatch;
 using geometry::ToolPose;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A node with what the inverse kinematics says of it, next to the axes' zero.
 struct Node {
@@ -56,7 +54,7 @@ bool borrows_angle(const Node& node, const Node& neighbour) {
     return node.on_pole && !neighbour.on_pole && !neighbour.branches.empty();
 }
 
-Node off_the_pole(const MachineModel& machine, Node node, const Node& neighbour) {
+Node node_off_pole(const MachineModel& machine, Node node, const Node& neighbour) {
     node.branches = kinematics::inverse_branches(machine, node.pose, neighbour.branches.front());
     node.on_pole = false;
     return node;
@@ -139,10 +137,10 @@ template <class Curve>
 grid::MoveError
 judge(const MachineModel& machine, const Node& a, const Node& b, const Curve& curve, int tip_samples) {
     if (borrows_angle(a, b)) {
-        return judge(machine, off_the_pole(machine, a, b), b, curve, tip_samples);
+        return judge(machine, node_off_pole(machine, a, b), b, curve, tip_samples);
     }
     if (borrows_angle(b, a)) {
-        return judge(machine, a, off_the_pole(machine, b, a), curve, tip_samples);
+        return judge(machine, a, node_off_pole(machine, b, a), curve, tip_samples);
     }
     if (a.branches.empty() || b.branches.empty()) {
         return {infinity, infinity, curve.length(), infinity, infinity};
@@ -223,13 +221,20 @@ private:
 template <class Seen>
 grid::MoveError move_of(
     const Seen& seen, const MachineModel& machine, const Vec2& a, const Vec2& b, grid::Sampling sampling) {
-    std::vector<typename Seen::Place> places(static_cast<std::size_t>(sampling.curve) + 1);
-    for (std::size_t c = 0; c < places.size(); ++c) {
-        const double t = static_cast<double>(c) / sampling.curve;
-        places[c] = seen.at(blend(a, b, t), b - a);
+    const auto place_at = [&](int c) {
+        return seen.at(blend(a, b, static_cast<double>(c) / sampling.curve), b - a);
+    };
+    const typename Seen::Place begin = place_at(0);
+    const typename Seen::Place end = place_at(sampling.curve);
+    std::vector<typename Seen::Place> places;
+    places.reserve(static_cast<std::size_t>(sampling.curve) + 1);
+    places.push_back(begin);
+    for (int c = 1; c < sampling.curve; ++c) {
+        places.push_back(place_at(c));
     }
-    const Node first = node_at(machine, seen.pose(places.front()));
-    const Node second = node_at(machine, seen.pose(places.back()));
+    places.push_back(end);
+    const Node first = node_at(machine, seen.pose(begin));
+    const Node second = node_at(machine, seen.pose(end));
     return judge(machine, first, second, seen.curve(std::move(places)), sampling.tip);
 }
 

@@ -15,10 +15,6 @@ namespace {
 
 const Vec2 down(0.0, -1.0);
 
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 bool is_sound(const ProfileShape& s) {
     const bool finite = std::isfinite(s.flat) && std::isfinite(s.corner) && std::isfinite(s.radius) &&
                         std::isfinite(s.bottom) && std::isfinite(s.top);

@@ -83,10 +83,10 @@ std::vector<PlaceFigures> measured(const SetUpCost& cost,
 }
 
 /// Downhill from `best`, which it makes better; returns the number of evaluations.
-int descend(const SetUpCost& cost,
-            const SetUpSearchSettings& settings,
-            SetUp& best,
-            const Progress& progress) {
+int descend_to_best(const SetUpCost& cost,
+                    const SetUpSearchSettings& settings,
+                    SetUp& best,
+                    const Progress& progress) {
     constexpr double out_of_reach = 1e30; // a simplex compares numbers
     constexpr double settled = 1e-3;      // mm, and a thousandth of a degree or so
     const int dimensions = turns(settings) ? 4 : 3;
@@ -230,7 +230,7 @@ SetUpSearch search_set_up(const SetUpCost& cost,
     }
     found.evaluations += static_cast<int>(places.size());
     if (settings.descent > 0) {
-        found.evaluations += descend(cost, settings, found.best, progress.part(share, 1.0));
+        found.evaluations += descend_to_best(cost, settings, found.best, progress.part(share, 1.0));
     }
     constexpr double rounding = 1e-6; // of the cost
     if (!(found.best.cost < (1.0 - rounding) * found.start.cost)) {

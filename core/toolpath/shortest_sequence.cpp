@@ -1,6 +1,7 @@
 #include "core/toolpath/shortest_sequence.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
 #include "core/kinematics/branch.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace millwright::toolpath {
@@ -22,8 +22,6 @@ using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
 using Places = std::vector<AxisPositions>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_endless(const kinematics::MachineAxis& axis) {
     return std::isinf(axis.min) && std::isinf(axis.max);
@@ -55,7 +53,7 @@ void add_places(const MachineModel& machine,
 }
 
 /// The layers of the points off the pole; those on it are empty.
-std::vector<Places> off_the_pole(const MachineModel& machine, const Toolpath& path) {
+std::vector<Places> places_off_pole(const MachineModel& machine, const Toolpath& path) {
     const AxisPositions zero = AxisPositions::Zero(machine.axis_count());
     std::vector<Places> layers(path.points.size());
     parallel_for(std::ssize(layers), 64, [&](std::ptrdiff_t k) {
@@ -120,7 +118,7 @@ double step_cost(const MachineModel& machine,
     return share > 0.0 ? share * cost(from, to) + travel : travel;
 }
 
-double share_of(const PathPoint& point, double link_share) {
+double share_of_move(const PathPoint& point, double link_share) {
     return point.reached_by == MoveKind::track ? 1.0 : point.reached_by == MoveKind::over ? 0.0 : link_share;
 }
 
@@ -192,7 +190,7 @@ AxisPath backtracked(const MachineModel& machine, const std::vector<Places>& lay
 
 std::vector<std::vector<AxisPositions>> feasible_rotations(const MachineModel& machine,
                                                            const Toolpath& toolpath) {
-    std::vector<Places> layers = off_the_pole(machine, toolpath);
+    std::vector<Places> layers = places_off_pole(machine, toolpath);
     add_poles(machine, toolpath, layers);
     const AxisPositions zero = AxisPositions::Zero(machine.axis_count());
     for (std::size_t n = 0; n < layers.size(); ++n) {
@@ -212,7 +210,7 @@ double cost_of(const MachineModel& machine,
     expects(toolpath.points.size() == axes.positions.size(), "axis positions belong to their path");
     double sum = 0.0;
     for (std::size_t n = 1; n < axes.positions.size(); ++n) {
-        const double share = share_of(toolpath.points[n], link_share);
+        const double share = share_of_move(toolpath.points[n], link_share);
         sum += step_cost(machine, axes.positions[n - 1], axes.positions[n], costs(n), share);
     }
     return sum;
@@ -233,8 +231,8 @@ AxisPath shortest_sequence(const MachineModel& machine,
     parallel_for(std::ssize(layers) - 1, chunk, [&](std::ptrdiff_t move) {
         progress.check();
         const auto n = static_cast<std::size_t>(move) + 1;
-        tables[n] =
-            table_of(machine, layers[n - 1], layers[n], costs(n), share_of(toolpath.points[n], link_share));
+        tables[n] = table_of(
+            machine, layers[n - 1], layers[n], costs(n), share_of_move(toolpath.points[n], link_share));
     });
     progress.report(1.0);
     return backtracked(machine, layers, cheapest_ways(machine, toolpath, layers, tables));

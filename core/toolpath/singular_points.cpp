@@ -11,29 +11,30 @@ namespace {
 
 /// The part of N = S_u x S_v across the pole, with its derivatives: zero where the normal lies along the
 /// pole.
-struct Across {
+struct NormalAcross {
     Vec2 value;
     Eigen::Matrix2d derivative;
     double normal_length;
 };
 
-Across across(const geometry::BezierPatch& patch, const Vec2& uv, const Vec3& e1, const Vec3& e2) {
+NormalAcross across(const geometry::BezierPatch& patch, const Vec2& uv, const Vec3& e1, const Vec3& e2) {
     const auto s = patch.derivatives(uv.x(), uv.y());
     const Vec3 N = s.du.cross(s.dv);
     const Vec3 N_u = s.duu.cross(s.dv) + s.du.cross(s.duv);
     const Vec3 N_v = s.duv.cross(s.dv) + s.du.cross(s.dvv);
-    Across result{{N.dot(e1), N.dot(e2)}, Eigen::Matrix2d::Zero(), N.norm()};
+    NormalAcross result{{N.dot(e1), N.dot(e2)}, Eigen::Matrix2d::Zero(), N.norm()};
     result.derivative << N_u.dot(e1), N_v.dot(e1), N_u.dot(e2), N_v.dot(e2);
     return result;
 }
 
 /// Newton inside the square from `uv`; nothing if it does not arrive.
-std::optional<Vec2> descend(const geometry::BezierPatch& patch, Vec2 uv, const Vec3& e1, const Vec3& e2) {
+std::optional<Vec2>
+descend_to_pole(const geometry::BezierPatch& patch, Vec2 uv, const Vec3& e1, const Vec3& e2) {
     constexpr int most_steps = 40;
     constexpr double on_pole = 1e-10; // rad between normal and pole
     constexpr double longest_step = 0.1;
     for (int n = 0; n < most_steps; ++n) {
-        const Across at = across(patch, uv, e1, e2);
+        const NormalAcross at = across(patch, uv, e1, e2);
         if (!(at.normal_length > 0.0)) {
             return std::nullopt;
         }
@@ -66,7 +67,7 @@ std::vector<SingularPoint> singular_points(const geometry::BezierPatch& patch,
     constexpr double same = 1e-6; // of the parameters
     for (int i = 0; i < raster; ++i) {
         for (int j = 0; j < raster; ++j) {
-            const auto uv = descend(patch, {(i + 0.5) / raster, (j + 0.5) / raster}, e1, e2);
+            const auto uv = descend_to_pole(patch, {(i + 0.5) / raster, (j + 0.5) / raster}, e1, e2);
             const auto known = [&](const SingularPoint& p) { return (p.uv - *uv).norm() < same; };
             if (uv && std::none_of(found.begin(), found.end(), known)) {
                 found.push_back({*uv, patch.position(uv->x(), uv->y())});

@@ -11,14 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace millwright::toolpath {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct SurfacePoint {
     Vec2 uv = Vec2::Zero();

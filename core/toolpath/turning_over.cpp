@@ -13,7 +13,7 @@ namespace {
 
 constexpr int halvings = 26; // to 1.5e-8 of a move: what turns within that flips
 
-[[noreturn]] void refuse(const Vec2& a, const Vec2& b, const Vec2& at) {
+[[noreturn]] void refuse_turn(const Vec2& a, const Vec2& b, const Vec2& at) {
     throw Error(fmt::format("the surface turns over on itself: between u {:.3f}, v {:.3f} and u {:.3f}, v "
                             "{:.3f} its normal flips to the other side, at u {:.4f}, v {:.4f}",
                             a.x(),
@@ -65,7 +65,7 @@ void refuse_turning_over(const geometry::BezierPatch& patch,
         for (const auto& [from, to] : outline.parts_inside(a, b)) {
             const Vec2 begin = a + from * (b - a), end = a + to * (b - a);
             if (const auto at = flip_between(patch, begin, end)) {
-                refuse(begin, end, *at);
+                refuse_turn(begin, end, *at);
             }
         }
     };

@@ -1,6 +1,7 @@
 // What the cordic commands make of their options: none is passed over in silence, no number is none.
 #include "tests/app/program.h"
 #include "tests/app/scratch_files.h"
+#include "tests/app/shipped_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +17,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-const std::string arc = "assets/samples/thesis-arc.ngc";
 
 using CordicOptions = ScratchFiles;
 
@@ -56,17 +55,17 @@ TEST_F(CordicOptions, TellTheWayOfRoundingThatTheProcessorUses) {
 
 TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
     const std::vector<std::vector<std::string>> uses{
-        {"cordic", "run", arc, "--clock"},
-        {"cordic", "run", arc, "--tolerance"},
-        {"cordic", "run", arc, "--rapid"},
-        {"cordic", "run", arc, "--acceleration"},
-        {"cordic", "run", arc, "--profile", "s-curve", "--jerk"},
-        {"cordic", "run", arc, "--servo", "x", "--period"},
-        {"cordic", "run", arc, "--profile", "s-curve", "--steps"},
-        {"cordic", "run", arc, "--profile", "s-curve", "--timer"},
-        {"cordic", "run", arc, "--plc", "x", "--scan"},
-        {"cordic", "sew", arc, "--needle-rpm"},
-        {"cordic", "sew", arc, "--needle-down"},
+        {"cordic", "run", thesis_arc, "--clock"},
+        {"cordic", "run", thesis_arc, "--tolerance"},
+        {"cordic", "run", thesis_arc, "--rapid"},
+        {"cordic", "run", thesis_arc, "--acceleration"},
+        {"cordic", "run", thesis_arc, "--profile", "s-curve", "--jerk"},
+        {"cordic", "run", thesis_arc, "--servo", "x", "--period"},
+        {"cordic", "run", thesis_arc, "--profile", "s-curve", "--steps"},
+        {"cordic", "run", thesis_arc, "--profile", "s-curve", "--timer"},
+        {"cordic", "run", thesis_arc, "--plc", "x", "--scan"},
+        {"cordic", "sew", thesis_arc, "--needle-rpm"},
+        {"cordic", "sew", thesis_arc, "--needle-down"},
         {"cordic", "rotate", "1", "0"},
         {"cordic", "vector", "1"},
         {"run", "x.json", "--driver", "virtual", "--period"},
@@ -81,18 +80,18 @@ TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
             EXPECT_EQ(ended.out, "");
         }
     }
-    EXPECT_THAT(run({"cordic", "run", arc, "--clock", "nan"}).err,
+    EXPECT_THAT(run({"cordic", "run", thesis_arc, "--clock", "nan"}).err,
                 HasSubstr("--clock: \"nan\" is no finite number"));
 }
 
 TEST_F(CordicOptions, OfAMotionAreRefusedWithoutOne) {
     for (const char* option : {"--jerk", "--steps", "--timer", "--min-interval"}) {
-        const Ended ended = run({"cordic", "run", arc, option, "5"});
+        const Ended ended = run({"cordic", "run", thesis_arc, option, "5"});
         EXPECT_EQ(ended.exit_code, 2) << option;
         EXPECT_THAT(ended.err, AllOf(HasSubstr(option), HasSubstr("--profile")));
     }
-    EXPECT_THAT(run({"cordic", "run", arc, "--period", "0.1"}).err, HasSubstr("--servo"));
-    const Ended trapezoid = run({"cordic", "run", arc, "--profile", "trapezoid", "--jerk", "5"});
+    EXPECT_THAT(run({"cordic", "run", thesis_arc, "--period", "0.1"}).err, HasSubstr("--servo"));
+    const Ended trapezoid = run({"cordic", "run", thesis_arc, "--profile", "trapezoid", "--jerk", "5"});
     EXPECT_EQ(trapezoid.exit_code, 1);
     EXPECT_THAT(trapezoid.err, HasSubstr("--jerk is for the profile s-curve"));
 }
@@ -123,7 +122,7 @@ TEST_F(CordicOptions, NameTheCauseOfASpeedThatIsBesideTheFeed) {
         HasSubstr(
             "x8.ngc:3: the speed is up to 22 % beside the feed: --matlab-zero turns nothing along an axis"));
     EXPECT_THAT(ended.err, Not(HasSubstr("too few bits")));
-    const Ended adrift = run({"cordic", "run", arc, "--iterations", "9", "--whole-arcs"});
+    const Ended adrift = run({"cordic", "run", thesis_arc, "--iterations", "9", "--whole-arcs"});
     EXPECT_THAT(adrift.err, HasSubstr("its ends are up to 1.3 mm beside theirs"));
 }
 
@@ -143,7 +142,7 @@ TEST_F(CordicOptions, CountNoMotionWithoutLengthAsLate) {
 
 TEST_F(CordicOptions, OfGCodeAreRefusedForProgramsThatAreMadeAlready) {
     const std::string image = path("arc.bin");
-    ASSERT_EQ(run({"cordic", "asm", arc, "--out", image, "--format", "q10.22"}).exit_code, 0);
+    ASSERT_EQ(run({"cordic", "asm", thesis_arc, "--out", image, "--format", "q10.22"}).exit_code, 0);
     const std::string text = written("p.asm", ".format q10.22\nHLT\n");
     for (const std::string& file : {image, text}) {
         EXPECT_EQ(run({"cordic", "run", file, "--format", "q10.22"}).exit_code, 0);
@@ -237,10 +236,10 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
         }
         return found.dump();
     };
-    EXPECT_EQ(warnings({arc}), "[]");
-    EXPECT_THAT(warnings({arc, "--thesis-direction"}), HasSubstr("arcs turn the other way"));
+    EXPECT_EQ(warnings({thesis_arc}), "[]");
+    EXPECT_THAT(warnings({thesis_arc, "--thesis-direction"}), HasSubstr("arcs turn the other way"));
     const std::string image = path("arc.bin");
-    ASSERT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
+    ASSERT_EQ(run({"cordic", "asm", thesis_arc, "--out", image}).exit_code, 0);
     EXPECT_EQ(warnings({image}), "[]");
     const std::string loop =
         written("loop.asm", "MOV PC, GO\nMOV XI, 1\nGO: MOV Vmax, 1\n  MOV Amax, 1\n  G01\n  G01\nHLT\n");
@@ -305,7 +304,7 @@ TEST_F(CordicOptions, SayThatAVectorIsBelowWhatTheFormatCanTell) {
 
 TEST_F(CordicOptions, AreForTheKindOfFileThatTheyAreFor) {
     const std::string image = path("arc.bin");
-    ASSERT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
+    ASSERT_EQ(run({"cordic", "asm", thesis_arc, "--out", image}).exit_code, 0);
     const Ended again = run({"cordic", "asm", image, "--out", path("again.bin")});
     EXPECT_EQ(again.exit_code, 1);
     EXPECT_THAT(again.err, HasSubstr("is an image already"));
@@ -326,7 +325,7 @@ TEST_F(CordicOptions, OfTheArithmeticAreRecordedInTheImage) {
     const std::vector<std::string> settings = {
         "--iterations", "24", "--rounding", "nearest", "--thesis-direction", "--matlab-zero"};
     std::vector<std::string> words = {
-        "cordic", "asm", arc, "--format", "q8.24", "--acceleration", "100", "--out", image};
+        "cordic", "asm", thesis_arc, "--format", "q8.24", "--acceleration", "100", "--out", image};
     words.insert(words.end(), settings.begin(), settings.end());
     const Ended made = run(words);
     ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -339,7 +338,7 @@ TEST_F(CordicOptions, OfTheArithmeticAreRecordedInTheImage) {
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return nlohmann::json::parse(ended.out).at("points");
     };
-    words = {"cordic", "run", arc, "--format", "q8.24", "--acceleration", "100", "--json"};
+    words = {"cordic", "run", thesis_arc, "--format", "q8.24", "--acceleration", "100", "--json"};
     words.insert(words.end(), settings.begin(), settings.end());
     const auto of_image = points(run({"cordic", "run", image, "--json"}));
     EXPECT_EQ(of_image, points(run(words)));
@@ -355,7 +354,7 @@ TEST_F(CordicOptions, OfTheArithmeticAreRecordedInTheImage) {
     EXPECT_THAT(refusal(image, {"--rounding", "truncate"}), HasSubstr("made for rounding \"nearest\""));
     EXPECT_THAT(refusal(image, {"--format", "f32"}), HasSubstr("the program is in q8.24, not in f32"));
     const std::string plain = path("plain.bin");
-    ASSERT_EQ(run({"cordic", "asm", arc, "--out", plain}).exit_code, 0);
+    ASSERT_EQ(run({"cordic", "asm", thesis_arc, "--out", plain}).exit_code, 0);
     EXPECT_THAT(refusal(plain, {"--iterations", "9"}), HasSubstr("made for the thesis's 29 steps"));
     EXPECT_THAT(refusal(plain, {"--thesis-direction"}), HasSubstr("made for G02 clockwise"));
     EXPECT_THAT(refusal(plain, {"--matlab-zero"}), HasSubstr("leave --matlab-zero out"));

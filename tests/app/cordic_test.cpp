@@ -1,4 +1,5 @@
 #include "tests/app/program.h"
+#include "tests/app/shipped_files.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
@@ -100,10 +101,8 @@ TEST(Cordic, AccuracyWritesItsTableAndPictures) {
     EXPECT_THAT(ended.out, HasSubstr("E5"));
 }
 
-const std::string arc = "assets/samples/thesis-arc.ngc";
-
 TEST(Cordic, RunsTheThesissArcAndTellsPointsClocksAndErrors) {
-    const Ended ended = run({"cordic", "run", arc, "--format", "f64", "--json"});
+    const Ended ended = run({"cordic", "run", thesis_arc, "--format", "f64", "--json"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const auto answer = nlohmann::json::parse(ended.out);
     const auto& points = answer.at("points");
@@ -119,7 +118,7 @@ TEST(Cordic, AssemblesAndDisassemblesToTheSame) {
     const ScratchFolder folder;
     const std::string image = (folder.path() / "arc.bin").string();
     const std::string text = (folder.path() / "arc.asm").string();
-    EXPECT_EQ(run({"cordic", "asm", arc, "--out", image}).exit_code, 0);
+    EXPECT_EQ(run({"cordic", "asm", thesis_arc, "--out", image}).exit_code, 0);
     const Ended shown = run({"cordic", "disasm", image});
     EXPECT_EQ(shown.exit_code, 0);
     EXPECT_THAT(shown.out, HasSubstr("G03"));
@@ -133,7 +132,7 @@ TEST(Cordic, AssemblesAndDisassemblesToTheSame) {
 TEST(Cordic, WritesWaves) {
     const ScratchFolder folder;
     const auto waves = folder.path() / "arc.vcd";
-    EXPECT_EQ(run({"cordic", "run", arc, "--trace", waves.string(), "--tolerance", "1"}).exit_code, 0);
+    EXPECT_EQ(run({"cordic", "run", thesis_arc, "--trace", waves.string(), "--tolerance", "1"}).exit_code, 0);
     EXPECT_THAT(content_of(waves), HasSubstr("$enddefinitions $end"));
 }
 
@@ -216,7 +215,7 @@ TEST(Cordic, PutsSetPointsInTimeAndMeasuresTheirPulses) {
     for (const char* profile : {"trapezoid", "s-curve"}) {
         const Ended ended = run({"cordic",
                                  "run",
-                                 arc,
+                                 thesis_arc,
                                  "--profile",
                                  profile,
                                  "--steps",
@@ -239,7 +238,7 @@ TEST(Cordic, PutsSetPointsInTimeAndMeasuresTheirPulses) {
         const std::string text = content_of(pulses);
         EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), count + 1);
     }
-    EXPECT_EQ(run({"cordic", "run", arc, "--pulses", pulses.string()}).exit_code, 1);
+    EXPECT_EQ(run({"cordic", "run", thesis_arc, "--pulses", pulses.string()}).exit_code, 1);
 }
 
 TEST(Cordic, WritesServoSetPointsThatAgreeWithOneAnother) {
@@ -247,7 +246,7 @@ TEST(Cordic, WritesServoSetPointsThatAgreeWithOneAnother) {
     const auto servo = folder.path() / "servo.csv";
     const Ended ended = run({"cordic",
                              "run",
-                             arc,
+                             thesis_arc,
                              "--profile",
                              "s-curve",
                              "--servo",
@@ -280,7 +279,7 @@ TEST(Cordic, WritesServoSetPointsThatAgreeWithOneAnother) {
             EXPECT_NEAR(rows[n][axis] - rows[n - 1][axis], mean * period, 250.0 * period * period);
         }
     }
-    EXPECT_EQ(run({"cordic", "run", arc, "--servo", servo.string()}).exit_code, 1);
+    EXPECT_EQ(run({"cordic", "run", thesis_arc, "--servo", servo.string()}).exit_code, 1);
 }
 
 TEST(Cordic, PrintsTheMicroprogramThatItRunsOn) {
@@ -290,8 +289,8 @@ TEST(Cordic, PrintsTheMicroprogramThatItRunsOn) {
     EXPECT_THAT(text.out, HasSubstr("SETPOINT: LDCT LAST_STEP"));
     const auto file = folder.path() / "our.micro";
     write_content(file, text.out);
-    const Ended ours = run({"cordic", "run", arc});
-    const Ended again = run({"cordic", "run", arc, "--microprogram", file.string()});
+    const Ended ours = run({"cordic", "run", thesis_arc});
+    const Ended again = run({"cordic", "run", thesis_arc, "--microprogram", file.string()});
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(again.out, ours.out);
 }
@@ -342,7 +341,7 @@ TEST(Cordic, SewsAProgramAndSaysWhatComesTooLate) {
 TEST(Cordic, RunsBesideTheLogicOfAMachine) {
     const Ended ended = run({"cordic",
                              "run",
-                             arc,
+                             thesis_arc,
                              "--plc",
                              "assets/samples/interlock.plc",
                              "--inputs",
@@ -357,22 +356,28 @@ TEST(Cordic, RunsBesideTheLogicOfAMachine) {
     const ScratchFolder folder;
     write_content(folder / "stop.plc", "LD I1\nST STOP\n");
     write_content(folder / "stop.inputs", "5 I1 1\n");
-    const Ended stopped = run(
-        {"cordic", "run", arc, "--plc", folder / "stop.plc", "--inputs", folder / "stop.inputs", "--json"});
+    const Ended stopped = run({"cordic",
+                               "run",
+                               thesis_arc,
+                               "--plc",
+                               folder / "stop.plc",
+                               "--inputs",
+                               folder / "stop.inputs",
+                               "--json"});
     EXPECT_EQ(stopped.exit_code, 1);
     EXPECT_THAT(stopped.err, HasSubstr("the logic stopped the machine before the end of the program"));
     EXPECT_EQ(nlohmann::json::parse(stopped.out).at("stop"), "stopped by the logic");
     const auto wrong = folder.path() / "wrong.plc";
     write_content(wrong, "LD I0\nST I1\n");
-    const Ended refused = run({"cordic", "run", arc, "--plc", wrong.string()});
+    const Ended refused = run({"cordic", "run", thesis_arc, "--plc", wrong.string()});
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("wrong.plc:2:4: I1 is not for the logic to set"));
-    EXPECT_EQ(run({"cordic", "run", arc, "--inputs", "x"}).exit_code, 2);
+    EXPECT_EQ(run({"cordic", "run", thesis_arc, "--inputs", "x"}).exit_code, 2);
 }
 
 TEST(Cordic, GivesTheAxesAllOfTheAccelerationWhereItIsAskedTo) {
     const auto largest = [](const std::vector<std::string>& more) {
-        std::vector<std::string> words{"cordic", "run", arc, "--format", "f64", "--json"};
+        std::vector<std::string> words{"cordic", "run", thesis_arc, "--format", "f64", "--json"};
         words.insert(words.end(), more.begin(), more.end());
         double most = 0.0;
         const auto answer = nlohmann::json::parse(run(words).out);

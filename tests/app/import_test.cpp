@@ -16,7 +16,6 @@
 namespace millwright::test {
 namespace {
 
-using nlohmann::json;
 using ::testing::HasSubstr;
 
 class ImportCommand : public ScratchFiles {
@@ -46,11 +45,11 @@ TEST_F(ImportCommand, StepComesBackAsItWas) {
     const std::string file = exported("dome.step");
     const Ended ended = run({"import", file, "--out", path("back.json"), "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_EQ(json::parse(ended.out).at("patches"), 1);
+    EXPECT_EQ(nlohmann::json::parse(ended.out).at("patches"), 1);
     const Ended planned = run({"plan", path("back.json"), "--out", path("plan")});
     EXPECT_EQ(planned.exit_code, 0) << planned.err;
     const auto nets = [](const std::string& project) {
-        return json::parse(content_of(project)).at("surface").at("patches");
+        return nlohmann::json::parse(content_of(project)).at("surface").at("patches");
     };
     ASSERT_EQ(run({"export", path("back.json"), "--out", path("again.step")}).exit_code, 0);
     ASSERT_EQ(run({"import", path("again.step"), "--out", path("again.json")}).exit_code, 0);
@@ -69,8 +68,8 @@ TEST_F(ImportCommand, MeshIsFittedAndTheDeviationTold) {
                              path("deviation.csv"),
                              "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    const json told = json::parse(ended.out);
-    EXPECT_EQ(told.at("fit").at("degree"), (json{3, 3}));
+    const nlohmann::json told = nlohmann::json::parse(ended.out);
+    EXPECT_EQ(told.at("fit").at("degree"), (nlohmann::json{3, 3}));
     EXPECT_TRUE(told.at("fit").at("follows_outline"));
     EXPECT_LT(told.at("fit").at("max_mm"), 0.06); // the triangles lie up to 0.02 mm below the points
     EXPECT_THAT(content_of(path("deviation.csv")), ::testing::StartsWith("x_mm,y_mm,z_mm,deviation_mm\n"));
@@ -96,7 +95,7 @@ TEST_F(ImportCommand, WithoutOutItTellsOfTheFile) {
     EXPECT_THAT(faces.out, HasSubstr("unit of the file: mm"));
     const Ended mesh = run({"import", exported("dome.ply", "1"), "--unit", "inch", "--json"});
     ASSERT_EQ(mesh.exit_code, 0) << mesh.err;
-    EXPECT_NEAR(json::parse(mesh.out).at("size_mm")[0], 80.0 * 25.4, 0.01);
+    EXPECT_NEAR(nlohmann::json::parse(mesh.out).at("size_mm")[0], 80.0 * 25.4, 0.01);
 }
 
 // The last triangles of the file were left out without a word.
@@ -112,7 +111,7 @@ TEST_F(ImportCommand, TrianglesBehindThoseThatAMeshCountsAreTold) {
     EXPECT_THAT(run({"import", mesh}).err, HasSubstr("note: " + sentence));
     const Ended ended = run({"import", mesh, "--out", path("counted.json"), "--json"});
     EXPECT_THAT(ended.err, HasSubstr("note: " + sentence));
-    EXPECT_THAT(json::parse(ended.out).at("notes")[0], HasSubstr(sentence));
+    EXPECT_THAT(nlohmann::json::parse(ended.out).at("notes")[0], HasSubstr(sentence));
 }
 
 // A control point was told of, and no file.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <cstdlib>
 #include <string>
 
 namespace millwright::test {
@@ -33,6 +34,20 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     for (const auto& entry : fs::directory_iterator(scratch / "new/out")) {
         EXPECT_THAT(entry.path().filename().string(), Not(StartsWith("."))) << "a draft was left behind";
     }
+}
+
+TEST(PlanCommand, WithoutOpenGlLeavesOutThePicture) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    fs::create_directory(scratch / "out");
+    write_content(scratch / "out/preview.png", "of an earlier plan");
+    ASSERT_EQ(setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/none.json", 1), 0);
+    const Ended ended = run({"plan", project, "--out", scratch / "out"});
+    ASSERT_EQ(unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES"), 0);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("warning: no preview.png: cannot draw without a display: "));
+    EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("G93"));
+    EXPECT_FALSE(fs::exists(scratch / "out/preview.png"));
 }
 
 // The elliptic grid stayed uniform, unsaid.

@@ -21,10 +21,10 @@ using testing::Not;
 
 const std::string simple = "assets/samples/gcode/thesis-simple.ngc";
 const std::string space = "assets/samples/gcode/thesis-3d.ngc";
-const std::string plate = "assets/samples/gcode/thesis-plate.ngc";
+const std::string thesis_plate = "assets/samples/gcode/thesis-plate.ngc";
 
 /// Those of a path file: x, y, z, speed, move, tool.
-std::vector<std::vector<std::string>> records_of(const std::string& path_file) {
+std::vector<std::vector<std::string>> path_records(const std::string& path_file) {
     std::istringstream in(path_file);
     std::vector<std::vector<std::string>> records;
     for (std::string line; std::getline(in, line);) {
@@ -47,7 +47,7 @@ TEST(ProgramsAsPlots, InfoTellsWaysAndTimesOfTheThesis) {
     };
     for (const Known& known : {Known{simple, 74.0, 148.0, 28.2842, {10, 10, 22, 20}, -10},
                                Known{space, 438.2848, 81.828, 80.2905, {10, 10, 90, 90}, 0},
-                               Known{plate, 579.8006, 1159.601, 106.2665, {-7, -7, 110, 110}, -2}}) {
+                               Known{thesis_plate, 579.8006, 1159.601, 106.2665, {-7, -7, 110, 110}, -2}}) {
         const Ended ended = run({"plot", "info", known.file, "--json", "--arc-tolerance", "0.0001"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         const auto told = nlohmann::json::parse(ended.out);
@@ -84,7 +84,7 @@ TEST(ProgramsAsPlots, ToolpathKeepsHeightsAndFeedsAndCutsArcsByTheRuleOfTheThesi
     const std::string path = (folder / "out.path").string();
     const Ended ended = run({"plot", "toolpath", space, "--out", out, "--path", path, "--chord-length", "1"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    const auto records = records_of(content_of(path));
+    const auto records = path_records(content_of(path));
     const auto cuts = std::ranges::count_if(records, [](const auto& record) { return record[4] == "cut"; });
     EXPECT_EQ(cuts, 4 + 41 + 15 + 27 + 17);
     EXPECT_EQ(records[0], (std::vector<std::string>{"10", "10", "10", "0", "rapid", "1"}));
@@ -101,7 +101,7 @@ TEST(ProgramsAsPlots, WhatShapesStrokesCutsThemAnewAtTheirDepth) {
     const std::string path = (folder / "out.path").string();
     const Ended ended = run({"plot",
                              "toolpath",
-                             plate,
+                             thesis_plate,
                              "--out",
                              out,
                              "--path",
@@ -115,7 +115,7 @@ TEST(ProgramsAsPlots, WhatShapesStrokesCutsThemAnewAtTheirDepth) {
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("as drawn:"));
     double leftmost = 1e9;
-    for (const auto& record : records_of(content_of(path))) {
+    for (const auto& record : path_records(content_of(path))) {
         leftmost = std::min(leftmost, std::stod(record[0]));
         EXPECT_TRUE(record[2] == "-2" || record[2] == "10") << record[2];
     }
@@ -155,13 +155,13 @@ TEST(ProgramsAsPlots, ACutAnewTravelsNoLowerThanTheProgram) {
         std::vector<std::string> words{"plot", "toolpath", file, "--out", out, "--path", path, "--order"};
         const Ended ended = run(words);
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
-        const std::set<std::string> heights = travel_heights(records_of(content_of(path)));
+        const std::set<std::string> heights = travel_heights(path_records(content_of(path)));
         EXPECT_EQ(heights, std::set<std::string>{file == low ? "5" : "20"}) << file;
         const std::string told = "the tool travels at 20.000 mm, as high as the program does";
         EXPECT_EQ(ended.err.find(told) != std::string::npos, file != low) << ended.err;
         words.insert(words.end(), {"--safe-height", "4"});
         ASSERT_EQ(run(words).exit_code, 0);
-        EXPECT_EQ(travel_heights(records_of(content_of(path))), std::set<std::string>{"4"}) << file;
+        EXPECT_EQ(travel_heights(path_records(content_of(path))), std::set<std::string>{"4"}) << file;
     }
 }
 
@@ -205,7 +205,7 @@ TEST(ProgramsAsPlots, SubroutinesBesideTheProgramAreFound) {
 TEST(ProgramsAsPlots, IsDrawnByItsStrokes) {
     const ScratchFolder folder;
     const std::string out = (folder / "plate.svg").string();
-    EXPECT_EQ(run({"plot", "view", plate, "--out", out}).out, "2 strokes at 1 level, 1 tool\n");
+    EXPECT_EQ(run({"plot", "view", thesis_plate, "--out", out}).out, "2 strokes at 1 level, 1 tool\n");
     EXPECT_THAT(content_of(out), HasSubstr("<svg"));
 }
 
@@ -235,9 +235,10 @@ TEST(ProgramsAsPlots, WhatIsNoPathIsRefusedWithTheLine) {
 }
 
 TEST(ProgramsAsPlots, OptionsOfTheOtherKindOfFileAreRefused) {
-    EXPECT_EQ(run({"plot", "info", plate, "--unit", "table"}).exit_code, 2);
-    EXPECT_EQ(run({"plot", "info", plate, "--strict"}).exit_code, 2);
-    EXPECT_EQ(run({"plot", "info", plate, "--chord-length", "1", "--arc-tolerance", "0.1"}).exit_code, 2);
+    EXPECT_EQ(run({"plot", "info", thesis_plate, "--unit", "table"}).exit_code, 2);
+    EXPECT_EQ(run({"plot", "info", thesis_plate, "--strict"}).exit_code, 2);
+    EXPECT_EQ(run({"plot", "info", thesis_plate, "--chord-length", "1", "--arc-tolerance", "0.1"}).exit_code,
+              2);
     const Ended ended = run({"plot", "info", "assets/samples/plot/arcs.plt", "--chord-length", "1"});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_THAT(ended.err, HasSubstr("--chord-length is for G-code programs"));

@@ -66,7 +66,7 @@ Program::Program(const std::vector<std::string>& arguments,
     posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, err[1], STDERR_FILENO);
     std::vector<std::string> words = launcher;
-    words.emplace_back(MILLWRIGHT_PROGRAM);
+    words.push_back(program_file().string());
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) {
@@ -137,6 +137,10 @@ Ended Program::end() {
     child_ = -1;
     ended_.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     return ended_;
+}
+
+std::filesystem::path program_file() {
+    return MILLWRIGHT_PROGRAM;
 }
 
 Ended run(const std::vector<std::string>& arguments, const std::string& input) {

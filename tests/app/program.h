@@ -46,6 +46,8 @@ private:
     Ended ended_;
 };
 
+[[nodiscard]] std::filesystem::path program_file();
+
 /// Runs the program to its end.
 [[nodiscard]] Ended run(const std::vector<std::string>& arguments, const std::string& input = {});
 

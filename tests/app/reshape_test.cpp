@@ -1,4 +1,5 @@
 #include "tests/app/scratch_files.h"
+#include "tests/app/shipped_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,19 +8,17 @@
 namespace millwright::test {
 namespace {
 
-using nlohmann::json;
 using ::testing::HasSubstr;
 
 class ReshapeCommand : public ScratchFiles {};
 
-constexpr const char* dome = "assets/projects/dome.json";
-
 TEST_F(ReshapeCommand, RaisesTheDegreeAndSplits) {
     const Ended ended =
-        run({"reshape", dome, "--degree", "4,5", "--split-u", "0.25", "--out", path("two.json")});
+        run({"reshape", dome_project, "--degree", "4,5", "--split-u", "0.25", "--out", path("two.json")});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(ended.out, "patch 0: degree 4 x 5, machined\npatch 1: degree 4 x 5\n");
-    const json patches = json::parse(content_of(path("two.json"))).at("surface").at("patches");
+    const nlohmann::json patches =
+        nlohmann::json::parse(content_of(path("two.json"))).at("surface").at("patches");
     ASSERT_EQ(patches.size(), 2U);
     EXPECT_EQ(patches[0]["points"].size(), 5U);
     EXPECT_EQ(patches[0]["points"][0].size(), 6U);
@@ -29,7 +28,7 @@ TEST_F(ReshapeCommand, RaisesTheDegreeAndSplits) {
 
 TEST_F(ReshapeCommand, SaysWhatIsWrong) {
     const auto refused = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words{"reshape", dome, "--out", path("no.json")};
+        std::vector<std::string> words{"reshape", dome_project, "--out", path("no.json")};
         words.insert(words.end(), more.begin(), more.end());
         const Ended ended = run(words);
         EXPECT_NE(ended.exit_code, 0);

@@ -339,7 +339,7 @@ TEST_F(Send, UnlocksNothingForAJobThatIsRefused) {
 }
 
 /// The records of the only log in `folder`, by name.
-std::vector<nlohmann::json> records_of(const fs::path& folder, const std::string& name) {
+std::vector<nlohmann::json> logged_records(const fs::path& folder, const std::string& name) {
     std::vector<nlohmann::json> found;
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path().extension() != ".jsonl") {
@@ -379,9 +379,9 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
         const Ended ended = sender.end();
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_THAT(ended.out, HasSubstr("All 9 blocks were executed"));
-        EXPECT_EQ(records_of(words[5], "waiting").size(), 3U);
-        EXPECT_EQ(records_of(words[5], "waiting")[0].at("line"), 3);
-        EXPECT_EQ(records_of(words[5], "resume").size(), 3U);
+        EXPECT_EQ(logged_records(words[5], "waiting").size(), 3U);
+        EXPECT_EQ(logged_records(words[5], "waiting")[0].at("line"), 3);
+        EXPECT_EQ(logged_records(words[5], "resume").size(), 3U);
         EXPECT_EQ(last_record(words[5]).at("end"), "done");
     }
     EXPECT_THAT(content_of(stream), testing::EndsWith("30.0000 0.0000 0.0000\n"));

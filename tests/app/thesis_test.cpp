@@ -1,4 +1,5 @@
 #include "tests/app/program.h"
+#include "tests/app/shipped_files.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
@@ -13,21 +14,22 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr const char* dome = "assets/projects/dome.json";
-
 // T11: The same records as tests/core/toolpath/thesis_files_test.cpp has from an independent program.
 TEST(ThesisCommand, WritesTheFilesOfTheListing) {
     const ScratchFolder scratch;
-    const Ended ended = run({"thesis", "files", dome, "--out", scratch / "out"});
+    const Ended ended = run({"thesis", "files", dome_project, "--out", scratch / "out"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(scratch / "out/Surface.dat"), StartsWith("64 382 72 377\n72 377 80 373\n"));
     const std::string path = content_of(scratch / "out/Toolpath.dat");
     EXPECT_EQ(std::ranges::count(path, '\n'), 2 * (20 * 20 - 1));
-    ASSERT_EQ(run({"thesis", "files", dome, "--out", scratch / "faulty", "--listing-faults"}).exit_code, 0);
+    ASSERT_EQ(
+        run({"thesis", "files", dome_project, "--out", scratch / "faulty", "--listing-faults"}).exit_code, 0);
     EXPECT_NE(content_of(scratch / "faulty/Toolpath.dat"), path);
-    ASSERT_EQ(run({"thesis", "files", dome, "--out", scratch / "gui", "--constants", "gui"}).exit_code, 0);
+    ASSERT_EQ(
+        run({"thesis", "files", dome_project, "--out", scratch / "gui", "--constants", "gui"}).exit_code, 0);
     EXPECT_NE(content_of(scratch / "gui/Toolpath.dat"), path);
-    EXPECT_EQ(run({"thesis", "files", dome, "--out", scratch / "x", "--constants", "own"}).exit_code, 2);
+    EXPECT_EQ(run({"thesis", "files", dome_project, "--out", scratch / "x", "--constants", "own"}).exit_code,
+              2);
 }
 
 TEST(ThesisCommand, RefusesASurfaceThatTheListingsViewCannotShow) {

@@ -10,12 +10,6 @@
 namespace millwright::architecture {
 namespace {
 
-struct Include {
-    int line = 0;
-    std::string_view path;
-    bool quoted = false;
-};
-
 std::string_view without_leading_white(std::string_view text) {
     return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
 }
@@ -141,7 +135,7 @@ constexpr std::array<std::string_view, 5> window = {"imgui", "backends/imgui", "
 constexpr std::array<std::string_view, 6> opengl = {"GL/", "GLES", "KHR/", "EGL/", "epoxy/", "GLX"};
 constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "bench"};
 constexpr std::array<std::string_view, 1> xlib = {"X11/"};
-constexpr std::array<std::string_view, 2> xlib_home = {"ui/render", "tests/ui/render"};
+constexpr std::array<std::string_view, 3> xlib_home = {"ui/render", "tests/ui/render", "bench"};
 constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
 constexpr std::array<std::string_view, 5> json_home = {
     "core/base", "core/machine", "core/project", "app", "tests"};
@@ -216,20 +210,26 @@ constexpr std::array rules = {
 
 } // namespace
 
+std::vector<Include> includes_of(std::string_view text) {
+    std::vector<Include> includes;
+    for (const auto& line : lines_of(text)) {
+        if (const auto include = include_in(line)) {
+            includes.push_back(*include);
+        }
+    }
+    return includes;
+}
+
 std::vector<Finding> check_includes(const std::vector<TextFile>& files) {
     std::vector<Finding> findings;
     for (const auto& [path, text] : files) {
         if (!is_source(path)) {
             continue;
         }
-        for (const auto& line : lines_of(text)) {
-            const auto include = include_in(line);
-            if (!include) {
-                continue;
-            }
+        for (const auto& include : includes_of(text)) {
             for (const auto rule : rules) {
-                if (auto sentence = rule(path, *include); !sentence.empty()) {
-                    findings.push_back({path, include->line, sentence + ": " + std::string(include->path)});
+                if (auto sentence = rule(path, include); !sentence.empty()) {
+                    findings.push_back({path, include.line, sentence + ": " + std::string(include.path)});
                 }
             }
         }

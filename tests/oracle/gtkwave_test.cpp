@@ -47,8 +47,8 @@ TEST_F(GtkWave, ReadsEverySignalAndEveryChange) {
         ASSERT_EQ(converted.exit_code, 0) << converted.output;
         const ProgramRun back = run_other("fst2vcd", {(folder.path() / "arc.fst").string()});
         ASSERT_EQ(back.exit_code, 0) << back.output;
-        const ::millwright::cordic::test::Waves wanted = ::millwright::cordic::test::read_waves(ours);
-        const ::millwright::cordic::test::Waves seen = ::millwright::cordic::test::read_waves(back.output);
+        const ::millwright::test::Waves wanted = ::millwright::test::read_waves(ours);
+        const ::millwright::test::Waves seen = ::millwright::test::read_waves(back.output);
         EXPECT_EQ(seen.bits, wanted.bits);
         EXPECT_EQ(seen.changes, wanted.changes) << to_text(format);
         EXPECT_EQ(seen.bits.at("page"), 8);

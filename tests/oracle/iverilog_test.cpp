@@ -68,15 +68,8 @@ private:
     }
 };
 
-// Two tests, so that both run at a time: half a minute and nearly one.
-TEST_F(Iverilog, CoreGivesTheBitsOfTheModelForAHundredThousandVectors) {
-    EXPECT_EQ(simulated(make_rtl(fixed_format(2, 22), thesis_sequence(), 100'000, 1), "cordic_core"),
-              "PASS 100000 vectors\n");
-}
-
-TEST_F(Iverilog, PipelineGivesTheBitsOfTheModelForAHundredThousandVectors) {
-    EXPECT_EQ(simulated(make_rtl(fixed_format(2, 22), thesis_sequence(), 100'000, 1), "cordic_pipeline"),
-              "PASS 100000 vectors\n");
+TEST_F(Iverilog, GivesTheBitsOfTheModelForTheThesisFormat) {
+    expect_both_pass(fixed_format(2, 22), thesis_sequence(), 2000, 1);
 }
 
 TEST_F(Iverilog, GivesTheBitsOfTheModelInEveryRoundingSystemAndSequence) {
@@ -110,6 +103,19 @@ TEST_F(Iverilog, FindsAWrongAngle) {
     EXPECT_EQ(spoilt, 2);
     EXPECT_THAT(simulated(files, "cordic_core"), HasSubstr("FAIL"));
     EXPECT_THAT(simulated(files, "cordic_pipeline"), HasSubstr("FAIL"));
+}
+
+// Two tests, so that both run at a time: half a minute and nearly one.
+using IverilogInFull = Iverilog;
+
+TEST_F(IverilogInFull, CoreGivesTheBitsOfTheModelForAHundredThousandVectors) {
+    EXPECT_EQ(simulated(make_rtl(fixed_format(2, 22), thesis_sequence(), 100'000, 1), "cordic_core"),
+              "PASS 100000 vectors\n");
+}
+
+TEST_F(IverilogInFull, PipelineGivesTheBitsOfTheModelForAHundredThousandVectors) {
+    EXPECT_EQ(simulated(make_rtl(fixed_format(2, 22), thesis_sequence(), 100'000, 1), "cordic_pipeline"),
+              "PASS 100000 vectors\n");
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "core/kinematics/arm_file.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <random>
 #include <string>
 

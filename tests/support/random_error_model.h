@@ -4,6 +4,7 @@
 
 #include "core/grid/error_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>

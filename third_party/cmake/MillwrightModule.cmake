@@ -1,37 +1,126 @@
 # How the folders declare what they build. Files are listed, never globbed; the architecture test finds the
 # ones that were forgotten.
 
-# millwright_module(NAME HEADERS ... SOURCES ... PUBLIC ... PRIVATE ...)
-#   One folder = one target millwright_NAME, alias millwright::NAME. Headers form a file set, so that
-#   all_verify_interface_header_sets compiles each of them alone. Headers of the folder that nobody else may
-#   include live in internal/ and are not listed.
+# millwright_precompile(TARGET HEADERS...)
+#   Has outside headers precompiled for TARGET and for those that REUSE_FROM it: read once instead of by every unit. None of
+#   ours: each change of it would be a build from nothing. The compiler gives other bytes each time, so ccache is told in a
+#   file beside them what they stand for.
+function(millwright_precompile target)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    get_target_property(folder ${target} BINARY_DIR)
+    foreach(ending gch pch)
+        file(WRITE ${folder}/CMakeFiles/${target}.dir/cmake_pch.hxx.${ending}.sum
+            "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION} ${ARGN}\n")
+    endforeach()
+endfunction()
+
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
+add_library(millwright_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+target_link_libraries(millwright_precompiled PRIVATE millwright_options fmt::fmt Eigen3::Eigen)
+millwright_precompile(millwright_precompiled
+    <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <limits> <map> <memory>
+    <mutex> <optional> <set> <span> <string> <string_view> <thread> <utility> <variant> <vector>
+    <fmt/format.h> <Eigen/Core> <Eigen/Geometry>)
+# A precompiled header is refused where a macro differs from what it was made with.
+target_compile_definitions(millwright_options INTERFACE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+
+# millwright_sources(TARGET FILES...)
+#   Adds source files in units of about MILLWRIGHT_UNIT_KB: reading the headers takes longer than compiling one file.
+#   So names in the anonymous namespaces of one target are unique. A unit names its files by their path from the
+#   repository's root: ccache then recognises it in any checkout.
+function(millwright_sources target)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    math(EXPR limit "${MILLWRIGHT_UNIT_KB} * 1024")
+    if(limit EQUAL 0)
+        target_sources(${target} PRIVATE ${ARGN})
+        return()
+    endif()
+    get_target_property(number ${target} MILLWRIGHT_UNITS)
+    if(NOT number)
+        set(number 0)
+    endif()
+    set(unit "")
+    set(size 0)
+    foreach(source IN LISTS ARGN)
+        file(SIZE ${CMAKE_CURRENT_SOURCE_DIR}/${source} bytes)
+        math(EXPR with_it "${size} + ${bytes}")
+        if(with_it GREATER limit AND unit)
+            math(EXPR number "${number} + 1")
+            millwright_unit(${target} ${number} "${unit}")
+            set(unit "")
+            set(size 0)
+        endif()
+        string(APPEND unit "#include \"${folder}/${source}\"\n")
+        math(EXPR size "${size} + ${bytes}")
+    endforeach()
+    if(unit)
+        math(EXPR number "${number} + 1")
+        millwright_unit(${target} ${number} "${unit}")
+    endif()
+    set_target_properties(${target} PROPERTIES MILLWRIGHT_UNITS ${number})
+endfunction()
+
+function(millwright_unit target number text)
+    set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}_${number}.cpp)
+    file(CONFIGURE OUTPUT ${file} CONTENT "${text}" @ONLY)
+    target_sources(${target} PRIVATE ${file})
+endfunction()
+
+# millwright_module(NAME HEADERS ... SOURCES ... [APART ...] PUBLIC ... PRIVATE ...)
+#   One folder = one target millwright_NAME, alias millwright::NAME. The target `headers` compiles each of HEADERS
+#   alone. Headers of the folder that nobody else may include live in internal/ and are not listed.
+#   APART: sources with options of their own or with outside headers that define macros; each is compiled alone.
 function(millwright_module name)
-    cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
-    add_library(millwright_${name} STATIC ${ARG_SOURCES})
+    cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;APART;PUBLIC;PRIVATE" ${ARGN})
+    add_library(millwright_${name} STATIC)
+    millwright_sources(millwright_${name} ${ARG_SOURCES})
+    target_sources(millwright_${name} PRIVATE ${ARG_APART})
+    target_precompile_headers(millwright_${name} REUSE_FROM millwright_precompiled)
     add_library(millwright::${name} ALIAS millwright_${name})
     target_sources(millwright_${name}
         PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
     target_link_libraries(millwright_${name}
         PUBLIC ${ARG_PUBLIC}
         PRIVATE $<BUILD_INTERFACE:millwright_options> ${ARG_PRIVATE})
+    millwright_headers_alone(${name} ${ARG_HEADERS})
 endfunction()
 
-# millwright_test(NAME SOURCES ... LINK ... [ON_DISPLAY pattern] [ALONE pattern])
+# The precompiled header hides which standard headers are missing: the architecture test looks for those.
+add_custom_target(headers)
+function(millwright_headers_alone name)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    set(sources "")
+    foreach(header IN LISTS ARGN)
+        string(MAKE_C_IDENTIFIER ${header} file)
+        set(file ${CMAKE_CURRENT_BINARY_DIR}/headers/${file}.cpp)
+        file(CONFIGURE OUTPUT ${file} CONTENT "#include \"${folder}/${header}\"\n" @ONLY)
+        list(APPEND sources ${file})
+    endforeach()
+    add_library(millwright_${name}_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+    target_link_libraries(millwright_${name}_headers PRIVATE millwright_options millwright_${name})
+    target_precompile_headers(millwright_${name}_headers REUSE_FROM millwright_precompiled)
+    add_dependencies(headers millwright_${name}_headers)
+endfunction()
+
+# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [ALONE pattern] [LONG pattern])
 #   The test program of one folder. It links that folder's target alone: only so does the linker refuse an
 #   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
-#   Those that match ALONE run while no other test runs.
+#   Those that match ALONE run while no other test runs. Those that match LONG take minutes to look at what a test of the
+#   same program looks at in small; they have the label `long`, which scripts/test leaves out and .ci/run runs last.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "ON_DISPLAY;ALONE" "SOURCES;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ON_DISPLAY;ALONE;LONG" "SOURCES;APART;LINK" ${ARGN})
     set(main millwright_test_main)
     if(MILLWRIGHT_CHECKED AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests/core/")
         set(main millwright_trapping_test_main)
     endif()
-    add_executable(${name}_test ${ARG_SOURCES})
+    add_executable(${name}_test)
+    millwright_sources(${name}_test ${ARG_SOURCES})
+    target_sources(${name}_test PRIVATE ${ARG_APART})
     target_link_libraries(${name}_test PRIVATE millwright_options ${ARG_LINK} ${main})
     target_precompile_headers(${name}_test REUSE_FROM millwright_test_main)
     set_target_properties(${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
@@ -53,6 +142,13 @@ function(millwright_test name)
             TEST_LIST ${name}_test_alone
             PROPERTIES TIMEOUT 600 RUN_SERIAL TRUE)
         string(APPEND others ":${ARG_ALONE}")
+    endif()
+    if(ARG_LONG)
+        gtest_discover_tests(${name}_test ${discovery}
+            TEST_FILTER "${ARG_LONG}"
+            TEST_LIST ${name}_test_long
+            PROPERTIES TIMEOUT 1800 LABELS long)
+        string(APPEND others ":${ARG_LONG}")
     endif()
     string(REGEX REPLACE "^:" "-" others "${others}")
     gtest_discover_tests(${name}_test ${discovery} TEST_FILTER "${others}" PROPERTIES TIMEOUT 600)

@@ -3,19 +3,22 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_VERIFY_INTERFACE_HEADER_SETS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 
-# ccache shares its results between checkouts: paths are made relative, the build folder is not hashed. What is
-# precompiled needs its leave to be looked at by content.
+# ccache shares its results between checkouts: paths are made relative, and the build folder is not hashed. A precompiled
+# header is known by the file beside it (millwright_precompile), the compiler by its content, so that another installation
+# of it counts as the same. -Werror changes nothing in what compiles without a warning.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER
-        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-            CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+        ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_PCH_EXTSUM=1
+            CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_COMPILERCHECK=content CCACHE_IGNOREOPTIONS=-Werror
+            ${CCACHE_PROGRAM})
 endif()
 
 set(MILLWRIGHT_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize takes them; empty for none")
+option(MILLWRIGHT_WARNINGS_AS_ERRORS "For developers: the next compiler warns of something new" OFF)
+set(MILLWRIGHT_UNIT_KB 100 CACHE STRING "Compile sources in units of so many kilobytes; 0: each file alone")
 option(MILLWRIGHT_CHECKED "Checked standard library and floating-point traps in core tests" OFF)
 option(MILLWRIGHT_PLAIN_THREADS "Parallel loops on std::jthread instead of oneTBB (for ThreadSanitizer)" OFF)
 
@@ -25,9 +28,16 @@ target_include_directories(millwright_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(millwright_options INTERFACE
     -ffp-contract=off
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual
-    -Wdouble-promotion -Wnull-dereference -Wformat=2 -Wcast-align -Wfloat-equal -Wundef -Werror)
+    -Wdouble-promotion -Wformat=2 -Wcast-align -Wfloat-equal -Wundef
+    $<$<BOOL:${MILLWRIGHT_WARNINGS_AS_ERRORS}>:-Werror>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(millwright_options INTERFACE -fpch-preprocess) # or ccache gives up where headers are precompiled
+endif()
+# Libraries that a program does not call need not be loaded when it starts.
+add_link_options(-Wl,--as-needed)
+if(MILLWRIGHT_PACKAGE)
+    # Where the source lies must not show in the bytes; ccache makes its path a relative one.
+    add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=../../=)
 endif()
 if(MILLWRIGHT_SANITIZE)
     target_compile_options(millwright_options INTERFACE
@@ -38,10 +48,10 @@ if(MILLWRIGHT_SANITIZE MATCHES "thread")
     # ThreadSanitizer does not know fences; without them Asio relies on its mutexes alone.
     target_compile_definitions(millwright_options INTERFACE BOOST_ASIO_DISABLE_FENCED_BLOCK)
 endif()
-# These two look through inlined code, and g++ 12 then finds null pointers and unset values that cannot be as
-# soon as it inlines differently from -O2: sanitized, or at -Og. The release build is where they are errors.
+# This one looks through inlined code, and g++ 12 then finds unset values that cannot be as soon as it inlines
+# differently from -O2: sanitized, or at -Og. The release build is where it is an error.
 if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(millwright_options INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized)
+    target_compile_options(millwright_options INTERFACE -Wno-maybe-uninitialized)
 endif()
 # clang gives this warning for defaulted comparisons too, where g++ knows better.
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")

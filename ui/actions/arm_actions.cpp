@@ -52,7 +52,7 @@ void enable(Hands& hands) {
     hands.workshop.controller().tell([](machine::Driver& driver) { driver.enable(); });
 }
 
-template <ArmMove how> void go(Hands& hands) {
+template <ArmMove how> void move_arm(Hands& hands) {
     hands.workshop.arm().go(how);
 }
 
@@ -86,7 +86,7 @@ void add_arm_actions(Actions& actions) {
          "",
          icons::play},
         can_go,
-        go<ArmMove::joints>);
+        move_arm<ArmMove::joints>);
     add(actions,
         {"arm.go_straight",
          menu,
@@ -95,7 +95,7 @@ void add_arm_actions(Actions& actions) {
          "",
          icons::toolpath},
         can_go,
-        go<ArmMove::straight>);
+        move_arm<ArmMove::straight>);
     add(actions,
         {"arm.stop", menu, "Stop the drawn arm", "It stays where it is.", "", icons::stop},
         moves,

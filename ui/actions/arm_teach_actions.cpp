@@ -33,7 +33,7 @@ Permission can_teach(const Workbench& now) {
 }
 
 /// The drawn arm may always play; a connected one at rest, with power, where its position is known.
-Permission can_play(const Workbench& now) {
+Permission can_play_arm(const Workbench& now) {
     if (const Permission there = in_workspace(now); !there.allowed || !now.arm_connected()) {
         return there;
     }
@@ -49,7 +49,7 @@ Permission can_play(const Workbench& now) {
 }
 
 Permission can_play_points(const Workbench& now) {
-    const Permission able = can_play(now);
+    const Permission able = can_play_arm(now);
     return able.allowed && now.project.arm.points.empty() ? Permission::refused("No point was taught yet.")
                                                           : able;
 }
@@ -69,11 +69,11 @@ Permission can_simulate(const Workbench& now) {
     return now.arm.program().busy() ? Permission::refused("It is being simulated.") : sound_program(now);
 }
 
-Permission can_run(const Workbench& now) {
+Permission can_run_arm_program(const Workbench& now) {
     if (!now.arm_connected()) {
         return Permission::refused("No PMAC is connected: simulate it.");
     }
-    const Permission able = can_play(now);
+    const Permission able = can_play_arm(now);
     return able.allowed ? sound_program(now) : able;
 }
 
@@ -96,13 +96,13 @@ Permission can_load_settings(const Workbench& now) {
                : able;
 }
 
-Permission can_send(const Workbench& now) {
+Permission can_send_arm_program(const Workbench& now) {
     const Permission able = takes_lines(now);
     return able.allowed ? sound_program(now) : able;
 }
 
 Permission can_send_path(const Workbench& now) {
-    const Permission able = can_play(now);
+    const Permission able = can_play_arm(now);
     if (!able.allowed) {
         return able;
     }
@@ -180,7 +180,7 @@ void send(Hands& hands) {
     hands.workshop.controller().tell([&](machine::Driver& driver) { (void)driver.command(text); });
 }
 
-template <FileQuestion question> void ask_for(Hands& hands) {
+template <FileQuestion question> void ask_for_arm_file(Hands& hands) {
     hands.session.question = question;
 }
 
@@ -206,11 +206,11 @@ void add_arm_teach_actions(Actions& actions) {
     add(actions,
         {"arm.open_points", menu, "Open points", "In place of the present ones.", "", icons::folder},
         in_workspace,
-        ask_for<FileQuestion::open_points>);
+        ask_for_arm_file<FileQuestion::open_points>);
     add(actions,
         {"arm.save_points", menu, "Save points", "As a file of their own.", "", icons::save},
         in_workspace,
-        ask_for<FileQuestion::save_points>);
+        ask_for_arm_file<FileQuestion::save_points>);
     add(actions,
         {"arm.simulate",
          menu,
@@ -227,20 +227,20 @@ void add_arm_teach_actions(Actions& actions) {
          "Into the card's PROG 1; nothing moves.",
          "",
          icons::plug},
-        can_send,
+        can_send_arm_program,
         send);
     add(actions,
         {"arm.run_program", menu, "Run the program", "Sends it to the card and runs it.", "", icons::play},
-        can_run,
+        can_run_arm_program,
         run);
     add(actions,
         {"arm.open_program", menu, "Open a program", "In place of the present text.", "", icons::folder},
         in_workspace,
-        ask_for<FileQuestion::open_motion_program>);
+        ask_for_arm_file<FileQuestion::open_motion_program>);
     add(actions,
         {"arm.save_program", menu, "Save the program", "As a file of its own.", "", icons::save},
         in_workspace,
-        ask_for<FileQuestion::save_motion_program>);
+        ask_for_arm_file<FileQuestion::save_motion_program>);
     add(actions,
         {"arm.play_file",
          menu,
@@ -248,8 +248,8 @@ void add_arm_teach_actions(Actions& actions) {
          "Lines and arcs of the tool from where it stands: the drawn arm, or the connected one.",
          "",
          icons::file},
-        can_play,
-        ask_for<FileQuestion::play_motion_file>);
+        can_play_arm,
+        ask_for_arm_file<FileQuestion::play_motion_file>);
     add(actions,
         {"arm.card_settings",
          menu,
@@ -258,7 +258,7 @@ void add_arm_teach_actions(Actions& actions) {
          "",
          icons::settings},
         can_load_settings,
-        ask_for<FileQuestion::load_card_settings>);
+        ask_for_arm_file<FileQuestion::load_card_settings>);
     add(actions,
         {"arm.send_path",
          menu,

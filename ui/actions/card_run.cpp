@@ -10,7 +10,7 @@ namespace millwright::actions {
 namespace {
 
 constexpr double longest_wait = 2.0; // s
-constexpr int ahead = 4;             // lines that may be executed beyond those that the driver is certain of
+constexpr int lines_ahead = 4;       // lines that may be executed beyond those that the driver is certain of
 
 /// When `line` (from 0) begins.
 double begin_of(const CardPlan& plan, int line) {
@@ -60,7 +60,7 @@ void CardRun::go_on(const machine::DriverStatus& status, double seconds) {
     if (!plan_->ends.empty()) {
         const int done = std::clamp(status.executed_blocks, 0, plan_->lines);
         from = begin_of(*plan_, done);
-        to = std::min(std::max(to, from), begin_of(*plan_, std::min(done + ahead + 1, plan_->lines)));
+        to = std::min(std::max(to, from), begin_of(*plan_, std::min(done + lines_ahead + 1, plan_->lines)));
     }
     elapsed_ = std::clamp(elapsed_, from, std::max(from, to));
     const double time = at_ && !sending ? time_by_place(status, to, guess) : guess;

@@ -27,7 +27,7 @@ Permission has_listing(const Workbench& now) {
     return now.listing() ? Permission{} : Permission::refused("There is no program yet.");
 }
 
-Permission has_file(const Workbench& now) {
+Permission can_change_file(const Workbench& now) {
     if (!now.opened) {
         return Permission::refused("No G-code file is open.");
     }
@@ -94,7 +94,7 @@ void add_file_actions(Actions& actions) {
          "For a file that another program has changed.",
          "",
          icons::redo},
-        has_file,
+        can_change_file,
         [](Hands& hands) { hands.workshop.read_again(); });
     add(actions,
         {"file.close_program",
@@ -103,7 +103,7 @@ void add_file_actions(Actions& actions) {
          "The Program workspace shows the project's own program again.",
          "Ctrl+W",
          ""},
-        has_file,
+        can_change_file,
         [](Hands& hands) { hands.workshop.close_file(); });
 }
 

@@ -24,12 +24,12 @@ Permission is_watched(const Workbench& now) {
     return now.watched ? Permission{} : Permission::refused("No adaptation has been started.");
 }
 
-Permission is_playing(const Workbench& now) {
+Permission is_adaptation_playing(const Workbench& now) {
     return now.watched && now.watched->playing ? Permission{}
                                                : Permission::refused("No adaptation is playing.");
 }
 
-template <GridMethod method> void start(Hands& hands) {
+template <GridMethod method> void start_adaptation(Hands& hands) {
     hands.pipeline.start_adaptation(method);
     hands.pipeline.play_adaptation();
     hands.session.workspace = Workspace::grid;
@@ -133,7 +133,7 @@ void add_grid_actions(Actions& actions) {
          "",
          icons::play},
         has_surface,
-        start<GridMethod::elliptic>);
+        start_adaptation<GridMethod::elliptic>);
     add(actions,
         {"grid.optimise",
          "Grid",
@@ -142,7 +142,7 @@ void add_grid_actions(Actions& actions) {
          "",
          icons::play},
         has_surface,
-        start<GridMethod::tracks>);
+        start_adaptation<GridMethod::tracks>);
     add(actions,
         {"grid.chain",
          "Grid",
@@ -151,7 +151,7 @@ void add_grid_actions(Actions& actions) {
          "",
          icons::play},
         has_surface,
-        start<GridMethod::chain>);
+        start_adaptation<GridMethod::chain>);
     add(actions,
         {"grid.harmonic",
          "Grid",
@@ -160,7 +160,7 @@ void add_grid_actions(Actions& actions) {
          "",
          icons::play},
         has_surface,
-        start<GridMethod::harmonic>);
+        start_adaptation<GridMethod::harmonic>);
     add(actions,
         {"grid.redistribute",
          "Grid",
@@ -169,14 +169,14 @@ void add_grid_actions(Actions& actions) {
          "",
          icons::play},
         has_surface,
-        start<GridMethod::redistribution>);
+        start_adaptation<GridMethod::redistribution>);
     add(actions,
         {"grid.play", "Grid", "Play the adaptation", "Goes on by itself.", "", icons::play},
         is_watched,
         [](Hands& hands) { hands.pipeline.play_adaptation(); });
     add(actions,
         {"grid.pause", "Grid", "Pause the adaptation", "Stops after the present step.", "", icons::pause},
-        is_playing,
+        is_adaptation_playing,
         [](Hands& hands) { hands.pipeline.pause_adaptation(); });
     add(actions,
         {"grid.step",

@@ -9,8 +9,8 @@ namespace millwright::actions {
 
 namespace {
 
-constexpr double ahead = 1.0;   // s: of motion that a renewed jog asks for, far beyond its dead man
-constexpr double forgets = 0.9; // of a slow frame, with each that follows
+constexpr double seconds_ahead = 1.0; // s: of motion that a renewed jog asks for, far beyond its dead man
+constexpr double forgets = 0.9;       // of a slow frame, with each that follows
 
 } // namespace
 
@@ -21,7 +21,7 @@ double JogHand::dead_man_for(double frame) {
 
 void JogHand::renew(const JogWish& wish) {
     machine::Jog jog;
-    jog.way = wish.direction * (wish.speed * ahead);
+    jog.way = wish.direction * (wish.speed * seconds_ahead);
     jog.speed = wish.speed;
     jog.dead_man = dead_man_for(frame_);
     moving_ = true; // also if the driver refuses: it is told to stop then

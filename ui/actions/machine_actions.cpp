@@ -56,7 +56,7 @@ Permission position_ready(const Workbench& now, int from_line) {
                  : Permission{};
 }
 
-Permission can_run(const Workbench& now) {
+Permission can_run_job(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
@@ -120,7 +120,7 @@ void stop(Hands& hands) {
 }
 
 /// On what is connected, else on a virtual machine.
-void start(Hands& hands, machine::Job job, const JobRunner::Ended& ended = {}) {
+void start_job(Hands& hands, machine::Job job, const JobRunner::Ended& ended = {}) {
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
     hands.session.playback.playing = false;
     hands.session.file.step.reset();
@@ -186,7 +186,7 @@ void run_next(Hands& hands) {
     machine::JobQueue& queue = stored.open();
     machine::Job job = queue.begin(queue.next().value().id);
     try {
-        start(hands, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
+        start_job(hands, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
     } catch (const Error& error) {
         queue.failed(error.what());
         throw;
@@ -251,8 +251,8 @@ void add_machine_actions(Actions& actions) {
          "Checks the program and sends it to the connected machine, else to a virtual one.",
          "F9",
          icons::play},
-        can_run,
-        [](Hands& hands) { start(hands, wanted_job(hands.now)); });
+        can_run_job,
+        [](Hands& hands) { start_job(hands, wanted_job(hands.now)); });
     add(actions,
         {"machine.hold",
          "Machine",

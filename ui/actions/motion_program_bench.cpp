@@ -4,7 +4,7 @@ namespace millwright::actions {
 
 namespace {
 
-const std::filesystem::path named = "program";
+const std::filesystem::path motion_program_name = "program";
 
 } // namespace
 
@@ -16,7 +16,7 @@ MotionProgramBench::Answer MotionProgramBench::run(const Wish& wish, const Progr
     settings.start_deg = wish.start_deg;
     return {wish.text,
             std::make_shared<const machine::MotionSimulation>(
-                machine::simulate_motion_program(wish.text, named, settings, progress))};
+                machine::simulate_motion_program(wish.text, motion_program_name, settings, progress))};
 }
 
 void MotionProgramBench::follow(const std::string& text) {
@@ -24,7 +24,7 @@ void MotionProgramBench::follow(const std::string& text) {
         return;
     }
     text_ = text;
-    text_faults_ = machine::motion_program_faults(text_, named);
+    text_faults_ = machine::motion_program_faults(text_, motion_program_name);
     faults_ = text_faults_;
 }
 
@@ -50,7 +50,7 @@ std::vector<std::string> MotionProgramBench::lines() const {
         throw Error(text_faults_.front());
     }
     std::vector<std::string> lines;
-    for (const machine::MotionLine& line : machine::motion_lines(text_, named)) {
+    for (const machine::MotionLine& line : machine::motion_lines(text_, motion_program_name)) {
         lines.push_back(line.text);
     }
     if (lines.empty()) {

@@ -10,7 +10,7 @@ namespace {
 
 using widgets::Permission;
 
-Permission can_play(const Workbench& now) {
+Permission can_play_program(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("The view follows the running job.");
     }
@@ -22,7 +22,7 @@ Permission can_play(const Workbench& now) {
 }
 
 Permission can_step_lines(const Workbench& now) {
-    const Permission playing = can_play(now);
+    const Permission playing = can_play_program(now);
     if (!playing.allowed) {
         return playing;
     }
@@ -103,7 +103,7 @@ void add_playback_actions(Actions& actions) {
          "Moves the machine along the program.",
          "Space",
          icons::play},
-        can_play,
+        can_play_program,
         [](Hands& hands) {
             if (hands.session.playback.playing) {
                 hands.session.playback.playing = false;
@@ -118,7 +118,7 @@ void add_playback_actions(Actions& actions) {
          "To the start of the next block.",
          "Right",
          icons::step_forward},
-        can_play,
+        can_play_program,
         [](Hands& hands) { step(hands, 1); });
     add(actions,
         {"play.back",
@@ -127,7 +127,7 @@ void add_playback_actions(Actions& actions) {
          "To the start of this or the previous block.",
          "Left",
          icons::step_back},
-        can_play,
+        can_play_program,
         [](Hands& hands) { step(hands, -1); });
     add(actions,
         {"play.first",
@@ -136,11 +136,11 @@ void add_playback_actions(Actions& actions) {
          "Before the first block.",
          "Ctrl+Left",
          icons::skip_first},
-        can_play,
+        can_play_program,
         [](Hands& hands) { jump(hands, 0.0); });
     add(actions,
         {"play.last", "Step-through", "To the end", "After the last block.", "Ctrl+Right", icons::skip_last},
-        can_play,
+        can_play_program,
         [](Hands& hands) { jump(hands, hands.now.duration()); });
     add(actions,
         {"play.line_forward",

@@ -23,18 +23,18 @@ Permission has_path(const Workbench& now) {
                : Permission::refused(made->failure ? to_text(*made->failure) : "There is no path.");
 }
 
-Permission can_send(const Workbench& now) {
+Permission can_send_plot(const Workbench& now) {
     return now.job.running ? Permission::refused("A job is running.") : has_path(now);
 }
 
-Permission can_play(const Workbench& now) {
+Permission can_play_plot(const Workbench& now) {
     if (const Permission path = has_path(now); !path.allowed) {
         return path;
     }
     return now.plot.table().playing() ? Permission::refused("The table is moving.") : Permission{};
 }
 
-Permission is_playing(const Workbench& now) {
+Permission is_table_moving(const Workbench& now) {
     return now.plot.table().playing() ? Permission{} : Permission::refused("The table stands.");
 }
 
@@ -93,7 +93,7 @@ void add_plot_actions(Actions& actions) {
          "Writes the G-code and opens it in the Machine workspace, where it is sent or queued.",
          "",
          icons::machine},
-        can_send,
+        can_send_plot,
         [](Hands& hands) { hands.workshop.write_plot(true); });
     add(actions,
         {"plot.play_table",
@@ -102,11 +102,11 @@ void add_plot_actions(Actions& actions) {
          "Sends one point a period at constant velocity.",
          "",
          icons::play},
-        can_play,
+        can_play_plot,
         [](Hands& hands) { hands.workshop.plot().play_table(); });
     add(actions,
         {"plot.stop_table", menu, "Stop the table", "No point is sent any more.", "", icons::stop},
-        is_playing,
+        is_table_moving,
         [](Hands& hands) { hands.workshop.plot().table().stop(); });
 }
 

@@ -32,7 +32,7 @@ Permission runs(const Workbench& now) {
     return now.processor.running() ? Permission{} : Permission::refused("The processor does not run.");
 }
 
-Permission has_file(const Workbench& now) {
+Permission has_gcode_file(const Workbench& now) {
     return now.opened ? Permission{} : Permission::refused("Open a G-code file first.");
 }
 
@@ -121,7 +121,7 @@ void add_processor_actions(Actions& actions) {
         is_loaded<ProcessorSource::thesis_path>);
     add(actions,
         {"processor.opened_file", menu, "Load the G-code file", "The one of the Program workspace.", "", ""},
-        has_file,
+        has_gcode_file,
         load<ProcessorSource::opened_file>,
         is_loaded<ProcessorSource::opened_file>);
     add(actions,

@@ -14,7 +14,7 @@ namespace {
 
 using render::Key;
 
-constexpr std::array<std::pair<std::string_view, Key>, 24> named{{
+constexpr std::array<std::pair<std::string_view, Key>, 24> named_keys{{
     {"Space", Key::space}, {"Esc", Key::escape}, {"Enter", Key::enter}, {"Tab", Key::tab},
     {"Del", Key::del},     {"Left", Key::left},  {"Right", Key::right}, {"Up", Key::up},
     {"Down", Key::down},   {"Home", Key::home},  {"End", Key::end},     {".", Key::period},
@@ -30,9 +30,9 @@ Key key_named(std::string_view name) {
     if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') {
         return static_cast<Key>(static_cast<int>(Key::digit_0) + name[0] - '0');
     }
-    const auto* found =
-        std::find_if(named.begin(), named.end(), [name](const auto& entry) { return entry.first == name; });
-    expects(found != named.end(), fmt::format("'{}' is a key", name));
+    const auto* found = std::find_if(
+        named_keys.begin(), named_keys.end(), [name](const auto& entry) { return entry.first == name; });
+    expects(found != named_keys.end(), fmt::format("'{}' is a key", name));
     return found->second;
 }
 

@@ -8,7 +8,7 @@ namespace icons = widgets::icons;
 
 namespace {
 
-template <Workspace workspace> void go(Hands& hands) {
+template <Workspace workspace> void show_workspace(Hands& hands) {
     hands.session.workspace = workspace;
 }
 
@@ -95,27 +95,27 @@ void add_view_actions(Actions& actions) {
     add(actions,
         {"view.design", "View", "Design", "Control points and surface.", "F2", ""},
         always,
-        go<Workspace::design>,
+        show_workspace<Workspace::design>,
         is_in<Workspace::design>);
     add(actions,
         {"view.grid", "View", "Grid", "The grid and its adaptation.", "F3", ""},
         always,
-        go<Workspace::grid>,
+        show_workspace<Workspace::grid>,
         is_in<Workspace::grid>);
     add(actions,
         {"view.toolpath", "View", "Toolpath", "The path and its error.", "F4", ""},
         always,
-        go<Workspace::toolpath>,
+        show_workspace<Workspace::toolpath>,
         is_in<Workspace::toolpath>);
     add(actions,
         {"view.program", "View", "Program", "The G-code in step with the motion.", "F5", ""},
         always,
-        go<Workspace::program>,
+        show_workspace<Workspace::program>,
         is_in<Workspace::program>);
     add(actions,
         {"view.machine", "View", "Machine", "The machine at work.", "F6", ""},
         always,
-        go<Workspace::machine>,
+        show_workspace<Workspace::machine>,
         is_in<Workspace::machine>);
     add(actions,
         {"view.plot",
@@ -125,17 +125,17 @@ void add_view_actions(Actions& actions) {
          "Shift+F5",
          ""},
         always,
-        go<Workspace::plot>,
+        show_workspace<Workspace::plot>,
         is_in<Workspace::plot>);
     add(actions,
         {"view.processor", "View", "Processor", "The CORDIC processor, clock by clock.", "F7", ""},
         always,
-        go<Workspace::processor>,
+        show_workspace<Workspace::processor>,
         is_in<Workspace::processor>);
     add(actions,
         {"view.arm", "View", "Arm", "The robot arm: joints, goals, jogs.", "Shift+F6", icons::arm},
         always,
-        go<Workspace::arm>,
+        show_workspace<Workspace::arm>,
         is_in<Workspace::arm>);
     add_show<GridMethod::uniform>(
         actions, "view.show_uniform", "Show the uniform grid", "Draws path and error of the uniform grid.");

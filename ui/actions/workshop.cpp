@@ -16,8 +16,8 @@ namespace millwright::actions {
 
 namespace {
 
-project::Project starting_project() {
-    return project::project_from_preset("dome");
+project::Project starting_project(const WorkshopOptions& options) {
+    return options.start ? *options.start : project::project_from_preset("dome");
 }
 
 /// Selected control points that the project still has.
@@ -61,7 +61,7 @@ project::Activity activity_of(const SurfaceExport& work) {
 } // namespace
 
 Workshop::Workshop(WorkshopOptions options)
-    : options_(std::move(options)), history_(starting_project()), session_(new_session()),
+    : options_(std::move(options)), history_(starting_project(options_)), session_(new_session()),
       queue_(options_.log_folder / "queue.json") {
     documents_.push_back({{}, history_.current()});
     guarded([this] { recent_ = project::read_recent(options_.settings); });

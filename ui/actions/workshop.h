@@ -22,11 +22,12 @@ class SurfaceExport;
 enum class ProcessorSource : std::uint8_t; // processor_bench.h
 
 struct WorkshopOptions {
-    std::filesystem::path assets;     ///< what ships with the program
-    std::filesystem::path log_folder; ///< of jobs
-    std::filesystem::path settings;   ///< file of the recent files; empty: keep none
-    std::filesystem::path recovery;   ///< folder of the copies of unsaved work; empty: keep none
-    std::function<void()> wake;       ///< from any thread: draw a frame
+    std::filesystem::path assets;               ///< what ships with the program
+    std::filesystem::path log_folder;           ///< of jobs
+    std::filesystem::path settings;             ///< file of the recent files; empty: keep none
+    std::filesystem::path recovery;             ///< folder of the copies of unsaved work; empty: keep none
+    std::function<void()> wake;                 ///< from any thread: draw a frame
+    std::optional<project::Project> start = {}; ///< the project to begin with; empty: the sample
     std::chrono::milliseconds autosave_interval = std::chrono::seconds(3); ///< between two copies
 };
 

@@ -36,15 +36,15 @@ constexpr std::array<widgets::Option, 3> frames{
     {{"joints", "Joints", {}, "Each joint by itself"},
      {"base", "Base", {}, "The tip along X, Y and Z of the arm's base"},
      {"tool", "Tool", {}, "The tip along x, y and z of the tool"}}};
-constexpr std::array<double, 4> steps{0.0, 0.1, 1.0, 10.0};
-constexpr std::array<widgets::Option, 4> step_options{
+constexpr std::array<double, 4> arm_jog_steps{0.0, 0.1, 1.0, 10.0};
+constexpr std::array<widgets::Option, 4> arm_jog_step_options{
     {{"hold", "Held", {}, "Moves as long as it is held"}, {"0_1", "0.1"}, {"1", "1"}, {"10", "10"}}};
 
 bool drives(const Workbench& now, int joint) {
     return joint < std::ssize(now.controller.axes);
 }
 
-Permission can_jog(const Workbench& now, int joint) {
+Permission can_jog_joint(const Workbench& now, int joint) {
     if (!now.arm_connected()) {
         return now.controller.connected()
                    ? Permission::refused("What is connected is no arm: see the Machine workspace.")
@@ -217,7 +217,7 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                 session.hand.arm_frame = f;
             });
         }
-        if (!can_jog(now, -1).allowed) {
+        if (!can_jog_joint(now, -1).allowed) {
             refusal_.clear(); // of an earlier jog
         }
         Wish wish(now, ask, refusal_);
@@ -238,7 +238,7 @@ void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
         const std::string id = (sign > 0.0 ? "plus_" : "minus_") + name;
         const Rank rank = joint >= 0 && joint == joint_of_keys(now) ? Rank::primary : Rank::normal;
         return ui.hold_button(
-            id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog(now, joint), {{}, rank, -1.0F, {}});
+            id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog_joint(now, joint), {{}, rank, -1.0F, {}});
     };
     if (now.session.hand.arm_frame == ArmFrame::joints) {
         const int joints = now.arm.arm().joint_count(), a_row = is_low(ui) ? 3 : 1;
@@ -267,10 +267,11 @@ void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
 void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::HandSettings& hand = now.session.hand;
     const auto labels = ui.label_share(0.3F);
-    const auto at = std::ranges::find(steps, hand.step);
-    const int chosen = at == steps.end() ? 0 : static_cast<int>(at - steps.begin());
-    if (const auto step = ui.segmented("step", "Step", chosen, step_options, "Degrees or mm of one press")) {
-        ask.show([step = steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
+    const auto at = std::ranges::find(arm_jog_steps, hand.step);
+    const int chosen = at == arm_jog_steps.end() ? 0 : static_cast<int>(at - arm_jog_steps.begin());
+    if (const auto step =
+            ui.segmented("step", "Step", chosen, arm_jog_step_options, "Degrees or mm of one press")) {
+        ask.show([step = arm_jog_steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
             session.hand.step = step;
         });
     }
@@ -356,7 +357,7 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
     }
     const bool held = render::key_down(Key::equal) || render::key_down(Key::minus);
     key_joint_ = held ? key_joint_ : joint; // another joint begins with another press
-    const widgets::Permission jogs = can_jog(now, joint);
+    const widgets::Permission jogs = can_jog_joint(now, joint);
     if (!jogs.allowed && (render::key_pressed(Key::equal) || render::key_pressed(Key::minus))) {
         tell_refusal(ask, "+ and \u2212", jogs);
     } else if (jogs.allowed && key_joint_ == joint) {

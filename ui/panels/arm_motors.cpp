@@ -1,8 +1,8 @@
 #include "ui/panels/arm_motors.h"
 
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/panels/internal/joint_units.h"
 #include "ui/widgets/table.h"
 
 #include <algorithm>
@@ -20,20 +20,16 @@ using machine::MachineLimits;
 
 const std::string nothing = "\u2014";
 
-double shown(const ArmJoint& joint, double value) {
-    return joint.kind == kinematics::JointKind::revolute ? to_degrees(value) : value;
-}
-
 /// The columns' unit is the degree; what slides has its own with it, and fewer decimals, so that both fit.
-std::string number(const ArmJoint& joint,
-                   std::optional<double> value,
-                   int decimals,
-                   const std::string& of_slides = " mm") {
+std::string joint_number(const ArmJoint& joint,
+                         std::optional<double> value,
+                         int decimals,
+                         const std::string& of_slides = " mm") {
     if (!value || !std::isfinite(*value)) {
         return nothing;
     }
     const bool slides = joint.kind == kinematics::JointKind::prismatic;
-    return fixed(shown(joint, *value), slides ? decimals / 2 : decimals) + (slides ? of_slides : "");
+    return fixed(in_joint_unit(joint, *value), slides ? decimals / 2 : decimals) + (slides ? of_slides : "");
 }
 
 /// One joint as its file has it and, where a controller drives it, as that tells.
@@ -63,23 +59,24 @@ public:
         case 0:
             return joint_.name + (!known_ ? " ?" : viewport::near_limit(joint_, at_) ? " !" : "");
         case 1:
-            return number(joint_, at_, 3);
+            return joint_number(joint_, at_, 3);
         case 2:
             return travel();
         case 3:
-            return number(joint_, velocity_, 3);
+            return joint_number(joint_, velocity_, 3);
         case 4:
-            return number(joint_, limits_.jog_speed, 1);
+            return joint_number(joint_, limits_.jog_speed, 1);
         case 5:
-            return number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1);
+            return joint_number(joint_, limits_.speed ? limits_.speed : joint_.max_velocity, 1);
         case 6:
-            return number(joint_, limits_.acceleration ? limits_.acceleration : joint_.max_acceleration, 0);
+            return joint_number(
+                joint_, limits_.acceleration ? limits_.acceleration : joint_.max_acceleration, 0);
         case 7:
             return volts(motor_ ? std::optional(motor_->output_V) : std::nullopt);
         case 8:
             return volts(limits_.output_V);
         default:
-            return number(joint_, motor_ ? std::optional(motor_->following_error) : std::nullopt, 3);
+            return joint_number(joint_, motor_ ? std::optional(motor_->following_error) : std::nullopt, 3);
         }
     }
 
@@ -90,7 +87,7 @@ private:
     [[nodiscard]] std::string travel() const {
         const double least = std::max(joint_.min, limits_.min.value_or(joint_.min));
         const double most = std::min(joint_.max, limits_.max.value_or(joint_.max));
-        return number(joint_, least, 0, "") + " \u2026 " + number(joint_, most, 0);
+        return joint_number(joint_, least, 0, "") + " \u2026 " + joint_number(joint_, most, 0);
     }
 
     const ArmJoint& joint_;

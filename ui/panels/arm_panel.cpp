@@ -7,6 +7,7 @@
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/arm_path_fields.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/internal/joint_units.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/slider.h"
 #include "ui/widgets/table.h"
@@ -29,18 +30,6 @@ using kinematics::ArmJoint;
 using kinematics::JointKind;
 
 constexpr double least_manipulability = 1e-3; // below: next to singular
-
-bool turns(const ArmJoint& joint) {
-    return joint.kind == JointKind::revolute;
-}
-
-double shown(const ArmJoint& joint, double position) {
-    return turns(joint) ? to_degrees(position) : position;
-}
-
-double from_shown(const ArmJoint& joint, double value) {
-    return turns(joint) ? from_degrees(value) : value;
-}
 
 widgets::Permission by_hand(const Workbench& now) {
     return now.arm_connected()
@@ -157,19 +146,22 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
         const std::string id = "joint_" + joint.name;
         const std::string label = "Joint " + joint.name + (viewport::near_limit(joint, position) ? " !" : "");
         const std::string tip = fmt::format("From {} to {} {}; ! within 10 \u00b0 of a limit",
-                                            shortest(std::round(shown(joint, joint.min))),
-                                            shortest(std::round(shown(joint, joint.max))),
-                                            turns(joint) ? "\u00b0" : "mm");
+                                            shortest(std::round(in_joint_unit(joint, joint.min))),
+                                            shortest(std::round(in_joint_unit(joint, joint.max))),
+                                            is_revolute(joint) ? "\u00b0" : "mm");
         const widgets::FieldInfo info{id,
                                       label,
-                                      turns(joint) ? "\u00b0" : " mm",
+                                      is_revolute(joint) ? "\u00b0" : " mm",
                                       tip,
-                                      bounded ? shown(joint, joint.min) : -360.0,
-                                      bounded ? shown(joint, joint.max) : 360.0,
+                                      bounded ? in_joint_unit(joint, joint.min) : -360.0,
+                                      bounded ? in_joint_unit(joint, joint.max) : 360.0,
                                       std::numeric_limits<double>::quiet_NaN(),
                                       2};
-        if (const auto value = widgets::number_slider(ui, shown(joint, position), info, by_hand(now))) {
-            ask.arm([n, wanted = from_shown(joint, *value)](ArmBench& bench) { bench.set_joint(n, wanted); });
+        if (const auto value =
+                widgets::number_slider(ui, in_joint_unit(joint, position), info, by_hand(now))) {
+            ask.arm([n, wanted = from_joint_unit(joint, *value)](ArmBench& bench) {
+                bench.set_joint(n, wanted);
+            });
         }
     }
     action_button(ui, now, ask, catalogue_, "arm.home");

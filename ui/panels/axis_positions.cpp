@@ -18,7 +18,7 @@ namespace {
 using kinematics::AxisKind;
 
 /// Near a limit means within a twentieth of the travel.
-widgets::AxisState state_of(const kinematics::MachineAxis& axis, double position) {
+widgets::AxisState travel_limit_state(const kinematics::MachineAxis& axis, double position) {
     const double margin = 0.05 * (axis.max - axis.min);
     if (position <= axis.min || position >= axis.max) {
         return widgets::AxisState::at_limit;
@@ -41,7 +41,7 @@ std::vector<widgets::AxisReading> readings(const kinematics::MachineModel& machi
         reading.letter = letters[static_cast<std::size_t>(n)];
         reading.value = rotary ? to_degrees(position[n]) : position[n];
         reading.unit = rotary ? "\u00b0" : "mm";
-        reading.state = state_of(axis, position[n]);
+        reading.state = travel_limit_state(axis, position[n]);
         result.push_back(reading);
     }
     return result;

@@ -45,7 +45,7 @@ std::shared_ptr<const project::SetUpResult> map_for(const actions::KeptResult& k
                                                                                         : nullptr;
 }
 
-toolpath::SetUpPlace place_of(const actions::KeptResult& kept, const project::SetUpResult& map) {
+toolpath::SetUpPlace kept_place(const actions::KeptResult& kept, const project::SetUpResult& map) {
     toolpath::SetUpPlace place = map.now;
     place.head<3>() = kept.workpiece->machine.description().workpiece_offset;
     return place;
@@ -104,7 +104,7 @@ std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& sh
         other.scene.cut = kept->cut;
         other.scene.set_up = map_for(*kept, now);
         if (other.scene.set_up) {
-            other.scene.set_up_place = place_of(*kept, *other.scene.set_up);
+            other.scene.set_up_place = kept_place(*kept, *other.scene.set_up);
         }
         other.scene.singular_points = kept->singular_points;
     } else {

@@ -25,7 +25,7 @@ using machine::DriverKind;
 using machine::DriverState;
 using widgets::Rank;
 
-constexpr std::array<widgets::Option, 7> kinds{
+constexpr std::array<widgets::Option, 7> driver_kind_options{
     {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
      {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"},
      {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
@@ -40,12 +40,13 @@ constexpr std::array<widgets::Option, 7> kinds{
 std::string kind_text(DriverKind kind) {
     return kind == DriverKind::virtual_machine ? "virtual machine"
            : kind == DriverKind::stream        ? "coordinate stream"
-           : kind == DriverKind::records       ? "table by records"
-                                               : std::string(kinds[static_cast<std::size_t>(kind)].label);
+           : kind == DriverKind::records
+               ? "table by records"
+               : std::string(driver_kind_options[static_cast<std::size_t>(kind)].label);
 }
 
 /// Changes one thing of what was chosen.
-template <class Change> void choose(ActionQueue& ask, Change&& change) {
+template <class Change> void change_hand_settings(ActionQueue& ask, Change&& change) {
     ask.show([change = std::forward<Change>(change)](actions::Session& session) { change(session.hand); });
 }
 
@@ -80,7 +81,7 @@ std::string_view position_text(const machine::DriverStatus& status) {
                                             : "known";
 }
 
-std::string state_text(const machine::DriverStatus& status) {
+std::string driver_state_text(const machine::DriverStatus& status) {
     std::string text(machine::to_text(status.state));
     if (status.activity != machine::Activity::none && status.state != DriverState::idle) {
         text += " (" + std::string(machine::to_text(status.activity)) + ")";
@@ -122,7 +123,7 @@ std::string controller_text(const Workbench& now) {
     case LinkState::connected:
         break;
     }
-    return name + ": " + state_text(machine.status) +
+    return name + ": " + driver_state_text(machine.status) +
            (machine.status.position_known ? "" : ", position not known");
 }
 
@@ -161,8 +162,8 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
     const auto permitted = ui.permitted(now.controller.link == LinkState::none
                                             ? widgets::Permission{}
                                             : widgets::Permission::refused("It is being connected."));
-    if (const auto kind = ui.choice("driver", "Driver", static_cast<int>(choice.kind), kinds)) {
-        choose(ask, [kind = *kind](actions::HandSettings& hand) {
+    if (const auto kind = ui.choice("driver", "Driver", static_cast<int>(choice.kind), driver_kind_options)) {
+        change_hand_settings(ask, [kind = *kind](actions::HandSettings& hand) {
             hand.addresses[static_cast<std::size_t>(hand.choice.kind)] = hand.choice.address;
             hand.choice.kind = static_cast<DriverKind>(kind);
             hand.choice.address = hand.addresses[static_cast<std::size_t>(kind)];
@@ -178,12 +179,14 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
                                       choice.one_by_one,
                                       "Waits for the answer to each line before the next: slower, for "
                                       "controllers with a small buffer")) {
-            choose(ask, [on = *on](actions::HandSettings& hand) { hand.choice.one_by_one = on; });
+            change_hand_settings(ask,
+                                 [on = *on](actions::HandSettings& hand) { hand.choice.one_by_one = on; });
         }
     } else if (choice.kind == DriverKind::linuxcnc) {
         if (const auto axes = ui.text_field(
                 "axes", "Axes", choice.axes, "Letters of the machine's axes: XYZ, and any of ABC behind")) {
-            choose(ask, [axes = *axes](actions::HandSettings& hand) { hand.choice.axes = axes; });
+            change_hand_settings(ask,
+                                 [axes = *axes](actions::HandSettings& hand) { hand.choice.axes = axes; });
         }
     } else if (choice.kind == DriverKind::records) {
         draw_records(ui, now, ask);
@@ -193,15 +196,16 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
                                       choice.axes.find('B') != std::string::npos,
                                       "Motor 5 turns joint 5: on a second row of outputs, or simulated in "
                                       "the card, which has to be set up for it")) {
-            choose(ask,
-                   [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });
+            change_hand_settings(
+                ask, [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });
         }
         draw_arm_of_card(ui, now);
     } else {
         const widgets::FieldInfo info{
             "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};
         if (const auto ms = ui.number(1e3 * choice.period, info)) {
-            choose(ask, [ms = *ms](actions::HandSettings& hand) { hand.choice.period = 1e-3 * ms; });
+            change_hand_settings(ask,
+                                 [ms = *ms](actions::HandSettings& hand) { hand.choice.period = 1e-3 * ms; });
         }
         ui.note("It tells nothing back. The machine has to stand at zero when it is connected.");
     }
@@ -210,7 +214,7 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
 void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const machine::RecordFormat format = now.session.hand.choice.record.value_or(machine::RecordFormat());
     const auto change = [&](const std::function<void(machine::RecordFormat&)>& what) {
-        choose(ask, [what](actions::HandSettings& hand) {
+        change_hand_settings(ask, [what](actions::HandSettings& hand) {
             machine::RecordFormat changed = hand.choice.record.value_or(machine::RecordFormat());
             what(changed);
             hand.choice.record = changed;
@@ -242,7 +246,8 @@ void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& as
                                      ? "A serial port such as /dev/ttyUSB0, or tcp:HOST:PORT"
                                      : "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH";
     if (const auto address = ui.text_field("address", shell ? "Address" : "Port", choice.address, tip)) {
-        choose(ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
+        change_hand_settings(
+            ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
     }
     if (!shell) {
         draw_ports(ui, now, ask);
@@ -263,10 +268,9 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
             options.push_back({port.path, port.label});
         }
         if (const auto chosen = ui.choice("ports", "Found here", at, options); chosen && *chosen > 0) {
-            choose(ask,
-                   [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](actions::HandSettings& hand) {
-                       hand.choice.address = path;
-                   });
+            change_hand_settings(ask,
+                                 [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](
+                                     actions::HandSettings& hand) { hand.choice.address = path; });
         }
     }
     if (ui.button("look", "Look for ports again", {}, {icons::redo, Rank::quiet, -1.0F, {}})) {
@@ -322,7 +326,7 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
         action_button(ui, now, ask, catalogue_, "machine.connect", Rank::primary);
         return;
     }
-    ui.value("state", capitalised(kind_text(machine.choice.kind)), state_text(machine.status));
+    ui.value("state", capitalised(kind_text(machine.choice.kind)), driver_state_text(machine.status));
     ui.value("position_known", "Position", position_text(machine.status));
     constexpr float address_label = 0.12F; // addresses are long
     const auto labels = ui.label_share(address_label);

@@ -26,7 +26,7 @@ bool is_report(const ConsoleLine& line) {
     return line.kind == ConsoleKind::query || line.kind == ConsoleKind::report;
 }
 
-widgets::Colour colour_of(const widgets::Palette& colours, const ConsoleLine& line) {
+widgets::Colour console_line_colour(const widgets::Palette& colours, const ConsoleLine& line) {
     switch (line.kind) {
     case ConsoleKind::fault:
         return colours.danger;
@@ -113,7 +113,7 @@ void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return text_of(lines_[shown_[static_cast<std::size_t>(row)]], start_);
     };
     view.mark = [&](std::ptrdiff_t row) {
-        return colour_of(ui.colours(), lines_[shown_[static_cast<std::size_t>(row)]]);
+        return console_line_colour(ui.colours(), lines_[shown_[static_cast<std::size_t>(row)]]);
     };
     view.numbers = false;
     view.coloured = false;

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace millwright::panels {
 
@@ -19,9 +18,6 @@ namespace icons = widgets::icons;
 using actions::ControllerView;
 using widgets::Permission;
 using widgets::Rank;
-
-constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
-constexpr double seconds_a_minute = 60.0;
 
 Permission can_override(const machine::Capabilities& can, bool feed) {
     if (!can.overrides) {
@@ -129,7 +125,7 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
                 machine::probe_line(machine.axes[*z],
                                     static_cast<int>(*z),
                                     -hand.probe_way_mm,
-                                    hand.probe_mm_per_min / seconds_a_minute,
+                                    hand.probe_mm_per_min / seconds_per_minute,
                                     machine.status));
     }
     if (machine.status.probe) {

@@ -41,10 +41,10 @@ std::vector<SharedPoint> shared_by(const Workbench& now, const std::vector<Contr
 }
 
 /// Moves the first point of `ids` by `by`, the others and the images along.
-void move_points(const Workbench& now,
-                 ActionQueue& ask,
-                 const std::vector<ControlPointId>& ids,
-                 const Vec3& by) {
+void move_shared_points(const Workbench& now,
+                        ActionQueue& ask,
+                        const std::vector<ControlPointId>& ids,
+                        const Vec3& by) {
     const std::vector<SharedPoint> points = shared_by(now, ids);
     ask.edit(points.size() == 1 ? "Move a control point"
                                 : fmt::format("Move {} control points", points.size()),
@@ -216,7 +216,7 @@ void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
         if (const auto value = ui.number(at[axis], info)) {
             Vec3 by = Vec3::Zero();
             by[axis] = *value - at[axis];
-            move_points(now, ask, selected, by);
+            move_shared_points(now, ask, selected, by);
         }
     }
     const widgets::FieldInfo weight{
@@ -279,7 +279,7 @@ void DesignPanel::draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, i
             if (weights) {
                 set_weights(now, ask, cell, *changed);
             } else {
-                move_points(now, ask, cell, (*changed - value) * Vec3::Unit(shown_coordinate_));
+                move_shared_points(now, ask, cell, (*changed - value) * Vec3::Unit(shown_coordinate_));
             }
         }
     }

@@ -50,7 +50,6 @@ void Desktop::draw(bool focused, const std::optional<render::Gamepad>& gamepad) 
     ui_->begin_frame();
     window_->draw(*ui_, static_cast<float>(size.width), static_cast<float>(size.height), focused);
     ui_->end_frame();
-    session_->end_frame();
 }
 
 void Desktop::frame() {
@@ -58,6 +57,7 @@ void Desktop::frame() {
     context_.begin();
     session_->begin_frame();
     draw(screen_ == nullptr || screen_->focused(), screen_ == nullptr ? std::nullopt : screen_->gamepad());
+    session_->end_frame();
 }
 
 void Desktop::frame(const render::InputState& input) {
@@ -65,6 +65,15 @@ void Desktop::frame(const render::InputState& input) {
     context_.begin();
     session_->begin_frame(input);
     draw(input.focused, input.gamepad);
+    session_->end_frame();
+}
+
+void Desktop::frame_unseen(const render::InputState& input) {
+    follow_theme();
+    context_.begin();
+    session_->begin_frame(input);
+    draw(input.focused, input.gamepad);
+    session_->drop_frame();
 }
 
 std::optional<double> Desktop::next_change() const {

@@ -24,6 +24,8 @@ public:
     void frame();
     /// The same with this input in place of the real one.
     void frame(const render::InputState& input);
+    /// The same, except that what ImGui has to draw is not drawn: for a frame whose picture nobody looks at.
+    void frame_unseen(const render::InputState& input);
 
     /// Seconds until the picture changes by itself; empty: only when something happens.
     [[nodiscard]] std::optional<double> next_change() const;

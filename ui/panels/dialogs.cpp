@@ -24,7 +24,7 @@ std::string where(const std::filesystem::path& file) {
 }
 
 /// The end of a long path, which tells more than its beginning.
-std::string shortened(const std::string& path) {
+std::string shortened_path(const std::string& path) {
     constexpr std::size_t most = 52;
     std::size_t from = path.size() - std::min(path.size(), most);
     while (from < path.size() && (static_cast<unsigned char>(path[from]) & 0xC0U) == 0x80U) {
@@ -144,13 +144,13 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
     ui.gap();
     {
         const auto labels = ui.label_share(0.2F);
-        ui.value("program", "Program", shortened(story.start.project));
+        ui.value("program", "Program", shortened_path(story.start.project));
         const std::string at = story.start.address.empty() ? "" : " at " + story.start.address;
         ui.value("machine", "Machine", story.start.driver + at);
         if (!story.start.started_at.empty()) {
             ui.value("started", "Started", story.start.started_at);
         }
-        ui.value("log", "Log", shortened(story.log_file.string()));
+        ui.value("log", "Log", shortened_path(story.log_file.string()));
     }
     ui.gap();
     (void)widgets::banner(ui,

@@ -22,19 +22,19 @@ namespace {
 using project::Evaluation;
 using project::GridMethod;
 
-constexpr std::array<widgets::Column, 11> columns{{{"Grid", "", 1.9F, false},
-                                                   {"max", "mm", 1.0F, true},
-                                                   {"mean", "mm", 1.0F, true},
-                                                   {"mean/length", "mm", 1.2F, true},
-                                                   {"RMS", "mm", 1.0F, true},
-                                                   {"95 %", "mm", 1.0F, true},
-                                                   {"axis max", "deg", 1.2F, true},
-                                                   {"track gap", "mm", 1.1F, true},
-                                                   {"points", "", 0.9F, true},
-                                                   {"length", "mm", 1.1F, true},
-                                                   {"time", "s", 1.0F, true}}};
+constexpr std::array<widgets::Column, 11> error_columns{{{"Grid", "", 1.9F, false},
+                                                         {"max", "mm", 1.0F, true},
+                                                         {"mean", "mm", 1.0F, true},
+                                                         {"mean/length", "mm", 1.2F, true},
+                                                         {"RMS", "mm", 1.0F, true},
+                                                         {"95 %", "mm", 1.0F, true},
+                                                         {"axis max", "deg", 1.2F, true},
+                                                         {"track gap", "mm", 1.1F, true},
+                                                         {"points", "", 0.9F, true},
+                                                         {"length", "mm", 1.1F, true},
+                                                         {"time", "s", 1.0F, true}}};
 
-std::string cell_of(const Evaluation* evaluation, int column) {
+std::string error_cell(const Evaluation* evaluation, int column) {
     if (evaluation == nullptr) {
         return "-";
     }
@@ -65,8 +65,8 @@ ErrorRow
 row_of(std::string id, std::string name, const Evaluation* evaluation, const std::optional<double>& seconds) {
     const bool so_far = evaluation != nullptr && actions::is_so_far(*evaluation);
     ErrorRow row{std::move(id), {std::move(name) + (so_far ? " (so far)" : "")}};
-    for (int column = 1; column < static_cast<int>(columns.size()) - 1; ++column) {
-        row.cells.push_back(cell_of(evaluation, column));
+    for (int column = 1; column < static_cast<int>(error_columns.size()) - 1; ++column) {
+        row.cells.push_back(error_cell(evaluation, column));
     }
     row.cells.push_back(seconds ? fixed(*seconds, 1) : "-");
     return row;
@@ -100,7 +100,7 @@ void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue&
     const std::vector<ErrorRow> rows = error_rows(now);
     const std::ptrdiff_t grids = std::ssize(project::every_grid_method);
     widgets::TableView view;
-    view.columns = columns;
+    view.columns = error_columns;
     view.rows = std::ssize(rows);
     view.cell = [&](std::ptrdiff_t row, int column) {
         return rows[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(column)];

@@ -54,7 +54,7 @@ Listed listed(const fs::path& folder, FileQuestion question) {
 }
 
 /// Of a file; empty for a project.
-std::string kind_of(const fs::path& file) {
+std::string file_kind(const fs::path& file) {
     return is_gcode(file)                   ? "G-code"
            : project::is_importable(file)   ? "surface"
            : project::is_picture_file(file) ? "picture"
@@ -81,7 +81,7 @@ fs::path home() {
 }
 
 /// The end of a long path, which tells more than its beginning.
-std::string shortened(const fs::path& folder) {
+std::string shortened_folder(const fs::path& folder) {
     const std::string whole = folder.string();
     return whole.size() <= longest_folder ? whole
                                           : "\u2026" + whole.substr(whole.size() - longest_folder + 1);
@@ -195,9 +195,9 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
             return entry.filename().string();
         }
         const bool is_folder = static_cast<std::size_t>(row) < folders_;
-        return source_ == Source::recent ? shortened(entry.parent_path())
+        return source_ == Source::recent ? shortened_folder(entry.parent_path())
                : is_folder               ? std::string("folder")
-                                         : kind_of(entry);
+                                         : file_kind(entry);
     };
     view.row_id = [this](std::ptrdiff_t row) {
         const fs::path& entry = entries_[static_cast<std::size_t>(row)];
@@ -238,8 +238,8 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
                 ? "A G-code program: it is cut as it stands, here in the Plot & Picture workspace."
                 : "A G-code program: it opens beside the project, in the Program workspace.");
     } else if (project::is_plot_file(chosen_)) {
-        ProjectPreview::draw_words(ui,
-                                   "A " + kind_of(chosen_) + ": it is cut in the Plot & Picture workspace.");
+        ProjectPreview::draw_words(
+            ui, "A " + file_kind(chosen_) + ": it is cut in the Plot & Picture workspace.");
     } else {
         preview_.draw(ui, chosen_);
     }

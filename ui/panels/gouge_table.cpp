@@ -16,14 +16,14 @@ namespace {
 
 using project::BlockBite;
 
-constexpr std::array<widgets::Column, 6> columns{{{"Line", "", 0.8F, true},
-                                                  {"Body", "", 1.0F, false},
-                                                  {"too deep by", "mm", 1.0F, true},
-                                                  {"x", "mm", 1.0F, true},
-                                                  {"y", "mm", 1.0F, true},
-                                                  {"z", "mm", 1.0F, true}}};
+constexpr std::array<widgets::Column, 6> gouge_columns{{{"Line", "", 0.8F, true},
+                                                        {"Body", "", 1.0F, false},
+                                                        {"too deep by", "mm", 1.0F, true},
+                                                        {"x", "mm", 1.0F, true},
+                                                        {"y", "mm", 1.0F, true},
+                                                        {"z", "mm", 1.0F, true}}};
 
-std::string cell_of(const BlockBite& bite, int column) {
+std::string gouge_cell(const BlockBite& bite, int column) {
     switch (column) {
     case 0:
         return fmt::format("{}", bite.line);
@@ -49,10 +49,10 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     widgets::TableView view;
-    view.columns = columns;
+    view.columns = gouge_columns;
     view.rows = std::ssize(cut->bites);
     view.cell = [&](std::ptrdiff_t row, int column) {
-        return cell_of(cut->bites[static_cast<std::size_t>(row)], column);
+        return gouge_cell(cut->bites[static_cast<std::size_t>(row)], column);
     };
     view.row_id = [&](std::ptrdiff_t row) {
         const BlockBite& bite = cut->bites[static_cast<std::size_t>(row)];

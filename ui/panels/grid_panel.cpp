@@ -102,13 +102,13 @@ bool is_in_hand(const Workbench& now, GridMethod method) {
     return now.watched ? now.watched->method == method : now.project.grid.method == method;
 }
 
-std::string label_of(GridMethod method) {
+std::string method_label(GridMethod method) {
     return std::string(project::row_of(project::grid_methods(), method).label);
 }
 
 /// What is watched, and how it stands.
 std::string status_text(const project::WatchedAdaptation& watched) {
-    const std::string name = label_of(watched.method);
+    const std::string name = method_label(watched.method);
     if (watched.failure) {
         return name + ": " + watched.failure->message;
     }
@@ -120,7 +120,7 @@ std::string status_text(const project::WatchedAdaptation& watched) {
 }
 
 /// The one that is watched stands out; where none is, that of the program.
-widgets::Rank rank_of(const Workbench& now, GridMethod method) {
+widgets::Rank method_button_rank(const Workbench& now, GridMethod method) {
     const GridMethod foremost = now.watched ? now.watched->method : now.project.grid.method;
     return method == foremost ? widgets::Rank::primary : widgets::Rank::normal;
 }
@@ -144,7 +144,7 @@ void draw_note(Ui& ui, const Workbench& now) {
     if (now.plan && !project::crossing_remark(now.plan->project, now.plan->plan).empty()) {
         ui.note("The program's grid (Uniform): " + grid_note(now));
     } else if (made && !made->outcome.note.empty()) {
-        ui.note("The program's grid (" + label_of(now.project.grid.method) + "): " + made->outcome.note +
+        ui.note("The program's grid (" + method_label(now.project.grid.method) + "): " + made->outcome.note +
                 so_far_note(*made));
     }
     if (made && !made->outcome.warning.empty()) {
@@ -199,9 +199,17 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
     {
         const auto row = ui.row(3);
-        action_button(ui, now, ask, catalogue_, "grid.adapt", rank_of(now, GridMethod::elliptic), "Elliptic");
-        action_button(ui, now, ask, catalogue_, "grid.optimise", rank_of(now, GridMethod::tracks), "Tracks");
-        action_button(ui, now, ask, catalogue_, "grid.chain", rank_of(now, GridMethod::chain), "Chain");
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      "grid.adapt",
+                      method_button_rank(now, GridMethod::elliptic),
+                      "Elliptic");
+        action_button(
+            ui, now, ask, catalogue_, "grid.optimise", method_button_rank(now, GridMethod::tracks), "Tracks");
+        action_button(
+            ui, now, ask, catalogue_, "grid.chain", method_button_rank(now, GridMethod::chain), "Chain");
     }
     {
         const auto row = ui.row(2);
@@ -210,10 +218,15 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       ask,
                       catalogue_,
                       "grid.redistribute",
-                      rank_of(now, GridMethod::redistribution),
+                      method_button_rank(now, GridMethod::redistribution),
                       "1-D shares");
-        action_button(
-            ui, now, ask, catalogue_, "grid.harmonic", rank_of(now, GridMethod::harmonic), "Harmonic map");
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      "grid.harmonic",
+                      method_button_rank(now, GridMethod::harmonic),
+                      "Harmonic map");
     }
     if (!now.watched) {
         ui.note("Starts from the uniform grid and shows every step in the view.");

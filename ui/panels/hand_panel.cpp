@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,15 +25,13 @@ using kinematics::AxisKind;
 using widgets::Permission;
 using widgets::Rank;
 
-constexpr double no_default = std::numeric_limits<double>::quiet_NaN();
-constexpr double seconds_a_minute = 60.0;
-
-constexpr std::array<double, 5> steps{0.0, 0.01, 0.1, 1.0, 10.0};
-constexpr std::array<widgets::Option, 5> step_options{{{"hold", "Held", {}, "Moves as long as it is held"},
-                                                       {"0_01", "0.01"},
-                                                       {"0_1", "0.1"},
-                                                       {"1", "1"},
-                                                       {"10", "10"}}};
+constexpr std::array<double, 5> jog_steps{0.0, 0.01, 0.1, 1.0, 10.0};
+constexpr std::array<widgets::Option, 5> jog_step_options{
+    {{"hold", "Held", {}, "Moves as long as it is held"},
+     {"0_01", "0.01"},
+     {"0_1", "0.1"},
+     {"1", "1"},
+     {"10", "10"}}};
 
 std::string letter_of(const gcode::ProgramAxis& axis) {
     return std::string(1, axis.letter);
@@ -44,7 +41,7 @@ bool is_rotary(const gcode::ProgramAxis& axis) {
     return axis.kind == AxisKind::rotary;
 }
 
-Permission can_jog(const Workbench& now, char axis) {
+Permission can_jog_axis(const Workbench& now, char axis) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
@@ -59,7 +56,7 @@ Permission can_jog(const Workbench& now, char axis) {
     return jogging ? Permission{} : at_rest(now.controller);
 }
 
-widgets::AxisState state_of(const machine::DriverStatus& machine, const std::string& letter) {
+widgets::AxisState jog_axis_state(const machine::DriverStatus& machine, const std::string& letter) {
     if (machine.link_lost) {
         return widgets::AxisState::old;
     }
@@ -100,8 +97,8 @@ public:
 
 private:
     [[nodiscard]] double speed(bool turns) const {
-        return turns ? from_degrees(hand_.turn_deg_per_min) / seconds_a_minute
-                     : hand_.speed_mm_per_min / seconds_a_minute;
+        return turns ? from_degrees(hand_.turn_deg_per_min) / seconds_per_minute
+                     : hand_.speed_mm_per_min / seconds_per_minute;
     }
 
     void step(std::size_t axis, double sign) const {
@@ -125,7 +122,7 @@ void jog_button(Ui& ui, const Workbench& now, Wish& wish, std::size_t axis, doub
     const std::string id = (sign > 0.0 ? "plus_" : "minus_") + letter;
     const std::string label = letter + (sign > 0.0 ? "+" : "\u2212");
     const widgets::HeldButton now_held = ui.hold_button(
-        id, label, can_jog(now, now.controller.axes[axis].letter), {{}, Rank::normal, -1.0F, {}});
+        id, label, can_jog_axis(now, now.controller.axes[axis].letter), {{}, Rank::normal, -1.0F, {}});
     wish.want(axis, sign, now_held.held, now_held.pressed);
 }
 
@@ -148,7 +145,7 @@ void key_wishes(Ui& ui, const Workbench& now, Wish& wish) {
                                            {render::Key::page_down, 'Z', -1.0}}};
     for (const KeyAxis& key : keys) {
         const auto axis = axis_named(now.controller, key.letter);
-        if (axis && can_jog(now, key.letter).allowed) {
+        if (axis && can_jog_axis(now, key.letter).allowed) {
             wish.want(*axis, key.sign, render::key_down(key.key), render::key_pressed(key.key));
         }
     }
@@ -162,7 +159,7 @@ void pad_wishes(const Workbench& now, Wish& wish, std::vector<double>& before) {
     amounts.resize(axes.size(), 0.0);
     before.resize(axes.size(), 0.0);
     for (std::size_t n = 0; n < axes.size(); ++n) {
-        const bool held = std::abs(amounts[n]) > 0.0 && can_jog(now, axes[n].letter).allowed;
+        const bool held = std::abs(amounts[n]) > 0.0 && can_jog_axis(now, axes[n].letter).allowed;
         const bool rested = !(std::abs(before[n]) > 0.0);
         if (held) {
             wish.want(n, amounts[n], true, rested);
@@ -203,7 +200,7 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
         reading.value = turns ? to_degrees(work[k]) : work[k];
         reading.unit = turns ? "\u00b0" : "mm";
         reading.second = turns ? to_degrees(machine.status.position[k]) : machine.status.position[k];
-        reading.state = state_of(machine.status, letters[n]);
+        reading.state = jog_axis_state(machine.status, letters[n]);
         axes.push_back(reading);
     }
     const std::string system = machine.status.work_system > 0
@@ -267,14 +264,14 @@ void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) {
 /// How far and how fast, and by what besides the mouse.
 void HandPanel::draw_hands(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::HandSettings& hand = now.session.hand;
-    const auto chosen_step = std::ranges::find(steps, hand.step);
+    const auto chosen_step = std::ranges::find(jog_steps, hand.step);
     const auto labels = ui.label_share(0.3F);
     if (const auto step = ui.segmented("step",
                                        "Step",
-                                       static_cast<int>(chosen_step - steps.begin()),
-                                       step_options,
+                                       static_cast<int>(chosen_step - jog_steps.begin()),
+                                       jog_step_options,
                                        "mm or degrees of one press")) {
-        ask.show([step = steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
+        ask.show([step = jog_steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
             session.hand.step = step;
         });
     }

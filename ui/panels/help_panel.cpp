@@ -17,10 +17,10 @@ using widgets::ReadingKind;
 
 constexpr std::array<HelpPage, 4> page_order{
     HelpPage::workspace, HelpPage::keys, HelpPage::commands, HelpPage::about};
-constexpr std::array<widgets::Option, 4> options{{{"workspace", "This workspace"},
-                                                  {"keys", "Keys"},
-                                                  {"commands", "Commands of a PMAC"},
-                                                  {"about", "About"}}};
+constexpr std::array<widgets::Option, 4> help_topics{{{"workspace", "This workspace"},
+                                                      {"keys", "Keys"},
+                                                      {"commands", "Commands of a PMAC"},
+                                                      {"about", "About"}}};
 
 /// Of whatever has one, as the menus have it.
 std::vector<ReadingBlock> keys_of(const actions::Catalogue& catalogue) {
@@ -40,7 +40,7 @@ std::vector<ReadingBlock> keys_of(const actions::Catalogue& catalogue) {
     return rows;
 }
 
-std::vector<ReadingBlock> about() {
+std::vector<ReadingBlock> about_page() {
     return {{ReadingKind::heading, {"Millwright " + std::string(project::version())}},
             {ReadingKind::paragraph,
              {"From a surface, a plot or a picture to a machine at work: toolpaths with the error that the "
@@ -60,7 +60,7 @@ std::vector<ReadingBlock> page(HelpPage wanted, actions::Workspace workspace, co
     case HelpPage::commands:
         return manual_of_commands();
     case HelpPage::about:
-        return about();
+        return about_page();
     default:
         return manual_of(workspace);
     }
@@ -86,12 +86,12 @@ void HelpPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const bool again = render::key_pressed(render::Key::f1);
     const auto at = std::ranges::find(page_order, now.session.help) - page_order.begin();
-    if (const auto chosen = ui.tabs("pages", static_cast<int>(at), options)) {
+    if (const auto chosen = ui.tabs("pages", static_cast<int>(at), help_topics)) {
         ask.show([wanted = page_order[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
             session.help = wanted;
         });
     }
-    const std::string name(options[static_cast<std::size_t>(at)].id);
+    const std::string name(help_topics[static_cast<std::size_t>(at)].id);
     widgets::reading(
         ui, "text", name + std::to_string(static_cast<int>(workspace_)), blocks_, share * display.y);
     ui.gap();

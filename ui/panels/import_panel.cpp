@@ -25,7 +25,7 @@ using project::ImportChoice;
 using project::ImportResult;
 using widgets::Option;
 
-void choose(ActionQueue& ask, const ImportChoice& choice) {
+void choose_import(ActionQueue& ask, const ImportChoice& choice) {
     ask.files([choice](actions::Workshop& workshop) { workshop.import().choose(choice); });
 }
 
@@ -84,7 +84,7 @@ void draw_faces(Ui& ui, ActionQueue& ask, const exchange::CadModel& model, const
     if (const auto row = widgets::table(ui, "list", view)) {
         ImportChoice changed = choice;
         changed.face = model.faces[static_cast<std::size_t>(*row)].number;
-        choose(ask, changed);
+        choose_import(ask, changed);
     }
     for (const std::string& reason : model.left_out) {
         ui.note("Left out: " + reason);
@@ -110,7 +110,7 @@ void draw_unit(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
             ui.segmented("unit", "Unit", index, options, "The file of a mesh does not tell")) {
         ImportChoice changed = choice;
         changed.mm_per_unit = units[static_cast<std::size_t>(*chosen)].mm;
-        choose(ask, changed);
+        choose_import(ask, changed);
     }
 }
 
@@ -133,7 +133,7 @@ void draw_side(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
         if (*chosen > 0) {
             changed.along = sides[static_cast<std::size_t>(*chosen)];
         }
-        choose(ask, changed);
+        choose_import(ask, changed);
     }
 }
 
@@ -145,7 +145,7 @@ void draw_degrees(Ui& ui, ActionQueue& ask, const ImportChoice& choice, const pr
             ImportChoice changed = choice;
             changed.degrees = degrees;
             (*changed.degrees).*which = *value;
-            choose(ask, changed);
+            choose_import(ask, changed);
         }
     };
     field("degree_u", "Degree along u", &project::FitDegrees::u);
@@ -166,7 +166,7 @@ void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, 
                                           "One patch near the whole face in place of its own patches")) {
         ImportChoice changed = choice;
         changed.degrees = *fit ? std::optional(project::FitDegrees{}) : std::nullopt;
-        choose(ask, changed);
+        choose_import(ask, changed);
     }
     if (source.mesh || choice.degrees) {
         draw_degrees(ui, ask, choice, choice.degrees.value_or(project::FitDegrees{}));

@@ -21,17 +21,17 @@ namespace millwright::panels {
 
 namespace {
 
-constexpr std::array<double, 6> speeds{1.0, 5.0, 20.0, 100.0, 1000.0, 0.0};
-constexpr std::array<widgets::Option, 6> speed_options{{{"x1", "1 x real time"},
-                                                        {"x5", "5 x"},
-                                                        {"x20", "20 x"},
-                                                        {"x100", "100 x"},
-                                                        {"x1000", "1000 x"},
-                                                        {"unlimited", "as fast as possible"}}};
+constexpr std::array<double, 6> machine_speeds{1.0, 5.0, 20.0, 100.0, 1000.0, 0.0};
+constexpr std::array<widgets::Option, 6> machine_speed_options{{{"x1", "1 x real time"},
+                                                                {"x5", "5 x"},
+                                                                {"x20", "20 x"},
+                                                                {"x100", "100 x"},
+                                                                {"x1000", "1000 x"},
+                                                                {"unlimited", "as fast as possible"}}};
 
 int speed_index(double speed) {
-    for (std::size_t n = 0; n < speeds.size(); ++n) {
-        if (!(speeds[n] < speed) && !(speeds[n] > speed)) {
+    for (std::size_t n = 0; n < machine_speeds.size(); ++n) {
+        if (!(machine_speeds[n] < speed) && !(machine_speeds[n] > speed)) {
             return static_cast<int>(n);
         }
     }
@@ -130,9 +130,9 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
         if (const auto chosen = ui.choice("speed",
                                           "Virtual machine",
                                           speed_index(now.session.machine_speed),
-                                          speed_options,
+                                          machine_speed_options,
                                           "How fast the virtual machine's time passes")) {
-            ask.show([speed = speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
+            ask.show([speed = machine_speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
                 session.machine_speed = speed;
             });
         }

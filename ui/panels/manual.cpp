@@ -44,7 +44,7 @@ std::string_view next_line(std::string_view& text) {
 }
 
 /// The number of # before a heading; 0: it is none.
-std::size_t rank_of(std::string_view line) {
+std::size_t heading_level(std::string_view line) {
     const auto rank = line.find_first_not_of('#');
     return rank != std::string_view::npos && rank > 0 && line[rank] == ' ' ? rank : 0;
 }
@@ -58,7 +58,7 @@ std::size_t end_of_address(std::string_view text, std::size_t at) {
 
 /// Where the page stands that `address` leads to from one in `folder`: "docs/reference/pmac.md". Empty for a
 /// place of the same page, and where no folder is told.
-std::string place_of(std::string_view address, std::string_view folder) {
+std::string linked_page(std::string_view address, std::string_view folder) {
     const std::string_view file = address.substr(0, address.find('#'));
     if (folder.empty() || file.empty()) {
         return {};
@@ -84,7 +84,7 @@ std::string plain(std::string_view text, std::string_view folder) {
             words = result.size();
         } else if (c == ']') {
             const std::size_t end = end_of_address(text, n);
-            const std::string place = end > n ? place_of(text.substr(n + 2, end - n - 2), folder) : "";
+            const std::string place = end > n ? linked_page(text.substr(n + 2, end - n - 2), folder) : "";
             if (!place.empty() && place.ends_with(result.substr(words))) {
                 result.replace(words, std::string::npos, place); // the words are its name
             } else if (!place.empty()) {
@@ -128,7 +128,7 @@ public:
         if (words.starts_with('|')) {
             return row(words);
         }
-        if (const std::size_t rank = rank_of(words); rank > 0) {
+        if (const std::size_t rank = heading_level(words); rank > 0) {
             end();
             blocks_.push_back({ReadingKind::heading, {plain(words.substr(rank + 1), folder_)}});
         } else if (words.starts_with("- ")) {
@@ -189,14 +189,14 @@ std::vector<ReadingBlock> reading_of(std::string_view markdown, std::string_view
 }
 
 std::string_view section_of(std::string_view markdown, std::string_view heading) {
-    const std::size_t rank = rank_of(heading);
+    const std::size_t rank = heading_level(heading);
     std::string_view rest = markdown;
     while (!rest.empty() && next_line(rest) != heading) {
     }
     const std::string_view section = rest;
     while (!rest.empty()) {
         const std::size_t before = section.size() - rest.size();
-        if (const std::size_t other = rank_of(next_line(rest)); other > 0 && other <= rank) {
+        if (const std::size_t other = heading_level(next_line(rest)); other > 0 && other <= rank) {
             return section.substr(0, before);
         }
     }

@@ -9,8 +9,8 @@ namespace millwright::panels {
 
 namespace {
 
-constexpr int columns = 900;
-constexpr std::array<widgets::Option, 2> choices{
+constexpr int motion_plot_columns = 900;
+constexpr std::array<widgets::Option, 2> motion_plot_choices{
     {{"feed", "Feed and what limits it"}, {"axes", "Axis velocities"}}};
 
 } // namespace
@@ -33,9 +33,9 @@ const MotionSeries& MotionPlots::series(const Workbench& now) {
     if (trajectory) {
         const kinematics::MachineModel& machine =
             now.in_file() ? *now.opened->machine : now.plan->plan.workpiece->machine;
-        series_ = motion_series(*trajectory, *now.program(), machine, columns);
+        series_ = motion_series(*trajectory, *now.program(), machine, motion_plot_columns);
     } else if (as_programmed) {
-        series_ = programmed_series(*now.opened, columns);
+        series_ = programmed_series(*now.opened, motion_plot_columns);
     }
     return series_;
 }
@@ -48,7 +48,7 @@ void MotionPlots::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     if (!all.axes.empty()) {
         const auto width = ui.width(ui.px(380.0F));
-        if (const auto chosen = ui.segmented("shown", "", static_cast<int>(shown_), choices)) {
+        if (const auto chosen = ui.segmented("shown", "", static_cast<int>(shown_), motion_plot_choices)) {
             shown_ = static_cast<Shown>(*chosen);
         }
     } else {

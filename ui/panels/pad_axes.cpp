@@ -7,14 +7,14 @@ namespace millwright::panels {
 
 namespace {
 
-constexpr double dead_zone = 0.25; ///< sticks do not come back to their middle exactly
-constexpr double levels = 4.0;     ///< so that a trembling hand does not change the speed in every frame
+constexpr double dead_zone = 0.25;   ///< sticks do not come back to their middle exactly
+constexpr double speed_levels = 4.0; ///< so that a trembling hand does not change the speed in every frame
 
 double quarters(float stick) {
     const double beyond = (std::abs(static_cast<double>(stick)) - dead_zone) / (1.0 - dead_zone);
-    return beyond > 0.0
-               ? std::copysign(std::ceil(levels * std::min(beyond, 1.0)) / levels, static_cast<double>(stick))
-               : 0.0;
+    return beyond > 0.0 ? std::copysign(std::ceil(speed_levels * std::min(beyond, 1.0)) / speed_levels,
+                                        static_cast<double>(stick))
+                        : 0.0;
 }
 
 double cross(bool plus, bool minus) {

@@ -37,7 +37,7 @@ constexpr std::array<Option, 2> machines{
 constexpr std::array<Option, 2> posts{{{"linuxcnc-xyz", "LinuxCNC", {}, "Tool changes, arcs as they come"},
                                        {"grbl", "Grbl", {}, "Of the words that Grbl 1.1 knows"}}};
 
-void change(ActionQueue& ask, std::string_view what, std::function<void(PlotSettings&)> set) {
+void change_plot_settings(ActionQueue& ask, std::string_view what, std::function<void(PlotSettings&)> set) {
     ask.edit("Change " + std::string(what),
              [set = std::move(set)](Project& draft) { set(draft.plot.settings); });
 }
@@ -63,7 +63,8 @@ void toggle(Ui& ui,
             std::string_view tip,
             void (*set)(PlotSettings&, bool)) {
     if (const auto chosen = ui.toggle(id, label, on, tip)) {
-        change(ask, label, [set, chosen = *chosen](PlotSettings& settings) { set(settings, chosen); });
+        change_plot_settings(
+            ask, label, [set, chosen = *chosen](PlotSettings& settings) { set(settings, chosen); });
     }
 }
 
@@ -82,7 +83,8 @@ void unit_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
     const int at = now.hpgl.unit == plot::nominal_unit ? 0 : now.hpgl.unit == plot::table_unit ? 1 : 2;
     if (const auto chosen = ui.choice("unit", "Plotter", at, units); chosen && *chosen < 2) {
         const plot::PlotterUnit unit = *chosen == 0 ? plot::nominal_unit : plot::table_unit;
-        change(ask, "Plotter unit", [unit](PlotSettings& settings) { settings.hpgl.unit = unit; });
+        change_plot_settings(
+            ask, "Plotter unit", [unit](PlotSettings& settings) { settings.hpgl.unit = unit; });
     }
     numbers(ui, ask, now, {"unit_x_mm", "unit_y_mm"});
 }
@@ -148,7 +150,7 @@ void speed_of_all(
                          setting.value(PlotSettings{}.level),
                          setting.decimals};
     if (const auto chosen = ui.number(setting.value(now.level), info)) {
-        change(ask, setting.label, [&setting, speed = *chosen](PlotSettings& settings) {
+        change_plot_settings(ask, setting.label, [&setting, speed = *chosen](PlotSettings& settings) {
             setting.set(settings.level, speed);
             for (plot::Level& level : settings.levels) {
                 setting.set(level, speed);
@@ -270,7 +272,7 @@ void spindle_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
                          setting.decimals};
     if (const auto chosen = ui.number(now.plot.settings().spindle_rpm.value_or(usual), info)) {
         const bool typed = std::abs(*chosen - usual) > 0.0;
-        change(ask, setting.label, [typed, rpm = *chosen](PlotSettings& settings) {
+        change_plot_settings(ask, setting.label, [typed, rpm = *chosen](PlotSettings& settings) {
             settings.spindle_rpm = typed ? std::optional(rpm) : std::nullopt;
         });
     }
@@ -289,11 +291,10 @@ void name_choice(Ui& ui,
         at = names[n].id == now ? static_cast<int>(n) : at;
     }
     if (const auto chosen = ui.choice(id, label, at, names)) {
-        change(ask,
-               label,
-               [name = std::string(names[static_cast<std::size_t>(*chosen)].id), member](PlotSettings& s) {
-                   s.*member = name;
-               });
+        change_plot_settings(ask,
+                             label,
+                             [name = std::string(names[static_cast<std::size_t>(*chosen)].id),
+                              member](PlotSettings& s) { s.*member = name; });
     }
 }
 

@@ -56,7 +56,7 @@ std::string signal_names(ControlSignals controls) {
     return names.empty() ? "no signal" : names;
 }
 
-std::string label_of(const cordic::Microprogram& program, int address) {
+std::string address_label(const cordic::Microprogram& program, int address) {
     std::string text = fmt::format("{:02x}", address);
     int best = -1;
     for (const auto& [label, at] : program.labels) {
@@ -72,7 +72,7 @@ std::vector<std::string> sequencer_lines(const Processor& processor) {
     const ProcessorState& state = processor.state();
     return {fmt::format("executed {}", cordic::to_text(state.pipeline.op)),
             fmt::format("next {:02x}", state.sequencer.address),
-            label_of(processor.microprogram(), state.sequencer.address)};
+            address_label(processor.microprogram(), state.sequencer.address)};
 }
 
 std::vector<std::string> port_lines(const Processor& processor) {
@@ -196,7 +196,7 @@ std::vector<std::string> lines_of(ProcessorBlock block, const Processor& process
     case ProcessorBlock::map: {
         const auto start = processor.microprogram().map[state.opcode];
         return {start ? fmt::format("\u2192 {:02x}", *start) : "\u2192 none",
-                start ? label_of(processor.microprogram(), *start) : ""};
+                start ? address_label(processor.microprogram(), *start) : ""};
     }
     case ProcessorBlock::sequencer:
         return sequencer_lines(processor);

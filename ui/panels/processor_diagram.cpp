@@ -33,10 +33,10 @@ struct BlockPlace {
     float column, row, wide;
 };
 
-constexpr float columns = 12.0F;
+constexpr float diagram_columns = 12.0F;
 constexpr float gap_across = 14.0F; // between two columns, px
 constexpr float gap_down = 10.0F;   // between two rows
-constexpr int rows = 4;
+constexpr int diagram_rows = 4;
 
 constexpr std::array<BlockPlace, 14> blocks{{
     {"bus", "Interface", 0.0F, 0, 3.6F},
@@ -74,11 +74,11 @@ constexpr std::array<Way, 10> ways{{
     {Block::counter, Block::sequencer, 0},
 }};
 
-Rect place_of(const Ui& ui, const BlockPlace& block, const Rect& place) {
+Rect block_rect(const Ui& ui, const BlockPlace& block, const Rect& place) {
     const float across = ui.px(gap_across);
     const float down = ui.px(gap_down);
-    const float unit = place.w / columns;
-    const std::array<float, rows> heights{0.22F, 0.22F, 0.175F, 0.385F};
+    const float unit = place.w / diagram_columns;
+    const std::array<float, diagram_rows> heights{0.22F, 0.22F, 0.175F, 0.385F};
     float top = place.y;
     for (int n = 0; n < static_cast<int>(block.row); ++n) {
         top += heights[static_cast<std::size_t>(n)] * place.h;
@@ -176,7 +176,7 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     const Rect inside{place.x, place.y + margin, place.w, place.h - 2.0F * margin};
     Boxes boxes;
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-        boxes[n] = place_of(ui, blocks[n], inside);
+        boxes[n] = block_rect(ui, blocks[n], inside);
     }
     const ControlSignals controls = processor.state().pipeline.controls;
     const widgets::Palette& colours = ui.colours();

@@ -30,20 +30,21 @@ using cordic::Register;
 
 constexpr int thesis_steps = 29;
 
-constexpr std::array<widgets::Option, 3> kinds{
+constexpr std::array<widgets::Option, 3> number_kind_options{
     {{"f32", "f32", {}, "IEEE binary32, the presumed hardware"},
      {"f64", "f64", {}, "IEEE binary64, as the thesis's own experiments"},
      {"fixed",
       "Fixed",
       {},
       "Two's complement: as many bits before and behind the point as chosen, 8 to 64 in all"}}};
-constexpr std::array<NumberKind, 3> kind_of{NumberKind::binary32, NumberKind::binary64, NumberKind::fixed};
+constexpr std::array<NumberKind, 3> number_kinds{
+    NumberKind::binary32, NumberKind::binary64, NumberKind::fixed};
 
-constexpr std::array<double, 4> speeds{20.0, 200.0, 5000.0, 0.0};
-constexpr std::array<widgets::Option, 4> speed_options{
+constexpr std::array<double, 4> step_rates{20.0, 200.0, 5000.0, 0.0};
+constexpr std::array<widgets::Option, 4> step_rate_options{
     {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "All"}}};
 
-void choose(ActionQueue& ask, const ProcessorChoice& choice) {
+void choose_processor(ActionQueue& ask, const ProcessorChoice& choice) {
     ask.processor([choice](ProcessorBench& bench) { bench.set(choice); });
 }
 
@@ -141,7 +142,7 @@ void draw_word(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
     const auto take = [&](int integer_bits, int fraction_bits) {
         ProcessorChoice wanted = choice;
         wanted.format = cordic::fixed_format(integer_bits, fraction_bits);
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     };
     if (const auto value = widgets::slider(ui, now.integer_bits, integer_field)) {
         take(bits_beside(now.fraction_bits, *value), now.fraction_bits);
@@ -153,15 +154,16 @@ void draw_word(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
 }
 
 void draw_format(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
-    const auto kind = static_cast<int>(std::ranges::find(kind_of, choice.format.kind) - kind_of.begin());
-    if (const auto chosen = ui.segmented("kind", "Format", kind, kinds)) {
+    const auto kind =
+        static_cast<int>(std::ranges::find(number_kinds, choice.format.kind) - number_kinds.begin());
+    if (const auto chosen = ui.segmented("kind", "Format", kind, number_kind_options)) {
         ProcessorChoice wanted = choice;
         constexpr int usual_integer_bits = 10; // mm up to 511, and the speed of rapids
         constexpr int usual_fraction_bits = 22;
         wanted.format = *chosen == 0   ? cordic::binary32
                         : *chosen == 1 ? cordic::binary64
                                        : cordic::fixed_format(usual_integer_bits, usual_fraction_bits);
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
     if (choice.format.kind == NumberKind::fixed) {
         draw_word(ui, choice, ask);
@@ -176,7 +178,7 @@ void draw_iterations(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
                                   "Shifts 0, 1, 2 ... in place of the thesis's 29, and one multiplication")) {
         ProcessorChoice wanted = choice;
         wanted.iterations = *on ? thesis_steps : 0;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
     const auto allowed =
         classic ? widgets::Permission{} : widgets::Permission::refused("The thesis's sequence has 29.");
@@ -184,7 +186,7 @@ void draw_iterations(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
     if (const auto value = widgets::slider(ui, steps, steps_field, allowed)) {
         ProcessorChoice wanted = choice;
         wanted.iterations = *value;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
 }
 
@@ -196,7 +198,7 @@ void draw_peculiarities(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask)
                                   "G2 counter-clockwise, as the thesis's model; else as ISO 6983 says")) {
         ProcessorChoice wanted = choice;
         wanted.thesis_direction = *on;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
     if (const auto on = ui.toggle("matlab_zero",
                                   "MATLAB sign(0)",
@@ -204,7 +206,7 @@ void draw_peculiarities(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask)
                                   "No turn where the angle is 0: lengths along X are then short by 21.6 %")) {
         ProcessorChoice wanted = choice;
         wanted.matlab_zero = *on;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
 }
 
@@ -234,14 +236,14 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
     const cordic::ProcessorState& state = bench.debugger().state();
     {
         const auto width = ui.width(ui.px(300.0F));
-        const auto found = std::ranges::find(speeds, bench.choice().clocks_a_second);
-        const auto index = found == speeds.end() ? 0 : static_cast<int>(found - speeds.begin());
+        const auto found = std::ranges::find(step_rates, bench.choice().clocks_a_second);
+        const auto index = found == step_rates.end() ? 0 : static_cast<int>(found - step_rates.begin());
         const auto labels = ui.label_share(0.18F);
-        if (const auto chosen =
-                ui.segmented("speed", "Clocks", index, speed_options, "How fast Run goes, to be watched")) {
+        if (const auto chosen = ui.segmented(
+                "speed", "Clocks", index, step_rate_options, "How fast Run goes, to be watched")) {
             ProcessorChoice choice = bench.choice();
-            choice.clocks_a_second = speeds[static_cast<std::size_t>(*chosen)];
-            choose(ask, choice);
+            choice.clocks_a_second = step_rates[static_cast<std::size_t>(*chosen)];
+            choose_processor(ask, choice);
         }
     }
     ui.beside();
@@ -273,7 +275,7 @@ void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (const auto value = ui.number(choice.chord_tolerance, tolerance_field)) {
         ProcessorChoice wanted = choice;
         wanted.chord_tolerance = *value;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
 }
 
@@ -364,7 +366,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
     if (const auto value = ui.number(choice.clock_hz / hertz, clock_field)) {
         ProcessorChoice wanted = choice;
         wanted.clock_hz = hertz * *value;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
     const cordic::RunReport& report = now.processor.report();
     ui.value("late", "Late set-points", fmt::format("{} of {}", report.late.size(), report.published));
@@ -375,7 +377,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
     if (const auto value = ui.number(choice.needle_rpm, needle_field)) {
         ProcessorChoice wanted = choice;
         wanted.needle_rpm = *value;
-        choose(ask, wanted);
+        choose_processor(ask, wanted);
     }
     const cordic::SewingRun& sewing = now.processor.sewing();
     ui.value("stitches_computed", "Computed late", late_text(sewing.late_computations, sewing.stitches));

@@ -30,7 +30,7 @@ using widgets::Sketch;
 
 constexpr std::size_t most_pieces = 4000; // of a path that is drawn
 
-Colour colour_of(const glm::vec3& c) {
+Colour to_widget_colour(const glm::vec3& c) {
     const auto byte = [](float v) { return static_cast<std::uint32_t>(std::lround(255.0F * v)); };
     return widgets::rgb(byte(c.r) << 16U | byte(c.g) << 8U | byte(c.b));
 }
@@ -208,7 +208,7 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
         Point before = fit.at(0.0, 0.0);
         for (const std::size_t n : thinned(path.size())) {
             const Point here = fit.at(path[n].x, path[n].y);
-            sketch.line(before, here, colour_of(render::color_of(scale, path[n].distance)), 3.0F);
+            sketch.line(before, here, to_widget_colour(render::color_of(scale, path[n].distance)), 3.0F);
             before = here;
         }
         for (const std::size_t n : thinned(late.size())) {
@@ -222,7 +222,7 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
     legend.title = "Apart";
     legend.unit = "\u00b5m";
     legend.high = high / unit;
-    legend.map = [](double t) { return colour_of(render::sample(render::ColorMap::viridis, t)); };
+    legend.map = [](double t) { return to_widget_colour(render::sample(render::ColorMap::viridis, t)); };
     legend.tip = "Distance of each set-point from where exact arithmetic has it";
     (void)widgets::legend(ui,
                           "legend",

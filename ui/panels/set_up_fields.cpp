@@ -46,13 +46,13 @@ SetUpParameter other_than(SetUpParameter taken, SetUpParameter wanted) {
 }
 
 template <class Value>
-void choose(Ui& ui,
-            ActionQueue& ask,
-            std::string_view id,
-            std::string_view label,
-            Value now,
-            std::span<const widgets::Option> options,
-            void (*set)(SetUpStudySettings&, Value)) {
+void choose_set_up(Ui& ui,
+                   ActionQueue& ask,
+                   std::string_view id,
+                   std::string_view label,
+                   Value now,
+                   std::span<const widgets::Option> options,
+                   void (*set)(SetUpStudySettings&, Value)) {
     if (const auto chosen = ui.choice(id, label, static_cast<int>(now), options)) {
         ask.show([set, value = static_cast<Value>(*chosen)](actions::Session& session) {
             set(session.set_up.settings, value);
@@ -60,11 +60,11 @@ void choose(Ui& ui,
     }
 }
 
-void number(Ui& ui,
-            ActionQueue& ask,
-            double now,
-            const widgets::FieldInfo& info,
-            void (*set)(SetUpStudySettings&, double)) {
+void set_up_number(Ui& ui,
+                   ActionQueue& ask,
+                   double now,
+                   const widgets::FieldInfo& info,
+                   void (*set)(SetUpStudySettings&, double)) {
     if (const auto value = ui.number(now, info)) {
         ask.show([set, v = *value](actions::Session& session) { set(session.set_up.settings, v); });
     }
@@ -72,60 +72,60 @@ void number(Ui& ui,
 
 void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const SetUpStudySettings& set = now.session.set_up.settings;
-    choose<SetUpGoal>(
+    choose_set_up<SetUpGoal>(
         ui, ask, "goal", "Least", set.goal, goals, [](SetUpStudySettings& s, SetUpGoal g) { s.goal = g; });
-    choose<SetUpParameter>(
+    choose_set_up<SetUpParameter>(
         ui, ask, "across", "Map across", set.across, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
             s.across = p;
             s.up = other_than(p, s.up);
         });
-    choose<SetUpParameter>(
+    choose_set_up<SetUpParameter>(
         ui, ask, "up", "Map up", set.up, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
             s.up = p;
             s.across = other_than(p, s.across);
         });
-    number(ui,
-           ask,
-           set.reach,
-           {"reach",
-            "Shift a, b",
-            "mm",
-            "How far from the middle of the table, both ways",
-            1.0,
-            1000.0,
-            60.0,
-            1},
-           [](SetUpStudySettings& s, double v) { s.reach = v; });
-    number(ui,
-           ask,
-           set.height_reach,
-           {"height_reach",
-            "Shift c",
-            "mm",
-            "How far from the machine's own height, both ways",
-            1.0,
-            1000.0,
-            80.0,
-            1},
-           [](SetUpStudySettings& s, double v) { s.height_reach = v; });
-    number(ui,
-           ask,
-           to_degrees(set.turn_reach),
-           {"turn_reach",
-            "Turn",
-            "deg",
-            "How far the part may be turned, both ways; 0: not at all",
-            0.0,
-            180.0,
-            0.0,
-            1},
-           [](SetUpStudySettings& s, double v) { s.turn_reach = from_degrees(v); });
+    set_up_number(ui,
+                  ask,
+                  set.reach,
+                  {"reach",
+                   "Shift a, b",
+                   "mm",
+                   "How far from the middle of the table, both ways",
+                   1.0,
+                   1000.0,
+                   60.0,
+                   1},
+                  [](SetUpStudySettings& s, double v) { s.reach = v; });
+    set_up_number(ui,
+                  ask,
+                  set.height_reach,
+                  {"height_reach",
+                   "Shift c",
+                   "mm",
+                   "How far from the machine's own height, both ways",
+                   1.0,
+                   1000.0,
+                   80.0,
+                   1},
+                  [](SetUpStudySettings& s, double v) { s.height_reach = v; });
+    set_up_number(ui,
+                  ask,
+                  to_degrees(set.turn_reach),
+                  {"turn_reach",
+                   "Turn",
+                   "deg",
+                   "How far the part may be turned, both ways; 0: not at all",
+                   0.0,
+                   180.0,
+                   0.0,
+                   1},
+                  [](SetUpStudySettings& s, double v) { s.turn_reach = from_degrees(v); });
     constexpr double most_places = 101.0;
-    number(ui,
-           ask,
-           set.places,
-           {"places", "Places each way", "", "Of the map", 2.0, most_places, 21.0, 0},
-           [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
+    set_up_number(ui,
+                  ask,
+                  set.places,
+                  {"places", "Places each way", "", "Of the map", 2.0, most_places, 21.0, 0},
+                  [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
 }
 
 void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {

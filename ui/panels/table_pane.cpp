@@ -39,7 +39,7 @@ constexpr std::array<widgets::Option, 3> endings{
     {{"lf", "Line feed", {}, {}}, {"crlf", "CR and line feed", {}, {}}, {"cr", "CR", {}, {}}}};
 constexpr std::array<std::string_view, 3> ending_bytes{"\n", "\r\n", "\r"};
 
-void change(ActionQueue& ask, std::function<void(TableChoice&)> what) {
+void change_table_choice(ActionQueue& ask, std::function<void(TableChoice&)> what) {
     ask.plot([what = std::move(what)](actions::PlotBench& bench) {
         TableChoice choice = bench.table_choice();
         what(choice);
@@ -47,7 +47,7 @@ void change(ActionQueue& ask, std::function<void(TableChoice&)> what) {
     });
 }
 
-std::string_view state_text(PlayState state) {
+std::string_view play_state_text(PlayState state) {
     switch (state) {
     case PlayState::ready:
         return "ready";
@@ -110,7 +110,7 @@ std::vector<std::array<std::string, 2>> read_out(const actions::TableView& table
     return {{"X", fixed(now.position.x(), 3) + " mm"},
             {"Y", fixed(now.position.y(), 3) + " mm"},
             {"Z", fixed(now.position.z(), 3) + " mm"},
-            {"Table", std::string(state_text(now.state))},
+            {"Table", std::string(play_state_text(now.state))},
             {"Points", fmt::format("{} of {}", now.points, table.total)},
             {"Late, mean", delay_text(now.jitter.mean)},
             {"99 % below", delay_text(now.jitter.p99)},
@@ -141,7 +141,7 @@ void maybe(Ui& ui,
            const std::optional<double>& value,
            std::optional<double> DecodeSettings::*member) {
     if (const auto chosen = ui.number(value.value_or(0.0), info)) {
-        change(ask, [v = *chosen, member](TableChoice& c) {
+        change_table_choice(ask, [v = *chosen, member](TableChoice& c) {
             c.decoding.*member = v > 0.0 ? std::optional(v) : std::nullopt;
         });
     }
@@ -154,7 +154,8 @@ void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
         return;
     }
     if (const auto mode = ui.choice("mode", "Equal steps", static_cast<int>(points.mode), modes)) {
-        change(ask, [mode = *mode](TableChoice& c) { c.decoding.mode = static_cast<DecodeMode>(mode); });
+        change_table_choice(
+            ask, [mode = *mode](TableChoice& c) { c.decoding.mode = static_cast<DecodeMode>(mode); });
     }
     maybe(ui,
           ask,
@@ -169,7 +170,7 @@ void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
     if (points.mode == DecodeMode::segments) {
         if (const auto rounding =
                 ui.choice("rounding", "Their number", static_cast<int>(points.rounding), roundings)) {
-            change(ask, [rounding = *rounding](TableChoice& c) {
+            change_table_choice(ask, [rounding = *rounding](TableChoice& c) {
                 c.decoding.rounding = static_cast<SampleRounding>(rounding);
             });
         }
@@ -202,24 +203,24 @@ void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask
     }
     if (const auto pattern = ui.text_field(
             "pattern", "Pattern", record.pattern, "As t {X} {Y} {Z} {a} {s}: axes, speed, acceleration")) {
-        change(ask, [pattern = *pattern](TableChoice& c) { c.record.pattern = pattern; });
+        change_table_choice(ask, [pattern = *pattern](TableChoice& c) { c.record.pattern = pattern; });
     }
     if (const auto relative =
             ui.toggle("relative", "Relative", record.relative, "Records say how far, not where")) {
-        change(ask, [relative = *relative](TableChoice& c) { c.record.relative = relative; });
+        change_table_choice(ask, [relative = *relative](TableChoice& c) { c.record.relative = relative; });
     }
     int at = 0;
     for (std::size_t n = 0; n < endings.size(); ++n) {
         at = ending_bytes[n] == record.ending ? static_cast<int>(n) : at;
     }
     if (const auto ending = ui.choice("ending", "Ends with", at, endings)) {
-        change(ask, [n = static_cast<std::size_t>(*ending)](TableChoice& c) {
+        change_table_choice(ask, [n = static_cast<std::size_t>(*ending)](TableChoice& c) {
             c.record.ending = ending_bytes[n];
         });
     }
     if (const auto answer = ui.text_field(
             "answer", "Answer", record.answer, "To each record before the next is sent; empty: none")) {
-        change(ask, [answer = *answer](TableChoice& c) { c.record.answer = answer; });
+        change_table_choice(ask, [answer = *answer](TableChoice& c) { c.record.answer = answer; });
     }
 }
 
@@ -268,13 +269,14 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                                         choice.port,
                                         "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH; "
                                         "empty: nothing is sent")) {
-        change(ask, [port = *port](TableChoice& c) { c.port = port; });
+        change_table_choice(ask, [port = *port](TableChoice& c) { c.port = port; });
     }
     const DecodeSettings& points = choice.decoding;
     const auto number =
         [&](const FieldInfo& info, double value, double unit, double DecodeSettings::*member) {
             if (const auto chosen = ui.number(value / unit, info)) {
-                change(ask, [v = *chosen * unit, member](TableChoice& c) { c.decoding.*member = v; });
+                change_table_choice(ask,
+                                    [v = *chosen * unit, member](TableChoice& c) { c.decoding.*member = v; });
             }
         };
     number({"velocity", "Velocity", "mm/s", "Along the path, always the same", 0.01, 1000.0, 8.0, 2},
@@ -287,7 +289,7 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
            &DecodeSettings::period);
     if (const auto speed =
             ui.number(choice.speed, {"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2})) {
-        change(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
+        change_table_choice(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
     }
     {
         const auto heights =

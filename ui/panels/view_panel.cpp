@@ -20,7 +20,7 @@ namespace {
 
 using actions::Workspace;
 
-void move_points(const viewport::MoveControlPoints& move, ActionQueue& ask) {
+void move_dragged_points(const viewport::MoveControlPoints& move, ActionQueue& ask) {
     const std::string title = move.points.size() == 1
                                   ? "Move a control point"
                                   : "Move " + std::to_string(move.points.size()) + " points";
@@ -190,7 +190,7 @@ viewport::Scene scene_of(const Workbench& now) {
 
 void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& ask) {
     if (const auto* move = std::get_if<viewport::MoveControlPoints>(&event)) {
-        move_points(*move, ask);
+        move_dragged_points(*move, ask);
     } else if (const auto* select = std::get_if<viewport::SelectControlPoints>(&event)) {
         ask.show([points = select->points](actions::Session& session) { session.selected = points; });
     } else if (const auto* go = std::get_if<viewport::GoToMove>(&event)) {

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace millwright::render {
@@ -90,7 +89,6 @@ Extent extent(std::span<const glm::dvec3> points,
               const glm::dvec3& direction,
               const glm::dvec3& backward,
               double tangent) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Extent found = {.low = infinity, .high = -infinity};
     for (const glm::dvec3& point : points) {
         const double along = glm::dot(point, direction);

@@ -10,13 +10,33 @@
 #include <imgui.h>
 #include <imgui_freetype.h>
 
-#include <utility>
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
 
 namespace millwright::render {
 
 namespace {
 
 constexpr const char* glsl_version = "#version 330 core";
+
+bool is_modifier(int key) {
+    return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+}
+
+Modifiers modifiers_in(int mods) {
+    return {.ctrl = (mods & GLFW_MOD_CONTROL) != 0,
+            .shift = (mods & GLFW_MOD_SHIFT) != 0,
+            .alt = (mods & GLFW_MOD_ALT) != 0};
+}
+
+Modifiers modifiers_among(const std::set<int>& keys) {
+    const auto either = [&keys](int left, int right) { return keys.contains(left) || keys.contains(right); };
+    return {.ctrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+            .shift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+            .alt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT)};
+}
 
 } // namespace
 
@@ -26,9 +46,7 @@ ImGuiSession::ImGuiSession(WindowContext& window) : ImGuiSession(window, window.
     window.keep_typing();
 }
 
-ImGuiSession::ImGuiSession(OffscreenContext& memory) : ImGuiSession(memory, nullptr) {
-    name_keys(ImGui::GetIO());
-}
+ImGuiSession::ImGuiSession(OffscreenContext& memory) : ImGuiSession(memory, nullptr) {}
 
 ImGuiSession::ImGuiSession(Context& context, GLFWwindow* window) : context_(context), window_(window) {
     context_.make_current();
@@ -38,6 +56,7 @@ ImGuiSession::ImGuiSession(Context& context, GLFWwindow* window) : context_(cont
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
+    prepare_input(io);
     io.Fonts->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
     expects(ImGui_ImplOpenGL3_Init(glsl_version), "ImGui accepts the OpenGL context");
 }
@@ -57,58 +76,52 @@ void ImGuiSession::begin_back_ends() {
     ImGui_ImplOpenGL3_NewFrame();
     if (window_ != nullptr) {
         ImGui_ImplGlfw_NewFrame();
-        tell_typing();
-        show_quick_keys();
+        put_window_input();
         return;
     }
     const PixelSize size = context_.framebuffer_size();
     ImGui::GetIO().DisplaySize = ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
 }
 
-void ImGuiSession::tell_typing() {
+/// ImGui sees which keys and buttons are down once per frame. What went down and up since the last frame
+/// counts as down in this one. The modifiers are those of the last key that went down: they may be up again
+/// by now.
+void ImGuiSession::put_window_input() {
     ImGuiIO& io = ImGui::GetIO();
-    for (const int key : std::exchange(quick_keys_, {})) {
-        io.KeysDown[key] = false; // it was told already that it is up
-    }
     typing_.add(keyboard_->take_typing());
-    const auto was_down = [&io](int key) { return key >= 0 && io.KeysDownDuration[key] >= 0.0F; };
-    for (const TypedEvent& event : typing_.next(io.WantTextInput, was_down)) {
+    const auto was_down = [this](int key) { return shown_keys_.contains(key); };
+    const std::vector<TypedEvent> events = typing_.next(io.WantTextInput, was_down);
+    std::set<int> pressed;
+    std::optional<int> mods;
+    std::array<bool, ImGuiMouseButton_COUNT> clicked{};
+    for (const TypedEvent& event : events) {
         if (event.character) {
-            ImGui_ImplGlfw_CharCallback(window_, *event.character);
+            io.AddInputCharacter(*event.character);
         } else if (event.button) {
-            const bool known = *event.button >= 0 && *event.button < ImGuiMouseButton_COUNT;
-            io.MouseDown[known ? *event.button : 0] |= known; // also if it is up again by now
-        } else {
-            ImGui_ImplGlfw_KeyCallback(window_, event.key, event.scancode, event.action, event.mods);
+            if (*event.button >= 0 && *event.button < ImGuiMouseButton_COUNT) {
+                clicked[static_cast<std::size_t>(*event.button)] = true;
+            }
+        } else if (event.action == GLFW_PRESS && event.key != GLFW_KEY_UNKNOWN) {
+            keys_down_.insert(event.key);
+            pressed.insert(event.key);
+            mods = is_modifier(event.key) ? mods : event.mods;
+        } else if (event.action == GLFW_RELEASE) {
+            keys_down_.erase(event.key);
         }
     }
+    shown_keys_ = keys_down_;
+    shown_keys_.merge(pressed);
+    std::vector<Key> keys;
+    std::ranges::transform(
+        shown_keys_, std::back_inserter(keys), [](int key) { return static_cast<Key>(key); });
+    put_keys(io, keys, mods ? modifiers_in(*mods) : modifiers_among(keys_down_));
     for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {
-        io.MouseDown[button] = io.MouseDown[button] && !typing_.waits_for_button(button);
+        const bool down =
+            clicked[static_cast<std::size_t>(button)] || glfwGetMouseButton(window_, button) == GLFW_PRESS;
+        put_button(io, button, down && !typing_.waits_for_button(button));
     }
-    if (typing_.waits()) {
+    if (typing_.waits() || !events.empty()) { // a key that is up by now is shown up in the next frame
         keyboard_->request_redraw();
-    }
-}
-
-/// ImGui 1.86 looks at the keys once a frame. One that went down and up since the last is shown down in this,
-/// and with any that went down the modifiers that were down with it: they may be up again by now.
-void ImGuiSession::show_quick_keys() {
-    ImGuiIO& io = ImGui::GetIO();
-    const auto down = [&io](int key) { return io.KeysDown[key]; };
-    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
-    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
-    io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
-    for (const KeyPress& press : keyboard_->take_key_presses()) {
-        if (!io.KeysDown[press.key]) {
-            io.KeysDown[press.key] = true;
-            quick_keys_.push_back(press.key);
-        }
-        const bool is_modifier = press.key >= GLFW_KEY_LEFT_SHIFT && press.key <= GLFW_KEY_RIGHT_SUPER;
-        if (!is_modifier) {
-            io.KeyCtrl = press.ctrl;
-            io.KeyShift = press.shift;
-            io.KeyAlt = press.alt;
-        }
     }
 }
 
@@ -125,6 +138,10 @@ void ImGuiSession::begin_frame(const InputState& input) {
     begin_back_ends();
     put_input(ImGui::GetIO(), input);
     ImGui::NewFrame();
+}
+
+void ImGuiSession::drop_frame() {
+    ImGui::Render();
 }
 
 void ImGuiSession::end_frame() {

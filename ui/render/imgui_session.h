@@ -8,7 +8,7 @@
 #include "ui/render/typing.h"
 #include "ui/render/window_context.h"
 
-#include <vector>
+#include <set>
 
 struct ImGuiContext;
 
@@ -30,6 +30,8 @@ public:
     void begin_frame(const InputState& input);
     /// Draws the frame over what the context's framebuffer shows.
     void end_frame();
+    /// Ends the frame without drawing it.
+    void drop_frame();
 
     /// Makes the texture anew after fonts were changed. Not inside a frame.
     void rebuild_fonts();
@@ -37,14 +39,14 @@ public:
 private:
     ImGuiSession(Context& context, GLFWwindow* window);
     void begin_back_ends();
-    void tell_typing();
-    void show_quick_keys();
+    void put_window_input();
 
     Context& context_;
     GLFWwindow* window_;
     WindowContext* keyboard_ = nullptr; ///< null in memory
     Typing typing_;
-    std::vector<int> quick_keys_; ///< shown down in the last frame although they were up again
+    std::set<int> keys_down_;  ///< GLFW's numbers
+    std::set<int> shown_keys_; ///< down as ImGui saw it in the last frame: also those that were up again
     ImGuiContext* imgui_;
 };
 

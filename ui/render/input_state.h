@@ -13,7 +13,7 @@
 namespace millwright::render {
 
 struct InputState {
-    float mouse_x = -1.0F;         ///< pixels from the left; negative when the mouse is elsewhere
+    float mouse_x = -1.0F;         ///< pixels from the left; both negative: the mouse is elsewhere
     float mouse_y = -1.0F;         ///< pixels from the top
     std::array<bool, 3> buttons{}; ///< left, right, middle
     float wheel = 0.0F;            ///< notches in this frame, up is positive

@@ -6,8 +6,7 @@
 #include "ui/render/internal/gl_version.h"
 #include "ui/render/internal/read_pixels.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
+#include <epoxy/egl.h>
 
 #include <algorithm>
 #include <array>
@@ -29,9 +28,17 @@ bool has_extension(EGLDisplay display, std::string_view extension) {
 
 /// The display stays open until the process ends: it is the same for everyone who asks for it.
 EGLDisplay opened_display() {
+    if (!epoxy_has_egl()) { // loaded at run time: most commands do without
+        no_gl("there is no EGL");
+    }
     EGLDisplay display = EGL_NO_DISPLAY;
     if (has_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
-        display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        // Not by epoxy, which ends the program where it does not see the extension of a display in use.
+        const auto platform_display =
+            reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+        if (platform_display != nullptr) {
+            display = platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        }
     }
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
         display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
@@ -69,7 +76,10 @@ EGLContext new_context(EGLDisplay display) {
     return context;
 }
 
-/// A context of EGL without a surface.
+} // namespace
+
+/// A context of EGL without a surface. Outside of the anonymous namespace as a member of
+/// OffscreenContext::Parts.
 class SurfacelessContext {
 public:
     SurfacelessContext() : display_(opened_display()), context_(new_context(display_)) {}
@@ -92,8 +102,6 @@ private:
     EGLDisplay display_;
     EGLContext context_;
 };
-
-} // namespace
 
 struct OffscreenContext::Parts {
     SurfacelessContext context;

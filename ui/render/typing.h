@@ -1,4 +1,4 @@
-// What was typed, in its order. ImGui 1.86 takes all characters of a frame before its keys, and a key once:
+// What was typed, in its order. ImGui takes all characters of a frame before its keys, and a key once:
 // of "12 Enter 3" in one slow frame it makes "123 Enter". Here a frame gets no more than it keeps in order.
 #pragma once
 

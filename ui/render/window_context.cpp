@@ -28,9 +28,12 @@ std::string glfw_reason() {
     throw Error("cannot open a window: " + why, {}, hint);
 }
 
-class Library {
+} // namespace
+
+// Members of WindowContext::Parts have their types outside of the anonymous namespace.
+class GlfwLibrary {
 public:
-    Library() {
+    GlfwLibrary() {
         // Asking before GLFW does gives a plainer sentence.
         const char* display = std::getenv("DISPLAY");
         const std::string hint =
@@ -38,14 +41,21 @@ public:
         if (display == nullptr || *display == '\0') {
             no_window("there is no display (DISPLAY is not set)", hint);
         }
+#ifdef GLFW_PLATFORM_X11 // since 3.4 GLFW also knows Wayland, where the loss of the display is not noticed
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (glfwInit() == GLFW_FALSE) {
             no_window("the display " + std::string(display) + " cannot be used: " + glfw_reason(), hint);
         }
     }
-    Library(const Library&) = delete;
-    Library& operator=(const Library&) = delete;
-    ~Library() { glfwTerminate(); }
+    GlfwLibrary(const GlfwLibrary&) = delete;
+    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+    ~GlfwLibrary() {
+        glfwTerminate();
+    }
 };
+
+namespace {
 
 void set_hints(const WindowOptions& options) {
     glfwDefaultWindowHints();
@@ -70,17 +80,20 @@ GLFWwindow* opened_window(const WindowOptions& options) {
     return window;
 }
 
+} // namespace
+
 /// What the callbacks of the window leave behind for wait(), and what they call.
-struct Happened {
+struct PendingEvents {
     std::atomic<bool> redraw = true; // a new window shows nothing yet
     std::vector<std::filesystem::path> dropped;
-    std::vector<KeyPress> presses;
     std::vector<TypedEvent> typing;
     std::function<void()> on_display_lost;
 };
 
-Happened& happened_in(GLFWwindow* window) {
-    return *static_cast<Happened*>(glfwGetWindowUserPointer(window));
+namespace {
+
+PendingEvents& happened_in(GLFWwindow* window) {
+    return *static_cast<PendingEvents*>(glfwGetWindowUserPointer(window));
 }
 
 /// For any callback whose arguments do not matter here: something is to be drawn.
@@ -89,46 +102,35 @@ template <typename... Arguments> void redraw(GLFWwindow* window, Arguments... /*
 }
 
 void dropped(GLFWwindow* window, int count, const char** files) {
-    Happened& happened = happened_in(window);
+    PendingEvents& happened = happened_in(window);
     happened.dropped.insert(happened.dropped.end(), files, files + count);
     happened.redraw = true;
 }
 
-void key_changed(GLFWwindow* window, int key, int /*scancode*/, int action, int mods) {
-    Happened& happened = happened_in(window);
-    happened.redraw = true;
-    if (action == GLFW_PRESS && key != GLFW_KEY_UNKNOWN) {
-        happened.presses.push_back({.key = key,
-                                    .ctrl = (mods & GLFW_MOD_CONTROL) != 0,
-                                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                                    .alt = (mods & GLFW_MOD_ALT) != 0});
-    }
-}
-
 void keep_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-    Happened& happened = happened_in(window);
+    PendingEvents& happened = happened_in(window);
     happened.redraw = true;
     happened.typing.push_back(
         {.character = {}, .button = {}, .key = key, .scancode = scancode, .action = action, .mods = mods});
 }
 
 void keep_character(GLFWwindow* window, unsigned int character) {
-    Happened& happened = happened_in(window);
+    PendingEvents& happened = happened_in(window);
     happened.redraw = true;
     happened.typing.push_back({.character = character});
 }
 
 void keep_button(GLFWwindow* window, int button, int action, int /*mods*/) {
-    Happened& happened = happened_in(window);
+    PendingEvents& happened = happened_in(window);
     happened.redraw = true;
     if (action == GLFW_PRESS) {
         happened.typing.push_back({.character = {}, .button = button});
     }
 }
 
-void listen(GLFWwindow* window, Happened& happened) {
+void listen(GLFWwindow* window, PendingEvents& happened) {
     glfwSetWindowUserPointer(window, &happened);
-    glfwSetKeyCallback(window, key_changed);
+    glfwSetKeyCallback(window, redraw<int, int, int, int>);
     glfwSetCharCallback(window, redraw<unsigned int>);
     glfwSetMouseButtonCallback(window, redraw<int, int, int>);
     glfwSetCursorPosCallback(window, redraw<double, double>);
@@ -175,9 +177,9 @@ struct WindowContext::Parts {
         glfwDestroyWindow(window);
     }
 
-    Library library;
+    GlfwLibrary library;
     GLFWwindow* window;
-    Happened happened;
+    PendingEvents happened;
     DropListener on_drop;
 };
 
@@ -282,11 +284,6 @@ void WindowContext::on_drop(DropListener listener) {
 void WindowContext::on_display_lost(std::function<void()> listener) {
     parts_->happened.on_display_lost = std::move(listener);
     watch_display();
-}
-
-// NOLINTNEXTLINE(readability-make-member-function-const): it changes what the window remembers
-std::vector<KeyPress> WindowContext::take_key_presses() {
-    return std::exchange(parts_->happened.presses, {});
 }
 
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes the window

@@ -24,14 +24,6 @@ struct WindowOptions {
     Picture icon = {}; ///< empty for the system's own
 };
 
-/// A key going down, with GLFW's number, and what was held with it.
-struct KeyPress {
-    int key = 0;
-    bool ctrl = false;
-    bool shift = false;
-    bool alt = false;
-};
-
 /// One at a time in a program, on the main thread.
 class WindowContext final : public Context {
 public:
@@ -76,9 +68,6 @@ public:
     /// the display ended. Nothing can be drawn any more, and nothing of this class may be called; the process
     /// ends when the listener returns.
     void on_display_lost(std::function<void()> listener);
-
-    /// Keys that went down since the last call, also those that are up again.
-    [[nodiscard]] std::vector<KeyPress> take_key_presses();
 
     /// From now on keys, characters and buttons of the mouse are kept, in their order, instead of being told
     /// to whom listens. Once, after everybody who listens was set up.

@@ -72,7 +72,7 @@ Vec3 point_of_link(
     return kinematics::base_T_joints(scene.look->arm(), joints)[static_cast<std::size_t>(joint)] * local;
 }
 
-std::optional<glm::dvec2> pixel_of(const render::View& view, const Vec3& point) {
+std::optional<glm::dvec2> projected_pixel(const render::View& view, const Vec3& point) {
     const auto seen = render::project(view, render::to_glm(point));
     return seen ? std::optional(seen->pixel) : std::nullopt;
 }
@@ -83,12 +83,12 @@ std::optional<ArmGrip>
 pick_arm(const ArmScene& scene, const render::View& view, const glm::dvec2& pixel, double within_px) {
     const kinematics::ArmModel& arm = scene.look->arm();
     const Vec3 tip = kinematics::base_T_tool(arm, scene.joints).translation();
-    if (const auto seen = pixel_of(view, tip); seen && glm::length(*seen - pixel) <= within_px) {
+    if (const auto seen = projected_pixel(view, tip); seen && glm::length(*seen - pixel) <= within_px) {
         return ArmGrip{ArmGrip::tip, tip};
     }
     if (scene.part) {
         const Vec3 zero = scene.part->translation();
-        if (const auto seen = pixel_of(view, zero); seen && glm::length(*seen - pixel) <= within_px) {
+        if (const auto seen = projected_pixel(view, zero); seen && glm::length(*seen - pixel) <= within_px) {
             return ArmGrip{ArmGrip::part, zero};
         }
     }
@@ -125,9 +125,9 @@ double joint_towards(
     const double largest = turns ? 0.2 : 50.0;
     double position = scene.joints[joint];
     for (int n = 0; n < rounds; ++n) {
-        const auto here = pixel_of(view, point_of_link(scene, scene.joints, joint, position, local));
+        const auto here = projected_pixel(view, point_of_link(scene, scene.joints, joint, position, local));
         const auto beside =
-            pixel_of(view, point_of_link(scene, scene.joints, joint, position + small, local));
+            projected_pixel(view, point_of_link(scene, scene.joints, joint, position + small, local));
         if (!here || !beside) {
             break;
         }

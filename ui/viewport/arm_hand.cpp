@@ -1,6 +1,7 @@
 #include "ui/viewport/arm_hand.h"
 
 #include "core/kinematics/arm_forward.h"
+#include "ui/viewport/internal/pointer_pixel.h"
 #include "ui/viewport/navigation.h"
 
 #include <glm/geometric.hpp>
@@ -13,11 +14,7 @@ using widgets::MouseButton;
 
 // Pixels at scale 1.
 constexpr double tip_reach_px = 12.0;
-constexpr double still_px = 3.0; // a click may move this far
-
-glm::dvec2 pixel_of(const widgets::Pointer& pointer) {
-    return {static_cast<double>(pointer.at.x), static_cast<double>(pointer.at.y)};
-}
+constexpr double arm_click_slack_px = 3.0; // a click may move this far
 
 } // namespace
 
@@ -79,7 +76,7 @@ ViewEvent ArmHand::moved_to(const Vec3& place, DragStage stage) const {
 
 void ArmHand::hold(const ArmHandInput& input, std::vector<ViewEvent>& events) {
     const glm::dvec2 pixel = pixel_of(input.pointer);
-    if (!moved_ && glm::length(pixel - pressed_) <= still_px * input.view.content_scale) {
+    if (!moved_ && glm::length(pixel - pressed_) <= arm_click_slack_px * input.view.content_scale) {
         return;
     }
     moved_ = true;

@@ -14,16 +14,16 @@ namespace {
 constexpr double near_angle = 10.0 * pi / 180.0;
 constexpr double near_share = 0.05; // of the range of a sliding joint
 
-bool same(const kinematics::JointPositions& a, const kinematics::JointPositions& b) {
+bool same_pose(const kinematics::JointPositions& a, const kinematics::JointPositions& b) {
     return a.size() == b.size() && a == b;
 }
 
-bool same(const std::optional<kinematics::JointPositions>& a,
-          const std::optional<kinematics::JointPositions>& b) {
-    return a && b ? same(*a, *b) : a.has_value() == b.has_value();
+bool same_pose(const std::optional<kinematics::JointPositions>& a,
+               const std::optional<kinematics::JointPositions>& b) {
+    return a && b ? same_pose(*a, *b) : a.has_value() == b.has_value();
 }
 
-bool same(const std::optional<Frame>& a, const std::optional<Frame>& b) {
+bool same_pose(const std::optional<Frame>& a, const std::optional<Frame>& b) {
     return a && b ? a->matrix() == b->matrix() : a.has_value() == b.has_value();
 }
 
@@ -60,8 +60,8 @@ std::shared_ptr<const ArmLook> read_arm_look(const std::filesystem::path& file) 
 }
 
 bool operator==(const ArmScene& a, const ArmScene& b) {
-    return a.look == b.look && same(a.joints, b.joints) && same(a.ghost, b.ghost) && a.trace == b.trace &&
-           a.track == b.track && same(a.part, b.part);
+    return a.look == b.look && same_pose(a.joints, b.joints) && same_pose(a.ghost, b.ghost) &&
+           a.trace == b.trace && a.track == b.track && same_pose(a.part, b.part);
 }
 
 double share_of_range(const kinematics::ArmJoint& joint, double position) {

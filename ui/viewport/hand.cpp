@@ -1,6 +1,7 @@
 #include "ui/viewport/hand.h"
 
 #include "ui/viewport/internal/boxes.h"
+#include "ui/viewport/internal/pointer_pixel.h"
 #include "ui/viewport/navigation.h"
 #include "ui/viewport/program_picking.h"
 #include "ui/viewport/symmetric_points.h"
@@ -20,15 +21,11 @@ using Stage = MoveControlPoints::Stage;
 // Pixels at scale 1.
 constexpr double handle_reach_px = 9.0;
 constexpr double move_reach_px = 6.0;
-constexpr double still_px = 4.0; // a click may move this far
+constexpr double click_slack_px = 4.0; // a click may move this far
 
 constexpr std::size_t quickly_looked_at = 100'000; // points of a path, in about 5 ms
 
 constexpr double hidden_share = 0.05; // of the surface's size: further behind it, a move cannot be pointed at
-
-glm::dvec2 pixel_of(const widgets::Pointer& pointer) {
-    return {static_cast<double>(pointer.at.x), static_cast<double>(pointer.at.y)};
-}
 
 /// What lies before the surface, or beside it.
 std::optional<int> face_at(const HandInput& input) {
@@ -195,7 +192,7 @@ void Hand::press(const HandInput& input) {
 
 void Hand::hold(const HandInput& input, std::vector<ViewEvent>& events) {
     const glm::dvec2 pixel = pixel_of(input.pointer);
-    const bool moved = glm::length(pixel - pressed_->pixel) > still_px * input.view.content_scale;
+    const bool moved = glm::length(pixel - pressed_->pixel) > click_slack_px * input.view.content_scale;
     if (!drag_ && !box_ && moved && editable(input.scene)) {
         if (pressed_->point) {
             begin_drag(input, events); // nothing, if an edit from elsewhere has taken the point away

@@ -12,8 +12,8 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr int places = 7;      // of the surface, in each direction
-constexpr int turns = 24;      // directions that are tried
+constexpr int surface_samples = 7; // in each direction
+constexpr int tried_directions = 24;
 constexpr double enough = 0.8; // of the most that can be seen
 
 /// Whether the ray from `origin` meets the box (slabs; Kay and Kajiya 1986).
@@ -65,23 +65,23 @@ double part_seen(const Scene& scene, const Vec3& to_eye) {
     const Frame s_T_w = scene_from_workpiece(scene);
     const double side = scene.workpiece->flipped ? -1.0 : 1.0;
     double seen = 0.0;
-    for (int k = 0; k < places * places; ++k) {
-        const double u = (0.5 + k % places) / places;
-        const double v = (0.5 + k / places) / places;
+    for (int k = 0; k < surface_samples * surface_samples; ++k) {
+        const double u = (0.5 + k % surface_samples) / surface_samples;
+        const double v = (0.5 + k / surface_samples) / surface_samples;
         const Vec3 place = s_T_w * scene.workpiece->patch.position(u, v);
         const Vec3 normal = s_T_w.linear() * scene.workpiece->patch.unit_normal(u, v).value_or(Vec3::UnitZ());
         const double facing = side * normal.dot(to_eye);
         seen += facing > 0.0 && free_sight(bodies, place, to_eye) ? facing : 0.0;
     }
-    return seen / (places * places);
+    return seen / (surface_samples * surface_samples);
 }
 
 render::Camera part_in_sight(const Scene& scene, const render::Camera& camera) {
     std::vector<render::Camera> cameras;
     std::vector<double> seen;
-    for (int k = 0; k < turns; ++k) {
+    for (int k = 0; k < tried_directions; ++k) {
         // 0, 1, -1, 2, -2 ... steps from where the camera is
-        const double turn = (k % 2 == 1 ? 1.0 : -1.0) * ((k + 1) / 2) * (2.0 * pi / turns);
+        const double turn = (k % 2 == 1 ? 1.0 : -1.0) * ((k + 1) / 2) * (2.0 * pi / tried_directions);
         cameras.push_back(camera.orbited(turn, 0.0));
         seen.push_back(part_seen(scene, render::to_core(cameras.back().backward())));
     }

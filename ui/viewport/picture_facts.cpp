@@ -22,19 +22,19 @@ std::string counted(std::size_t count, const std::string& one) {
 }
 
 /// Lengths to a micrometre, what is larger than a metre to a tenth of a millimetre.
-std::string length_text(double length, int decimals) {
+std::string reachable_length_text(double length, int decimals) {
     return std::isfinite(length) ? fixed(length, std::abs(length) < 1000.0 ? decimals : 1) : "out of reach";
 }
 
 std::vector<std::string> error_row(std::string_view name, const project::Evaluation& evaluation) {
     const grid::ErrorSummary& errors = evaluation.closest;
     return {std::string(name),
-            length_text(errors.max, 3),
-            length_text(errors.mean, 4),
-            length_text(errors.lmean, 4),
-            length_text(errors.p95, 4),
-            length_text(to_degrees(errors.axis_max), 2),
-            evaluation.track_gap ? length_text(*evaluation.track_gap, 2) : "-"};
+            reachable_length_text(errors.max, 3),
+            reachable_length_text(errors.mean, 4),
+            reachable_length_text(errors.lmean, 4),
+            reachable_length_text(errors.p95, 4),
+            reachable_length_text(to_degrees(errors.axis_max), 2),
+            evaluation.track_gap ? reachable_length_text(*evaluation.track_gap, 2) : "-"};
 }
 
 void add_errors(PictureFacts& facts, const project::Project& project, const project::Plan& plan) {
@@ -56,8 +56,9 @@ void add_design(PictureFacts& facts, const project::Plan& plan) {
     const Vec3 size = plan.surface->control_box().sizes();
     facts.columns = {"design", "net size mm", "degree", "control points", "patches"};
     facts.rows.push_back({patch.rational() ? "rational" : "polynomial",
-                          length_text(size.x(), 1) + " \u00D7 " + length_text(size.y(), 1) + " \u00D7 " +
-                              length_text(size.z(), 1),
+                          reachable_length_text(size.x(), 1) + " \u00D7 " +
+                              reachable_length_text(size.y(), 1) + " \u00D7 " +
+                              reachable_length_text(size.z(), 1),
                           times(patch.degree_u(), patch.degree_v()),
                           times(patch.net().rows, patch.net().columns),
                           std::to_string(plan.surface->patch_count())});

@@ -81,7 +81,10 @@ std::size_t points_of(const PathBlock& block, int level) {
     return level == exact ? block.count : block.levels[static_cast<std::size_t>(level)].count;
 }
 
-void append(std::vector<std::uint16_t>& indices, const PathChunk& chunk, const PathBlock& block, int level) {
+void append_indices(std::vector<std::uint16_t>& indices,
+                    const PathChunk& chunk,
+                    const PathBlock& block,
+                    int level) {
     if (!indices.empty()) {
         indices.push_back(render::path_restart);
     }
@@ -189,7 +192,7 @@ pieces_in_sight(std::span<const std::shared_ptr<const PathChunk>> chunks,
     std::vector<std::vector<std::uint16_t>> indices(chunks.size());
     for (const Candidate& chosen : settled) {
         const PathChunk& chunk = *chunks[chosen.chunk];
-        append(indices[chosen.chunk], chunk, chunk.blocks[chosen.block], chosen.level);
+        append_indices(indices[chosen.chunk], chunk, chunk.blocks[chosen.block], chosen.level);
     }
     return indices;
 }

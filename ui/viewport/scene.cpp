@@ -19,14 +19,14 @@ struct KindNames {
     std::string_view title;
 };
 
-constexpr std::array<KindNames, view_kind_count> kinds = {{{"design", "Design"},
-                                                           {"grid", "Grid"},
-                                                           {"toolpath", "Toolpath"},
-                                                           {"error", "Error map"},
-                                                           {"machine", "Machine"}}};
+constexpr std::array<KindNames, view_kind_count> view_kind_names = {{{"design", "Design"},
+                                                                     {"grid", "Grid"},
+                                                                     {"toolpath", "Toolpath"},
+                                                                     {"error", "Error map"},
+                                                                     {"machine", "Machine"}}};
 
 const KindNames& names(ViewKind kind) {
-    return kinds[static_cast<std::size_t>(kind)];
+    return view_kind_names[static_cast<std::size_t>(kind)];
 }
 
 bool same(const toolpath::SingularPoint& a, const toolpath::SingularPoint& b) {
@@ -68,8 +68,10 @@ std::string_view title(ViewKind kind) {
 }
 
 std::optional<ViewKind> view_kind(std::string_view id) {
-    const auto found = std::ranges::find(kinds, id, &KindNames::id);
-    return found == kinds.end() ? std::nullopt : std::optional(static_cast<ViewKind>(found - kinds.begin()));
+    const auto found = std::ranges::find(view_kind_names, id, &KindNames::id);
+    return found == view_kind_names.end()
+               ? std::nullopt
+               : std::optional(static_cast<ViewKind>(found - view_kind_names.begin()));
 }
 
 Layers layers_of(ViewKind kind) {

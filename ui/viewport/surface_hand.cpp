@@ -2,6 +2,7 @@
 
 #include "core/base/units.h"
 #include "ui/render/convert.h"
+#include "ui/viewport/internal/pointer_pixel.h"
 
 #include <glm/geometric.hpp>
 
@@ -21,10 +22,6 @@ constexpr int chords_a_side = 16;
 
 const geometry::BezierPatch& patch_of(const Scene& scene) {
     return scene.surface->patch(scene.surface_tool.patch);
-}
-
-glm::dvec2 pixel_of(const widgets::Pointer& pointer) {
-    return {static_cast<double>(pointer.at.x), static_cast<double>(pointer.at.y)};
 }
 
 /// How far from `from` along `way` in the parameters [0,1]^2 end.

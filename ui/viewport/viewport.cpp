@@ -18,7 +18,7 @@ using render::Projection;
 using render::StandardView;
 using widgets::Rect;
 
-constexpr float gap = 2.0F; // between four pictures
+constexpr float pane_gap = 2.0F; // between four pictures
 constexpr float button_px = 28.0F;
 
 std::array<ViewPane, 4> make_panes() {
@@ -33,7 +33,7 @@ std::array<ViewPane, 2> make_pair() {
             ViewPane("right", "", StandardView::iso, Projection::perspective)};
 }
 
-constexpr std::size_t iso = 1; // the picture that is alone where there is one
+constexpr std::size_t isometric_pane = 1; // the picture that is alone where there is one
 
 /// The quarter of `place` in that row and column.
 Rect quarter(const Rect& place, int row, int column, float space) {
@@ -72,7 +72,7 @@ struct Viewport::State {
     std::array<ViewPane, 2> pair = make_pair(); ///< for two scenes
     bool paired = false;                        ///< in the last frame
     std::unique_ptr<OtherScene> other;          ///< null before two scenes were drawn
-    std::size_t active = iso;                   ///< last worked in
+    std::size_t active = isometric_pane;        ///< last worked in
     Arrangement arrangement = Arrangement::one;
     UnderMouse under_mouse;
     widgets::Point next_button;
@@ -167,21 +167,21 @@ std::vector<ViewEvent> Viewport::draw(widgets::Ui& ui, const Rect& place, const 
                      .picker = state.picker,
                      .colors = render::view_colors(theme_of(ui))};
     if (state.arrangement == Arrangement::one) {
-        state.active = iso;
-        std::vector<ViewEvent> events = state.draw_pane(frame, iso, place);
+        state.active = isometric_pane;
+        std::vector<ViewEvent> events = state.draw_pane(frame, isometric_pane, place);
         state.draw_buttons(ui, place);
         return events;
     }
     std::vector<ViewEvent> all;
     for (std::size_t k = 0; k < state.panes.size(); ++k) {
         const auto scope = ui.scope(state.panes[k].id());
-        const Rect part = quarter(place, static_cast<int>(k / 2), static_cast<int>(k % 2), ui.px(gap));
-        frame.details = k == iso;
+        const Rect part = quarter(place, static_cast<int>(k / 2), static_cast<int>(k % 2), ui.px(pane_gap));
+        frame.details = k == isometric_pane;
         for (ViewEvent& event : state.draw_pane(frame, k, part)) {
             all.push_back(std::move(event));
         }
     }
-    state.draw_buttons(ui, quarter(place, 0, 1, ui.px(gap)));
+    state.draw_buttons(ui, quarter(place, 0, 1, ui.px(pane_gap)));
     return all;
 }
 
@@ -192,7 +192,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
         state.other = std::make_unique<OtherScene>();
     }
     if (!state.paired) { // turned as before, but narrower
-        state.pair[1].set_camera(state.panes[iso].camera());
+        state.pair[1].set_camera(state.panes[isometric_pane].camera());
         state.pair[1].fit();
         state.paired = true;
     }
@@ -205,7 +205,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     state.pair[0].set_caption(left.caption);
     state.pair[1].set_caption(right.caption);
     const render::ViewColors colors = render::view_colors(theme_of(ui));
-    const float space = ui.px(gap);
+    const float space = ui.px(pane_gap);
     const float w = std::floor(0.5F * (place.w - space));
     const float h = draw_shared_legends(ui, place, right.scene, left.scene, colors);
     const Rect right_place{place.x + w + space, place.y, place.w - w - space, h};
@@ -235,7 +235,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
         state.pair[1].set_camera(state.pair[0].camera());
         ui.change_in(0.0);
     }
-    state.panes[iso].set_camera(state.pair[1].camera());
+    state.panes[isometric_pane].set_camera(state.pair[1].camera());
     state.draw_buttons(ui, right_place);
     return events;
 }

@@ -11,8 +11,6 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr double disabled_opacity = 0.45;
-
 struct Paint {
     Colour ground = 0;
     Colour text = 0;

@@ -45,12 +45,10 @@ void follow_buttons(double& kept, bool hovered, Pointer& pointer) {
 
 Canvas canvas(Ui& ui, std::string_view id, const Rect& place, std::uintptr_t texture) {
     const std::string own = ui.path(id);
-    ImGui::SetCursorScreenPos(upper_left(place));
     constexpr ImGuiButtonFlags any_button = ImGuiButtonFlags_MouseButtonLeft |
                                             ImGuiButtonFlags_MouseButtonRight |
                                             ImGuiButtonFlags_MouseButtonMiddle;
-    ImGui::InvisibleButton(own.c_str(), {std::max(place.w, 1.0F), std::max(place.h, 1.0F)}, any_button);
-    ImGui::SetItemAllowOverlap(); // legends and buttons on the picture come later and win
+    overlaid_button(own, place, any_button); // legends and buttons on the picture come later and win
     keep_wheel();
     const std::string& on_top = ui.state().under_mouse_before;
     const bool hovered = ImGui::IsItemHovered() && (on_top.empty() || on_top == own);

@@ -11,7 +11,6 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr double disabled_opacity = 0.45;
 constexpr float between_rows = 2.0F;
 
 std::string with_icon(const Option& option) {

@@ -1,5 +1,7 @@
 #include "ui/widgets/completion.h"
 
+#include "ui/widgets/internal/letters.h"
+
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -7,11 +9,6 @@
 namespace millwright::widgets {
 
 namespace {
-
-bool same_letter(char a, char b) {
-    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return small(a) == small(b);
-}
 
 std::size_t common(std::string_view a, std::string_view b) {
     const auto end = std::ranges::mismatch(a, b, same_letter);

@@ -1,6 +1,7 @@
 #include "ui/widgets/fonts.h"
 
 #include "core/base/files.h"
+#include "core/base/program_files.h"
 #include "ui/widgets/icons.h"
 
 #include <ft2build.h>
@@ -173,12 +174,13 @@ Fonts built_in_font(ImFontAtlas& atlas) {
 } // namespace
 
 FontFiles system_fonts() {
-    const fs::path inter = "/usr/share/fonts/opentype/inter";
-    const fs::path dejavu = "/usr/share/fonts/truetype/dejavu";
+    const fs::path fonts = find_above(executable(), {"share/millwright/fonts"}).value_or("/usr/share/fonts");
+    const fs::path inter = fonts / "opentype/inter";
+    const fs::path dejavu = fonts / "truetype/dejavu";
     return {.text = {inter / "Inter-Regular.otf", dejavu / "DejaVuSans.ttf"},
             .strong = {inter / "Inter-SemiBold.otf", dejavu / "DejaVuSans-Bold.ttf"},
             .mono = {dejavu / "DejaVuSansMono.ttf"},
-            .icons = {"/usr/share/fonts/truetype/font-awesome/fontawesome-webfont.ttf"}};
+            .icons = {fonts / "truetype/font-awesome/fontawesome-webfont.ttf"}};
 }
 
 LoadedFonts load_fonts(ImFontAtlas& atlas, float scale, const FontFiles& files) {

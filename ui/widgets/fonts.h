@@ -13,8 +13,8 @@ struct ImFontAtlas;
 
 namespace millwright::widgets {
 
-/// Where to look, best first. The defaults are Debian's packages fonts-inter, fonts-dejavu,
-/// fonts-font-awesome.
+/// Where to look, best first. The defaults are the fonts in share/millwright/fonts where the program brings
+/// its own, else Debian's packages fonts-inter, fonts-dejavu-core, fonts-font-awesome.
 struct FontFiles {
     std::vector<std::filesystem::path> text;
     std::vector<std::filesystem::path> strong;

@@ -1,5 +1,7 @@
 #include "ui/widgets/fuzzy.h"
 
+#include "ui/widgets/internal/letters.h"
+
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -16,11 +18,7 @@ constexpr int for_run = 8; // the letter before was the one typed before
 constexpr int for_first = 6;
 constexpr int none = std::numeric_limits<int>::min() / 2;
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-bool is_blank(char c) {
+bool is_space_or_tab(char c) {
     return c == ' ' || c == '\t';
 }
 
@@ -32,7 +30,7 @@ bool starts_word(std::string_view text, std::size_t i) {
 std::string without_blanks(std::string_view letters) {
     std::string kept;
     std::copy_if(
-        letters.begin(), letters.end(), std::back_inserter(kept), [](char c) { return !is_blank(c); });
+        letters.begin(), letters.end(), std::back_inserter(kept), [](char c) { return !is_space_or_tab(c); });
     return kept;
 }
 
@@ -56,7 +54,7 @@ std::optional<int> fuzzy_score(std::string_view letters, std::string_view text) 
         for (std::size_t i = 0; i < text.size(); ++i) {
             const int run = i > 0 && n > 0 ? before[i - 1] + for_run : none;
             const int reached = n == 0 ? 0 : std::max(best_earlier, run);
-            const bool fits = lower(text[i]) == lower(wanted[n]) && reached > none / 2;
+            const bool fits = lower_case(text[i]) == lower_case(wanted[n]) && reached > none / 2;
             best[i] = fits ? reached + score_at(text, i) : none;
             best_earlier = std::max(best_earlier, before[i]);
         }

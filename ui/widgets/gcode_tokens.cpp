@@ -11,7 +11,7 @@ bool is(std::string_view set, char c) {
     return set.find(c) != std::string_view::npos;
 }
 
-bool is_blank(char c) {
+bool is_gcode_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
@@ -68,7 +68,7 @@ std::size_t o_word_length(std::string_view text) {
     } else {
         n = run_of(text, n, is_number);
     }
-    const std::size_t keyword = run_of(text, n, is_blank);
+    const std::size_t keyword = run_of(text, n, is_gcode_blank);
     return keyword < text.size() && is_letter(text[keyword]) ? run_of(text, keyword, is_letter) : n;
 }
 
@@ -102,8 +102,8 @@ CodeToken first_token(std::string_view text) {
         return {};
     }
     const char head = text.front();
-    if (is_blank(head)) {
-        return {run_of(text, 0, is_blank), CodeKind::blank};
+    if (is_gcode_blank(head)) {
+        return {run_of(text, 0, is_gcode_blank), CodeKind::blank};
     }
     if (head == '(') {
         return {behind(text, ')'), CodeKind::comment};

@@ -18,7 +18,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr float least_height = 80.0F;
+constexpr float least_map_height = 80.0F;
 
 struct Extremes {
     double low = std::numeric_limits<double>::infinity();
@@ -54,7 +54,7 @@ std::size_t nearest(std::span<const double> places, double value) {
     return static_cast<std::size_t>(at - places.begin());
 }
 
-Mapping mapping_of(const HeatMapView& view, const Rect& box) {
+Mapping heat_map_mapping(const HeatMapView& view, const Rect& box) {
     Mapping mapping;
     mapping.box = box;
     mapping.x_low = border(view.x, 0);
@@ -81,7 +81,7 @@ void draw_hatch(Ui& ui, const Rect& box) {
     ImGui::PopClipRect();
 }
 
-void draw_cells(const Mapping& mapping, const HeatMapView& view, const Extremes& range) {
+void draw_map_cells(const Mapping& mapping, const HeatMapView& view, const Extremes& range) {
     for (std::size_t row = 0; row < view.y.size(); ++row) {
         const float bottom = std::round(mapping.pixel_y(border(view.y, row)));
         const float top = std::round(mapping.pixel_y(border(view.y, row + 1)));
@@ -96,7 +96,7 @@ void draw_cells(const Mapping& mapping, const HeatMapView& view, const Extremes&
     }
 }
 
-void draw_ticks(Ui& ui, const Mapping& mapping, const HeatMapView& view, float left) {
+void draw_map_ticks(Ui& ui, const Mapping& mapping, const HeatMapView& view, float left) {
     const ImFont* font = ui.look().fonts.small;
     const float line = font->FontSize;
     const Colour muted = ui.colours().muted;
@@ -135,7 +135,7 @@ void draw_ticks(Ui& ui, const Mapping& mapping, const HeatMapView& view, float l
 }
 
 /// What the map is of, and at the right what the ends of the colours mean.
-void draw_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes& range) {
+void draw_map_key(Ui& ui, const Rect& line, const HeatMapView& view, const Extremes& range) {
     const ImFont* font = ui.look().fonts.small;
     const float bar = ui.px(60.0F);
     const std::string high = fmt::format("{:.4g} {}", range.high, view.unit);
@@ -162,7 +162,7 @@ double value_y(const Mapping& mapping, float pixel) {
     return mix(mapping.y_low, mapping.y_high, share);
 }
 
-std::string read_out(const HeatMapView& view, const MapPlace& place) {
+std::string map_readout(const HeatMapView& view, const MapPlace& place) {
     const std::size_t column = nearest(view.x, place.x);
     const std::size_t row = nearest(view.y, place.y);
     const double value = view.values[row * view.x.size() + column];
@@ -258,7 +258,7 @@ void draw_marks(Ui& ui, const Mapping& mapping, const HeatMapView& view) {
 std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView& view) {
     expects(view.values.size() == view.x.size() * view.y.size(), "a map has a value a column and row");
     const std::string own = ui.path(id);
-    const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_height));
+    const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_map_height));
     const Slot slot(ui, 0.0F, height);
     const Rect& all = slot.rect();
     const Extremes range = extremes_of(view.values);
@@ -271,25 +271,25 @@ std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView&
     expects(static_cast<bool>(view.colours), "a map has colours");
     const float line = ui.look().fonts.small->FontSize;
     const float left = ui.px(52.0F);
-    draw_key(ui, {all.x, all.y, all.w, line}, view, range);
+    draw_map_key(ui, {all.x, all.y, all.w, line}, view, range);
     const float top = 2.0F * line + ui.px(9.0F);
     const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
     fill(box, ui.colours().field, ui.px(2.0F));
     const Press now = press(ui, own, box);
-    const Mapping mapping = mapping_of(view, box);
+    const Mapping mapping = heat_map_mapping(view, box);
     ImGui::PushClipRect(upper_left(box), lower_right(box), true);
     if (has_holes(view)) {
         draw_hatch(ui, box);
     }
-    draw_cells(mapping, view, range);
+    draw_map_cells(mapping, view, range);
     draw_marks(ui, mapping, view);
     ImGui::PopClipRect();
-    draw_ticks(ui, mapping, view, all.x);
+    draw_map_ticks(ui, mapping, view, all.x);
     draw_second_line(ui, {all.x, all.y + line + ui.px(3.0F), all.w, line}, mapping, view);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const MapPlace place{mapping.value_x(mouse.x), value_y(mapping, mouse.y)};
     if (now.hovered) {
-        show_at_mouse(ui, own, read_out(view, place));
+        show_at_mouse(ui, own, map_readout(view, place));
     }
     return now.clicked ? std::optional(place) : std::nullopt;
 }

@@ -61,7 +61,7 @@ void draw_arrow(const Rect& at, Colour colour, bool lying) {
     }
 }
 
-void draw_ticks(Ui& ui, const Rect& bar, float right, const LegendView& view) {
+void draw_ticks_beside(Ui& ui, const Rect& bar, float right, const LegendView& view) {
     const ImFont* font = ui.look().fonts.small;
     const float line = font->FontSize;
     const int at_most = std::max(2, static_cast<int>(bar.h / (1.8F * line)));
@@ -167,7 +167,7 @@ void draw_upright(Ui& ui, const Rect& place, const LegendView& view) {
     bar.h = std::max(inside.bottom() - ui.px(10.0F) - bar.y, 1.0F);
     draw_bar(bar, view.map, false);
     if (has_range(view)) {
-        draw_ticks(ui, bar, inside.right(), view);
+        draw_ticks_beside(ui, bar, inside.right(), view);
     }
 }
 

@@ -91,7 +91,7 @@ bool draw_code(const Ui& ui, const Rect& place, std::string_view text, bool colo
 }
 
 /// Brings `line` into sight when it is another one than in the last frame.
-void follow(
+void follow_line(
     Ui& ui, const std::string& path, std::string_view what, std::ptrdiff_t line, float rows_in_sight) {
     const auto [shown, is_new] = ui.state().memory.try_emplace(path + "@" + std::string(what), -1.0);
     const auto wanted = static_cast<double>(line);
@@ -148,8 +148,8 @@ std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const Listing
     if (view.lines == 0) {
         return std::nullopt;
     }
-    follow(ui, own, "current", view.current, box.h / row_height);
-    follow(ui, own, "wanted", view.wanted, box.h / row_height);
+    follow_line(ui, own, "current", view.current, box.h / row_height);
+    follow_line(ui, own, "wanted", view.wanted, box.h / row_height);
     const Rows rows(ui, own, box, view.lines, row_height);
     const Rect inside{box.x, box.y, rows.row(0).w, box.h};
     const Press now = press(ui, own + "/lines", inside);

@@ -19,7 +19,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr float least_height = 80.0F;
+constexpr float least_plot_height = 80.0F;
 constexpr float line_width = 1.6F;
 constexpr float dash_length = 7.0F;
 constexpr float marker_size = 4.0F;
@@ -64,7 +64,7 @@ bool has_zeros(const PlotView& view) {
 }
 
 /// Empty when no point has a place.
-std::optional<Mapping> mapping_of(const PlotView& view) {
+std::optional<Mapping> plot_mapping(const PlotView& view) {
     Mapping mapping;
     mapping.y_is_log = view.y_is_log;
     Range x;
@@ -227,7 +227,7 @@ void draw_swatch(Ui& ui, const Rect& box, const Series& series, Colour colour) {
 }
 
 /// Title at the left, the series and their colours at the right, of the lines above the plot.
-void draw_key(Ui& ui, Rect line, const PlotView& view, const std::vector<std::size_t>& first) {
+void draw_plot_key(Ui& ui, Rect line, const PlotView& view, const std::vector<std::size_t>& first) {
     const ImFont* font = ui.look().fonts.small;
     draw_text(ui, font, line, ui.colours().muted, key_title(view));
     for (std::size_t row = 0; row < first.size(); ++row) {
@@ -370,7 +370,7 @@ void draw_zeros(Ui& ui, const Mapping& mapping, const Rect& strip, float left, c
 }
 
 /// The values nearest in x, as a tip beside the mouse.
-void read_out(Ui& ui, const std::string& path, const Mapping& mapping, const PlotView& view) {
+void show_plot_readout(Ui& ui, const std::string& path, const Mapping& mapping, const PlotView& view) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const double x = mapping.value_x(mouse.x);
     std::string text;
@@ -395,10 +395,10 @@ void read_out(Ui& ui, const std::string& path, const Mapping& mapping, const Plo
 
 std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& view) {
     const std::string own = ui.path(id);
-    const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_height));
+    const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_plot_height));
     const Slot slot(ui, 0.0F, height);
     const Rect& all = slot.rect();
-    auto mapping = mapping_of(view);
+    auto mapping = plot_mapping(view);
     if (!mapping) {
         fill(all, ui.colours().field, ui.px(2.0F));
         record_at(ui, own, all);
@@ -407,7 +407,7 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
     }
     const float line = ui.look().fonts.small->FontSize;
     const std::vector<std::size_t> key = key_lines(ui, view, all.w);
-    draw_key(ui, {all.x, all.y, all.w, line}, view, key);
+    draw_plot_key(ui, {all.x, all.y, all.w, line}, view, key);
     const float top = line * static_cast<float>(std::max<std::size_t>(key.size(), 1)) + ui.px(6.0F);
     const float inside = all.h - top - line - ui.px(6.0F);
     const float strip = has_zeros(view) ? ui.px(zeros_height) : 0.0F;
@@ -428,7 +428,7 @@ std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& vie
     draw_series(ui, *mapping, view);
     draw_captions(ui, *mapping, view);
     if (now.hovered) {
-        read_out(ui, own, *mapping, view);
+        show_plot_readout(ui, own, *mapping, view);
     }
     return now.clicked ? std::optional(mapping->value_x(ImGui::GetIO().MousePos.x)) : std::nullopt;
 }

@@ -15,7 +15,7 @@ bool is_row(const ReadingBlock& block) {
     return block.kind == ReadingKind::row || block.kind == ReadingKind::head_row;
 }
 
-void draw_row(Ui& ui, const ReadingBlock& row, int columns) {
+void draw_reading_row(Ui& ui, const ReadingBlock& row, int columns) {
     ImGui::TableNextRow();
     for (int n = 0; n < columns; ++n) {
         ImGui::TableSetColumnIndex(n);
@@ -42,14 +42,14 @@ void draw_table(Ui& ui, std::span<const ReadingBlock> rows, int number) {
             ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, share);
         }
         for (const ReadingBlock& row : rows) {
-            draw_row(ui, row, count);
+            draw_reading_row(ui, row, count);
         }
         ImGui::EndTable();
     }
     ui.gap();
 }
 
-void draw_item(Ui& ui, std::string_view text) {
+void draw_list_item(Ui& ui, std::string_view text) {
     const float indent = ui.px(14.0F);
     const float y = ImGui::GetCursorScreenPos().y;
     draw_text(ui,
@@ -71,7 +71,7 @@ void draw_block(Ui& ui, const ReadingBlock& block) {
         ui.heading(text);
         break;
     case ReadingKind::item:
-        draw_item(ui, text);
+        draw_list_item(ui, text);
         break;
     case ReadingKind::code:
         ImGui::PushFont(ui.look().fonts.mono);

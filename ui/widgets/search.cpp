@@ -3,11 +3,12 @@
 #include "ui/widgets/fuzzy.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/imgui_inside.h"
+#include "ui/widgets/internal/letters.h"
 
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -29,10 +30,10 @@ Rect palette_box(const Ui& ui, std::ptrdiff_t rows) {
     return {std::round(0.5F * (display.x - width)), std::round(0.12F * display.y), width, height};
 }
 
-void draw_item(Ui& ui, const Rect& row, const SearchItem& item, bool chosen, bool enabled) {
+void draw_search_item(Ui& ui, const Rect& row, const SearchItem& item, bool chosen, bool enabled) {
     const Palette& colours = ui.colours();
     const Fonts& fonts = ui.look().fonts;
-    const double opacity = enabled ? 1.0 : 0.45;
+    const double opacity = enabled ? 1.0 : disabled_opacity;
     if (chosen) {
         fill(row, colours.selection, ui.px(gaps::rounding));
     }
@@ -48,11 +49,6 @@ void draw_item(Ui& ui, const Rect& row, const SearchItem& item, bool chosen, boo
               {row.x + pad, row.y, middle.x - row.x - 2.0F * pad, row.h},
               faded(colours.text, opacity),
               item.title);
-}
-
-bool same_letter(char a, char b) {
-    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-    return lower(a) == lower(b);
 }
 
 /// Whether the first words of `title` are exactly what was typed.
@@ -166,7 +162,7 @@ void Search::type_letters(Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0F, 0.0F});
     ImGui::PushStyleColor(ImGuiCol_FrameBg, 0U);
     if (std::exchange(takes_keyboard_, false)) {
-        ImGui::SetKeyboardFocusHere();
+        focus_next_item();
     }
     const std::string before = letters_;
     entered_ = ImGui::InputTextWithHint(
@@ -195,7 +191,7 @@ Search::draw_found(Ui& ui, std::span<const SearchItem> items, const std::vector<
         if (mouse_moves && slot.rect().contains({mouse.x, mouse.y})) {
             row_ = n;
         }
-        draw_item(ui, slot.rect(), item, n == row_, now.enabled);
+        draw_search_item(ui, slot.rect(), item, n == row_, now.enabled);
         chosen = now.clicked ? std::optional(index) : chosen;
     }
     return chosen;

@@ -55,7 +55,7 @@ void draw_header(Ui& ui, const std::string& own, const Rect& bar, const TableVie
     }
 }
 
-void draw_cells(
+void draw_row_cells(
     Ui& ui, const std::string& own, const Rect& row, const TableView& view, std::ptrdiff_t index) {
     const auto spans = column_spans(row, view.columns);
     for (std::size_t c = 0; c < spans.size(); ++c) {
@@ -69,7 +69,8 @@ void draw_cells(
     }
 }
 
-bool draw_row(Ui& ui, const std::string& own, const Rows& rows, const TableView& view, std::ptrdiff_t index) {
+bool draw_table_row(
+    Ui& ui, const std::string& own, const Rows& rows, const TableView& view, std::ptrdiff_t index) {
     const std::string path = own + "/" + view.row_id(index);
     const Press now = press(ui, path, rows.row_in_sight(index));
     if (rows.scrolls()) {
@@ -82,7 +83,7 @@ bool draw_row(Ui& ui, const std::string& own, const Rows& rows, const TableView&
         fill(row, faded(ui.colours().hover, 0.6));
     }
     fill({row.x, row.bottom() - 1.0F, row.w, 1.0F}, faded(ui.colours().line, 0.5));
-    draw_cells(ui, path, row, view, index);
+    draw_row_cells(ui, path, row, view, index);
     return now.clicked;
 }
 
@@ -114,7 +115,7 @@ std::optional<std::ptrdiff_t> table(Ui& ui, std::string_view id, const TableView
         const Rows rows(ui, own, body, view.rows, row_height);
         width = rows.row(0).w;
         for (std::ptrdiff_t i = rows.first(); i < rows.end(); ++i) {
-            if (draw_row(ui, own, rows, view, i)) {
+            if (draw_table_row(ui, own, rows, view, i)) {
                 clicked = i;
             }
         }

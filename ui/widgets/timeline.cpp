@@ -108,7 +108,7 @@ void where(Ui& ui, const TimelineView& view) {
     ui.beside();
 }
 
-Colour series_colour(const Palette& colours, std::span<const TimelineSeries> series, std::size_t i) {
+Colour timeline_colour(const Palette& colours, std::span<const TimelineSeries> series, std::size_t i) {
     return series[i].colour != 0 ? series[i].colour : colours.series[i % std::size(colours.series)];
 }
 
@@ -127,7 +127,7 @@ void draw_track_series(Ui& ui, const Rect& track, std::span<const TimelineSeries
             x[i] = static_cast<double>(i) / static_cast<double>(x.size() - 1);
         }
         const Mapping mapping{.box = track, .y_high = 1.1 * high};
-        const Colour colour = series_colour(ui.colours(), all, s);
+        const Colour colour = timeline_colour(ui.colours(), all, s);
         for (const auto& run : runs(mapping, x, values)) {
             if (s == 0) {
                 fill_below(run, track.bottom(), faded(colour, 0.3));
@@ -179,7 +179,7 @@ std::optional<TimelineAsk> track(Ui& ui, const TimelineView& view) {
 
 /// Names the series at the right; without their units where there is little room: the tip on the track has
 /// them.
-void draw_key(Ui& ui, std::span<const TimelineSeries> series) {
+void draw_timeline_key(Ui& ui, std::span<const TimelineSeries> series) {
     const ImFont* font = ui.look().fonts.small;
     const Slot slot(ui, 0.0F, ui.px(gaps::row));
     const float swatch = ui.px(12.0F);
@@ -200,7 +200,7 @@ void draw_key(Ui& ui, std::span<const TimelineSeries> series) {
         }
         draw_text(ui, font, {right - width, slot.rect().y, width, slot.rect().h}, ui.colours().muted, text);
         const float y = std::round(slot.rect().centre().y) - ui.px(1.5F);
-        fill({x, y, swatch, ui.px(3.0F)}, series_colour(ui.colours(), series, i), ui.px(1.5F));
+        fill({x, y, swatch, ui.px(3.0F)}, timeline_colour(ui.colours(), series, i), ui.px(1.5F));
         right = x - space;
     }
 }
@@ -216,7 +216,7 @@ std::optional<TimelineAsk> timeline(Ui& ui, std::string_view id, const TimelineV
         ask = speed;
     }
     ui.beside();
-    draw_key(ui, view.series);
+    draw_timeline_key(ui, view.series);
     if (const auto scrub = track(ui, view)) {
         ask = scrub;
     }

@@ -192,7 +192,7 @@ bool Ui::escape_pressed() const {
 }
 
 bool Ui::enter_pressed() const {
-    return key_pressed(ImGuiKey_Enter) || key_pressed(ImGuiKey_KeyPadEnter);
+    return key_pressed(ImGuiKey_Enter) || keypad_enter_pressed();
 }
 
 void Ui::focus_pane(std::string_view path) {

@@ -8,7 +8,7 @@ namespace millwright::cordic::internal {
 namespace {
 
 /// From register `n` to the wires in front of the next: a step of the iteration.
-std::string step(const Verilog& verilog, int n) {
+std::string pipeline_step(const Verilog& verilog, int n) {
     const auto name = [&](const char* text) { return fmt::format("{}{}", text, n); };
     const auto shifted = [&](const char* text) {
         return fmt::format("shifted({}{}, {})", text, n, verilog.shift(n));
@@ -40,7 +40,7 @@ std::string corrected(const Verilog& verilog, int n, char axis) {
                                 std::abs(a));
 }
 
-std::string correction(const Verilog& verilog, int n) {
+std::string pipeline_correction(const Verilog& verilog, int n) {
     return fmt::format("    wire [W:0] xt{0} = {1};\n    wire [W:0] yt{0} = {2};\n"
                        "    wire [W:0] zt{0} = {{1'b0, z{0}}};\n",
                        n,
@@ -83,7 +83,8 @@ std::string pipeline_module(const Verilog& verilog) {
 )";
     for (int n = 0; n < clocks; ++n) {
         text += fmt::format("\n    reg signed [W-1:0] x{0}, y{0}, z{0};\n    reg v{0}, o{0}, k{0};\n", n + 1);
-        text += n < verilog.sequence().step_count ? step(verilog, n) : correction(verilog, n);
+        text +=
+            n < verilog.sequence().step_count ? pipeline_step(verilog, n) : pipeline_correction(verilog, n);
         text += stage_register(n);
     }
     text += fmt::format(

@@ -1,12 +1,14 @@
 #include "core/exchange/internal/cad_child.h"
 
 #include "core/base/error.h"
+#include "core/base/program_files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,36 +20,68 @@ namespace millwright::exchange {
 
 namespace {
 
-/// Beside the running program, or where it was built.
-std::string program() {
-    std::error_code unknown;
-    const auto own = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    const auto beside = own.parent_path() / "millwright-cad";
-    return !unknown && std::filesystem::exists(beside, unknown) ? beside.string() : MILLWRIGHT_CAD_PROCESS;
+/// In the build folder or where it is installed.
+std::string cad_program(const std::filesystem::path& file) {
+    const auto found = find_above(executable(), {"millwright-cad", "libexec/millwright/millwright-cad"});
+    if (!found) {
+        throw Error("millwright-cad, which reads STEP and IGES files, is not installed", file);
+    }
+    return found->string();
+}
+
+struct Descriptor {
+    int number = -1;
+
+    explicit Descriptor(int opened) : number(opened) {}
+    Descriptor(Descriptor&& other) noexcept : number(std::exchange(other.number, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor() { ::close(number); }
+};
+
+/// `bytes` as a file to be read from its beginning. Unlike a pipe it takes them all at once.
+Descriptor in_memory(std::string_view bytes, const std::filesystem::path& file) {
+    Descriptor memory(::memfd_create("millwright", MFD_CLOEXEC));
+    while (memory.number >= 0 && !bytes.empty()) {
+        const ssize_t count = ::write(memory.number, bytes.data(), bytes.size());
+        if (count <= 0) {
+            break;
+        }
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    if (memory.number < 0 || !bytes.empty() || ::lseek(memory.number, 0, SEEK_SET) != 0) {
+        throw Error("there is no memory to pass the surface on", file);
+    }
+    return memory;
 }
 
 } // namespace
 
-CadChild::CadChild(const std::filesystem::path& file) {
+CadChild::CadChild(std::vector<std::string> arguments,
+                   std::string_view input,
+                   const std::filesystem::path& file) {
+    arguments.insert(arguments.begin(), cad_program(file));
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) {
+        argv.push_back(argument.data());
+    }
+    argv.push_back(nullptr);
+    const Descriptor heard = in_memory(input, file);
     std::array<int, 2> said{};
     if (::pipe2(said.data(), O_CLOEXEC) != 0) {
         throw Error("no pipe can be made", file);
     }
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, heard.number, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files, said[1], STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    std::string path = program();
-    std::string argument = file.string();
-    std::array<char*, 3> argv{path.data(), argument.data(), nullptr};
-    const int fault = ::posix_spawn(&child_, path.c_str(), &files, nullptr, argv.data(), environ);
+    const int fault = ::posix_spawn(&child_, argv.front(), &files, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     ::close(said[1]);
     said_ = said[0];
     if (fault != 0) {
         ::close(said_);
-        throw Error(fmt::format("{} cannot be started: {}", path, std::strerror(fault)), file);
+        throw Error(fmt::format("{} cannot be started: {}", arguments.front(), std::strerror(fault)), file);
     }
 }
 

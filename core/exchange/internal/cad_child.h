@@ -5,13 +5,15 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace millwright::exchange {
 
 class CadChild {
 public:
-    /// Throws Error if it cannot be started.
-    explicit CadChild(const std::filesystem::path& file);
+    /// With `input` on its standard input. Throws Error about `file` if it cannot be started.
+    CadChild(std::vector<std::string> arguments, std::string_view input, const std::filesystem::path& file);
     CadChild(const CadChild&) = delete;
     CadChild& operator=(const CadChild&) = delete;
     ~CadChild(); ///< kills it if it still runs

@@ -25,7 +25,7 @@ void add(std::vector<std::string>& parts, int count, const char* one, const char
     }
 }
 
-std::string listed(const std::vector<std::string>& parts) {
+std::string listed_parts(const std::vector<std::string>& parts) {
     std::string text;
     for (std::size_t n = 0; n < parts.size(); ++n) {
         text += n == 0 ? "" : n + 1 == parts.size() ? " and " : ", ";
@@ -128,7 +128,7 @@ void refuse_without_face(const TopoDS_Shape& shape,
         add(parts, model.NbEntities(), "entity that is no shape", "entities that are no shape");
     }
     throw Error(parts.empty() ? "the file holds nothing: it has no entities"
-                              : fmt::format("the file holds no face: {}", listed(parts)),
+                              : fmt::format("the file holds no face: {}", listed_parts(parts)),
                 file,
                 hint);
 }

@@ -234,7 +234,7 @@ void take_boundary(CadFace& result, const TopoDS_Face& face, const Knots& knots)
     }
 }
 
-CadFace face_of(const TopoDS_Face& original, int number) {
+CadFace cad_face(const TopoDS_Face& original, int number) {
     const TopoDS_Face face =
         told_as("its surface cannot be made a B-spline", [&] { return as_nurbs(original); });
     const Bounded part = told_as("its boundary does not lie on its surface", [&] { return bounded(face); });
@@ -254,7 +254,7 @@ CadFace face_of(const TopoDS_Face& original, int number) {
 constexpr const char* write_fewer = "write the body or the faces that are to be cut to a file of their own";
 
 /// The faces in the order of the file.
-std::vector<TopoDS_Face> listed(const TopoDS_Shape& shape, const std::filesystem::path& file) {
+std::vector<TopoDS_Face> faces_listed(const TopoDS_Shape& shape, const std::filesystem::path& file) {
     std::vector<TopoDS_Face> faces;
     for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
         faces.push_back(TopoDS::Face(at.Current()));
@@ -269,7 +269,7 @@ std::vector<TopoDS_Face> listed(const TopoDS_Shape& shape, const std::filesystem
 } // namespace
 
 CadModel faces_of(const TopoDS_Shape& shape, const std::filesystem::path& file, const Progress& progress) {
-    const std::vector<TopoDS_Face> faces = listed(shape, file);
+    const std::vector<TopoDS_Face> faces = faces_listed(shape, file);
     CadModel model;
     std::ptrdiff_t patches = 0;
     for (std::size_t n = 0; n < faces.size(); ++n) {
@@ -277,7 +277,7 @@ CadModel faces_of(const TopoDS_Shape& shape, const std::filesystem::path& file, 
         progress.report(static_cast<double>(n) / static_cast<double>(faces.size()), "converting faces");
         const int number = static_cast<int>(n) + 1;
         try {
-            model.faces.push_back(face_of(faces[n], number));
+            model.faces.push_back(cad_face(faces[n], number));
             patches += std::ssize(model.faces.back().patches);
         } catch (const Error& error) {
             model.left_out.push_back(fmt::format("face {}: {}", number, error.diagnostic().message));

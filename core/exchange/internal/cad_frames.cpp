@@ -11,7 +11,7 @@ namespace millwright::exchange {
 
 namespace {
 
-constexpr std::size_t head_size = 1 + sizeof(std::uint64_t);
+constexpr std::size_t frame_head_size = 1 + sizeof(std::uint64_t);
 
 class Packer {
 public:
@@ -154,7 +154,7 @@ std::string framed(const Frame& frame) {
 }
 
 std::optional<Frame> take_frame(std::string& stream) {
-    if (stream.size() < head_size) {
+    if (stream.size() < frame_head_size) {
         return std::nullopt;
     }
     const auto kind = static_cast<FrameKind>(stream.front());
@@ -163,11 +163,11 @@ std::optional<Frame> take_frame(std::string& stream) {
     }
     std::uint64_t length = 0;
     std::memcpy(&length, stream.data() + 1, sizeof length);
-    if (stream.size() - head_size < length) {
+    if (stream.size() - frame_head_size < length) {
         return std::nullopt;
     }
-    Frame frame{kind, stream.substr(head_size, length)};
-    stream.erase(0, head_size + length);
+    Frame frame{kind, stream.substr(frame_head_size, length)};
+    stream.erase(0, frame_head_size + length);
     return frame;
 }
 

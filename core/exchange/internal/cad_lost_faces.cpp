@@ -41,7 +41,7 @@ bool is_lost(const Standard_Transient& entity, const Handle(Transfer_Binder) & m
 }
 
 /// The first of them.
-std::string listed(const std::vector<std::string>& labels) {
+std::string listed_labels(const std::vector<std::string>& labels) {
     constexpr std::size_t most = 8;
     std::string text;
     for (std::size_t n = 0; n < labels.size() && n < most; ++n) {
@@ -83,7 +83,7 @@ std::string lost_faces(const XSControl_Reader& reader) {
                         : fmt::format("{} of {} faces of the file could not be made by Open CASCADE ({}){}",
                                       lost.size(),
                                       faces,
-                                      listed(lost),
+                                      listed_labels(lost),
                                       first_fault);
 }
 

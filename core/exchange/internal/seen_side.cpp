@@ -73,10 +73,6 @@ SeenSide seen_side(const TriangleMesh& mesh, const Vec3& along) {
 
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Counter-clockwise; Andrew's monotone chain.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
     const auto before = [](const Vec2& a, const Vec2& b) {

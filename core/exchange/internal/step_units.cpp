@@ -4,6 +4,7 @@
 
 #include <Interface_Check.hxx>
 #include <STEPConstruct_UnitContext.hxx>
+#include <Standard_Version.hxx>
 #include <StepBasic_ConversionBasedUnitAndLengthUnit.hxx>
 #include <StepBasic_LengthMeasureWithUnit.hxx>
 #include <StepBasic_MeasureValueMember.hxx>
@@ -17,6 +18,10 @@
 #include <TCollection_HAsciiString.hxx>
 #include <fmt/format.h>
 
+#if OCC_VERSION_HEX >= 0x070800
+#include <StepData_Factors.hxx>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -28,6 +33,17 @@ namespace {
 using LengthConversion = StepBasic_ConversionBasedUnitAndLengthUnit;
 using ContextWithUnits = StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext;
 using ContextWithUncertainty = StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx;
+
+/// What the unit, or the set of units, comes to: a length in mm.
+template <typename Units> STEPConstruct_UnitContext factors_of(const Handle(Units) & units) {
+    STEPConstruct_UnitContext factors;
+#if OCC_VERSION_HEX >= 0x070800
+    (void)factors.ComputeFactors(units, StepData_Factors());
+#else
+    (void)factors.ComputeFactors(units);
+#endif
+    return factors;
+}
 
 class StepUnits {
 public:
@@ -118,8 +134,7 @@ private:
     void look_at_units(const Handle(Standard_Transient) & context,
                        const Handle(StepRepr_GlobalUnitAssignedContext) & units) {
         ++contexts_;
-        STEPConstruct_UnitContext taken;
-        (void)taken.ComputeFactors(units);
+        const STEPConstruct_UnitContext taken = factors_of(units);
         const int count = units.IsNull() || units->Units().IsNull() ? 0 : units->NbUnits();
         bool told = false;
         for (int n = 1; n <= count; ++n) {
@@ -137,8 +152,7 @@ private:
                                unit->IsKind(STANDARD_TYPE(StepBasic_SiUnitAndLengthUnit)))) {
             return false;
         }
-        STEPConstruct_UnitContext taken;
-        (void)taken.ComputeFactors(unit);
+        const STEPConstruct_UnitContext taken = factors_of(unit);
         const double mm = taken.LengthDone() ? taken.LengthFactor() : 1.0;
         if (!(std::isfinite(mm) && mm > 0.0)) {
             throw Error(Diagnostic{{file_, line_of(label(unit))},

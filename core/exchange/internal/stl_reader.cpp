@@ -14,8 +14,8 @@ namespace millwright::exchange {
 
 namespace {
 
-constexpr std::size_t head_size = 84;  // 80 bytes of text and the count
-constexpr std::size_t facet_size = 50; // normal, three corners, two bytes more
+constexpr std::size_t stl_head_size = 84; // 80 bytes of text and the count
+constexpr std::size_t facet_size = 50;    // normal, three corners, two bytes more
 constexpr std::uint32_t between_checks = 10'000;
 
 /// Intel's byte order, which is ours.
@@ -34,18 +34,18 @@ std::string left_over_text(std::uint32_t count, std::uint64_t bytes) {
 }
 
 void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
-    if (bytes.size() < head_size) {
+    if (bytes.size() < stl_head_size) {
         soup.fail(
-            fmt::format("neither text, nor the {} bytes that a binary STL file begins with", head_size));
+            fmt::format("neither text, nor the {} bytes that a binary STL file begins with", stl_head_size));
     }
     const auto count = value_at<std::uint32_t>(bytes, 80);
-    const std::uint64_t wanted = head_size + std::uint64_t{count} * facet_size;
+    const std::uint64_t wanted = stl_head_size + std::uint64_t{count} * facet_size;
     if (bytes.size() < wanted) {
         soup.fail(fmt::format("{} triangles take {} bytes, the file has {}", count, wanted, bytes.size()));
     }
-    if (count == 0 && bytes.size() >= head_size + facet_size) {
+    if (count == 0 && bytes.size() >= stl_head_size + facet_size) {
         soup.fail(fmt::format("the header counts no triangle, and there is room for {}",
-                              (bytes.size() - head_size) / facet_size));
+                              (bytes.size() - stl_head_size) / facet_size));
     }
     if (bytes.size() > wanted) {
         soup.note(left_over_text(count, bytes.size() - wanted));
@@ -56,7 +56,7 @@ void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
         }
         const int first = static_cast<int>(soup.point_count());
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t at = head_size + n * facet_size + 12 * (k + 1);
+            const std::size_t at = stl_head_size + n * facet_size + 12 * (k + 1);
             soup.add_point(Eigen::Vector3f(value_at<float>(bytes, at),
                                            value_at<float>(bytes, at + 4),
                                            value_at<float>(bytes, at + 8))
@@ -107,7 +107,7 @@ bool is_text(std::string_view bytes) {
     static_assert(most_mesh_triangles < 1 << 24);
     const std::size_t start = bytes.find_first_not_of(" \t\r\n");
     return start != std::string_view::npos && bytes.substr(start).starts_with("solid") &&
-           bytes.substr(0, head_size).find('\0') == std::string_view::npos;
+           bytes.substr(0, stl_head_size).find('\0') == std::string_view::npos;
 }
 
 } // namespace

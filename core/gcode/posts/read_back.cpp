@@ -19,7 +19,7 @@ namespace {
 using kinematics::AxisKind;
 using kinematics::AxisPositions;
 
-constexpr double rounding = 1e-7; // mm or degrees: of the arithmetic between text and position
+constexpr double text_rounding = 1e-7; // mm or degrees: of the arithmetic between text and position
 
 std::size_t axis_of(char letter) {
     return static_cast<std::size_t>(std::find(axis_letters.begin(), axis_letters.end(), letter) -
@@ -234,7 +234,7 @@ private:
     }
 
     [[nodiscard]] static double half_of(const NumberFormat& number) {
-        return number.digit() / 2.0 + rounding;
+        return number.digit() / 2.0 + text_rounding;
     }
 
     void compare_move(const Block& block, const WrittenStep& step) {

@@ -10,12 +10,12 @@ namespace millwright::gcode {
 
 namespace {
 
-constexpr double same_place = 1e-9; // mm or rad: rounding of positions
+constexpr double same_position = 1e-9; // mm or rad: rounding of positions
 
-double distance(const std::vector<ProgramAxis>& axes,
-                const kinematics::AxisPositions& from,
-                const kinematics::AxisPositions& to,
-                std::string_view letters) {
+double distance_along(const std::vector<ProgramAxis>& axes,
+                      const kinematics::AxisPositions& from,
+                      const kinematics::AxisPositions& to,
+                      std::string_view letters) {
     double sum = 0.0;
     for (std::size_t n = 0; n < axes.size(); ++n) {
         if (letters.find(axes[n].letter) != std::string_view::npos) {
@@ -51,12 +51,12 @@ FeedWay feed_way(const std::vector<ProgramAxis>& axes,
                  const kinematics::AxisPositions& from,
                  const kinematics::AxisPositions& to) {
     for (const std::string_view letters : {"XYZ", "UVW"}) {
-        const double length = distance(axes, from, to, letters);
-        if (length > same_place) {
+        const double length = distance_along(axes, from, to, letters);
+        if (length > same_position) {
             return {length, false};
         }
     }
-    return {distance(axes, from, to, "ABC"), true};
+    return {distance_along(axes, from, to, "ABC"), true};
 }
 
 double length_of_feeds(const Program& program, const Wording& wording, const FittedArc& arc) {

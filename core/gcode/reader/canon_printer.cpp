@@ -28,14 +28,14 @@ enum class Form {
     own            ///< each its own way
 };
 
-struct Word {
+struct CanonFunction {
     CommandKind kind;
     std::string_view name;
     Form form;
 };
 
 // In the order of CommandKind.
-constexpr std::array<Word, 59> words{{
+constexpr std::array<CanonFunction, 59> canon_functions{{
     {CommandKind::use_length_units, "USE_LENGTH_UNITS", Form::own},
     {CommandKind::set_g5x_offset, "SET_G5X_OFFSET", Form::indexed_axes},
     {CommandKind::set_g92_offset, "SET_G92_OFFSET", Form::axes},
@@ -313,7 +313,7 @@ void CanonPrinter::command(const Command& c, const SourceLine& now) {
         text_ += '\n';
         return;
     }
-    const Word& word = words[static_cast<std::size_t>(c.kind)];
+    const CanonFunction& word = canon_functions[static_cast<std::size_t>(c.kind)];
     switch (word.form) {
     case Form::plain:
         fmt::format_to(out, "{}(", word.name);

@@ -15,7 +15,6 @@ namespace millwright::gcode {
 
 namespace {
 
-constexpr double seconds_a_minute = 60.0;
 constexpr double usual_rapid = 100.0;    // mm/s: where no machine is known
 constexpr double turn_a_piece_deg = 3.0; // of rotary axes, whose ways are bent on the part
 
@@ -155,7 +154,7 @@ private:
         const double way = (here - last_).norm();
         last_ = here;
         length_ += way;
-        const double speed = kind == PathKind::rapid ? rapid_ : feed_ * frame_.unit() / seconds_a_minute;
+        const double speed = kind == PathKind::rapid ? rapid_ : from_mm_per_min(feed_ * frame_.unit());
         const double seconds = speed > 0.0 ? way / speed : 0.0;
         seconds_ += seconds;
         chunker_.add(PathPoint(here, step_, kind), seconds + std::exchange(waiting_, 0.0));

@@ -15,7 +15,7 @@ constexpr std::uint32_t points_a_block = 1024;
 constexpr std::array<std::uint32_t, PathBlock::coarse_levels> points_a_level{129, 17, 2};
 
 /// Of a point to the straight line between two others, at its ends to these.
-float distance(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
+float distance_from_chord(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
     std::array<float, 3> along{}, off{};
     float length = 0.0F, dot = 0.0F;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ struct Stretch {
 Stretch stretch_of(const PathPoint* points, std::uint32_t from, std::uint32_t to) {
     Stretch found{0.0F, from, from, to};
     for (std::uint32_t n = from + 1; n < to; ++n) {
-        const float error = distance(points[n], points[from], points[to]);
+        const float error = distance_from_chord(points[n], points[from], points[to]);
         if (error > found.error) {
             found.error = error;
             found.farthest = n;
@@ -82,7 +82,7 @@ void make_levels(const std::vector<PathPoint>& points,
     }
 }
 
-double length_of(const PathChunk& chunk, std::uint32_t end) {
+double move_length(const PathChunk& chunk, std::uint32_t end) {
     return (chunk.points[end].position() - chunk.points[end - 1].position()).norm();
 }
 
@@ -90,7 +90,7 @@ double length_of(const PathChunk& chunk, std::uint32_t end) {
 double length_until(const PathChunk& chunk, const PathBlock& block, std::uint32_t end) {
     double sum = 0.0;
     for (std::uint32_t n = block.first + 1; n <= end; ++n) {
-        sum += length_of(chunk, n);
+        sum += move_length(chunk, n);
     }
     return sum;
 }
@@ -223,10 +223,10 @@ PathPlace PreviewPath::place_at(double seconds) const {
                              : 1.0;
     double left = share * length_until(chunk, block, block.first + block.count - 1);
     std::uint32_t n = block.first + 1;
-    double piece = length_of(chunk, n);
+    double piece = move_length(chunk, n);
     while (n + 1 < block.first + block.count && left > piece) {
         left -= piece;
-        piece = length_of(chunk, ++n);
+        piece = move_length(chunk, ++n);
     }
     return {chunk.first + n, piece > 0.0 ? std::clamp(left / piece, 0.0, 1.0) : 1.0};
 }
@@ -242,7 +242,7 @@ double PreviewPath::time_of(const PathPlace& place) const {
     if (!(whole > 0.0) || n == 0) {
         return block.start_time;
     }
-    const double done = length_until(chunk, block, n - 1) + place.fraction * length_of(chunk, n);
+    const double done = length_until(chunk, block, n - 1) + place.fraction * move_length(chunk, n);
     return block.start_time + (end - block.start_time) * done / whole;
 }
 

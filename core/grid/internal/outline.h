@@ -19,6 +19,11 @@ namespace millwright::grid {
 /// Whether row sides have one x each and column sides one y each.
 [[nodiscard]] bool is_axis_rectangle(const NodeArray& nodes);
 
+/// The index whose mirror image stands at `k` of the wider array; -1 and `count` are across the sides.
+[[nodiscard]] constexpr int mirrored_index(int k, int count) {
+    return k < 0 ? 1 : (k >= count ? count - 2 : k);
+}
+
 /// `nodes` with one more ring around: what lies across each side, mirrored in that side.
 [[nodiscard]] NodeArray with_mirrored_ring(const NodeArray& nodes);
 

@@ -9,10 +9,9 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr int status = 2, high = 5, middle = 6, data = 7; // registers
-constexpr unsigned readable = 1, writable = 2;            // bits of the status
-constexpr std::uint8_t nobody = 0xFF;                     // what a bus without a card reads
-constexpr double patience = 0.5;                          // s
+constexpr int status_register = 2, high_register = 5, middle_register = 6, data_register = 7; // registers
+constexpr unsigned readable_bit = 1, writable_bit = 2; // bits of the status
+constexpr double card_patience = 0.5;                  // s
 
 } // namespace
 
@@ -22,13 +21,13 @@ HostPortLink::HostPortLink(std::unique_ptr<PortRegisters> registers, std::unique
 void HostPortLink::open() {
     const std::scoped_lock lock(mutex_);
     registers_->open();
-    if (registers_->read(status) == nobody) {
+    if (registers_->read(status_register) == no_card) {
         registers_->close();
         throw Error(
             "no card answers at " + registers_->name(), {}, "the address is set by jumpers of the card");
     }
-    registers_->write(high, 0);
-    registers_->write(middle, 0);
+    registers_->write(high_register, 0);
+    registers_->write(middle_register, 0);
     out_.clear();
     in_.clear();
     taken_at_ = clock_->now();
@@ -46,13 +45,13 @@ void HostPortLink::pump() {
     constexpr int most = 4096; // characters, so that nobody waits for a card that talks without end
     const double now = clock_->now();
     for (int n = 0; n < most && !lost_; ++n) {
-        const std::uint8_t ready = registers_->read(status);
-        if (ready == nobody) {
+        const std::uint8_t ready = registers_->read(status_register);
+        if (ready == no_card) {
             lost_ = "no card answers any more";
-        } else if ((ready & readable) != 0) {
-            in_ += static_cast<char>(registers_->read(data));
-        } else if (!out_.empty() && (ready & writable) != 0) {
-            registers_->write(data, static_cast<std::uint8_t>(out_.front()));
+        } else if ((ready & readable_bit) != 0) {
+            in_ += static_cast<char>(registers_->read(data_register));
+        } else if (!out_.empty() && (ready & writable_bit) != 0) {
+            registers_->write(data_register, static_cast<std::uint8_t>(out_.front()));
             out_.pop_front();
             taken_at_ = now;
         } else {
@@ -60,7 +59,7 @@ void HostPortLink::pump() {
         }
     }
     taken_at_ = out_.empty() ? now : taken_at_;
-    if (!lost_ && now - taken_at_ > patience) {
+    if (!lost_ && now - taken_at_ > card_patience) {
         lost_ = "the card takes no characters";
     }
 }

@@ -13,8 +13,6 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::uint8_t nobody = 0xFF;
-
 class IoPorts final : public PortRegisters {
 public:
     explicit IoPorts(int base) : base_(base) {}
@@ -35,8 +33,8 @@ public:
     }
     void close() noexcept override { close_file(); }
     [[nodiscard]] std::uint8_t read(int offset) override {
-        std::uint8_t value = nobody;
-        return ::pread(file_, &value, 1, base_ + offset) == 1 ? value : nobody;
+        std::uint8_t value = no_card;
+        return ::pread(file_, &value, 1, base_ + offset) == 1 ? value : no_card;
     }
     void write(int offset, std::uint8_t value) override {
         if (::pwrite(file_, &value, 1, base_ + offset) != 1) {

@@ -7,6 +7,8 @@
 
 namespace millwright::machine {
 
+constexpr std::uint8_t no_card = 0xFF; ///< what a bus without a card reads
+
 class PortRegisters {
 public:
     virtual ~PortRegisters() = default;

@@ -8,6 +8,8 @@
 
 namespace millwright::machine {
 
+constexpr int jog_speed_variable = 22; ///< of Ixxnn, counts/ms
+
 struct CardTalk {
     /// The answer without its hand-shake, its lines with an LF between. Throws Error for a refusal or a lost
     /// link.

@@ -12,7 +12,7 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr int active = 0, jog_speed = 22; // of Ixnn
+constexpr int active = 0; // of Ixnn
 constexpr double per_ms = 1000.0;
 
 void require_power(const CardTalk& card, int motor) {
@@ -75,16 +75,16 @@ double moved(const CardTalk& card, int motor, const std::string& line) {
 }
 
 double by_jogs(const CardTalk& card, int motor, double counts, double duration) {
-    const double speed = motor_variable(card, motor, jog_speed);
-    set_motor_variable(card, motor, jog_speed, counts / duration / per_ms);
+    const double speed = motor_variable(card, motor, jog_speed_variable);
+    set_motor_variable(card, motor, jog_speed_variable, counts / duration / per_ms);
     try {
         const double way = moved(card, motor, fmt::format("#{}J:{:.0f}", motor, counts));
         (void)moved(card, motor, fmt::format("#{}J:{:.0f}", motor, -counts));
-        set_motor_variable(card, motor, jog_speed, speed);
+        set_motor_variable(card, motor, jog_speed_variable, speed);
         return way;
     } catch (...) {
         card.ask(fmt::format("#{}K", motor));
-        set_motor_variable(card, motor, jog_speed, speed);
+        set_motor_variable(card, motor, jog_speed_variable, speed);
         throw;
     }
 }

@@ -14,7 +14,7 @@ namespace millwright::machine {
 namespace {
 
 constexpr std::array looked_at{11, 19, 20, 21, 22, 29, 30, 31, 32, 33, 34, 35, 69}; // of Ixnn
-constexpr int acceleration = 19, acceleration_time = 20, s_curve_time = 21, jog_speed = 22;
+constexpr int acceleration = 19, acceleration_time = 20, s_curve_time = 21;
 
 /// When the answer first passes `share` of the size; negative: never.
 double first_time(const StepResponse& response, double share) {
@@ -44,8 +44,8 @@ std::string advice_for(const StepResponse& response, double settled) {
                : "nothing: it is quick and does not overshoot";
 }
 
-void restore(const CardTalk& card, int motor, const std::map<int, double>& variables) {
-    for (const int number : {acceleration, acceleration_time, s_curve_time, jog_speed}) {
+void restore_variables(const CardTalk& card, int motor, const std::map<int, double>& variables) {
+    for (const int number : {acceleration, acceleration_time, s_curve_time, jog_speed_variable}) {
         set_motor_variable(card, motor, number, variables.at(number));
     }
 }
@@ -64,7 +64,7 @@ void make_a_step_of_jogs(const CardTalk& card, int motor) {
     set_motor_variable(card, motor, acceleration, most);
     set_motor_variable(card, motor, acceleration_time, 1.0); // ms; 0 would leave it to the S-curve
     set_motor_variable(card, motor, s_curve_time, 0.0);
-    set_motor_variable(card, motor, jog_speed, most);
+    set_motor_variable(card, motor, jog_speed_variable, most);
 }
 
 /// The card's own clock, its servo cycles, in an M-variable that is lent for the time.
@@ -166,13 +166,13 @@ StepResponse step_test(const CardTalk& card, int motor, const StepTest& test) {
         std::vector<StepReading> readings = readings_of(card, motor, test);
         card.ask(fmt::format("#{}J:{:.0f}", motor, -test.size));
         card.wait(test.duration);
-        restore(card, motor, variables);
+        restore_variables(card, motor, variables);
         StepResponse response = judge(test.size, std::move(readings), test.settled);
         response.variables = std::move(variables);
         return response;
     } catch (...) {
         kill(card, motor);
-        restore(card, motor, variables);
+        restore_variables(card, motor, variables);
         throw;
     }
 }

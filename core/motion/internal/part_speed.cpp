@@ -10,7 +10,7 @@ namespace {
 using kinematics::AxisPositions;
 
 constexpr double wanted_accuracy = 0.02; // of the feed, as far as the number of steps allows
-constexpr double most_turn = 0.1;        // rad a step, as far as the number of steps allows
+constexpr double longest_turn = 0.1;     // rad a step, as far as the number of steps allows
 constexpr int most_steps = 256;
 
 /// How fast a straight way in axis space bends on the part.
@@ -53,7 +53,7 @@ int steps_for(const Bending& bending, const TipRate& first, const TipRate& last,
     const double change = 0.5 * length * bending.change(std::max(first.radius, last.radius), 0.0);
     const double rate = std::max({first.rate, last.rate, change});
     const double wanted = rate > 0.0 ? change / (wanted_accuracy * rate) : 0.0;
-    const double turning = bending.rotary * length / most_turn;
+    const double turning = bending.rotary * length / longest_turn;
     return std::max(1, static_cast<int>(std::min<double>(most_steps, std::ceil(std::max(wanted, turning)))));
 }
 

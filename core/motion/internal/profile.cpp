@@ -9,7 +9,7 @@ namespace millwright::motion::internal {
 namespace {
 
 /// A piece of a zone, with the least value that is known for it.
-struct Stretch {
+struct ZonePiece {
     double from = 0.0, to = 0.0;
     double value = 0.0;
     Cause cause;
@@ -69,18 +69,18 @@ private:
 };
 
 /// Each zone's limit also on what comes after it, as far as it reaches.
-std::vector<Stretch> carried_on(const std::vector<Stretch>& stretches) {
-    std::vector<Stretch> result;
+std::vector<ZonePiece> carried_on(const std::vector<ZonePiece>& stretches) {
+    std::vector<ZonePiece> result;
     result.reserve(stretches.size() + stretches.size() / 2);
     Staircase active;
-    for (const Stretch& stretch : stretches) {
+    for (const ZonePiece& stretch : stretches) {
         active.pass(stretch.from);
         double from = stretch.from;
         for (const Active& zone : active) {
             if (!(zone.value < stretch.value) || !(from < stretch.to)) {
                 break;
             }
-            Stretch part = stretch;
+            ZonePiece part = stretch;
             part.from = from;
             part.to = std::min(zone.until, stretch.to);
             part.value = zone.value;
@@ -89,7 +89,7 @@ std::vector<Stretch> carried_on(const std::vector<Stretch>& stretches) {
             result.push_back(part);
         }
         if (from < stretch.to || !(stretch.from < stretch.to)) {
-            Stretch rest = stretch;
+            ZonePiece rest = stretch;
             rest.from = from;
             result.push_back(rest);
         }
@@ -98,9 +98,9 @@ std::vector<Stretch> carried_on(const std::vector<Stretch>& stretches) {
     return result;
 }
 
-void turn_round(std::vector<Stretch>& stretches) {
+void turn_round(std::vector<ZonePiece>& stretches) {
     std::ranges::reverse(stretches);
-    for (Stretch& stretch : stretches) {
+    for (ZonePiece& stretch : stretches) {
         const double from = stretch.from;
         stretch.from = -stretch.to;
         stretch.to = -from;
@@ -130,7 +130,7 @@ Profile profile_of(const std::vector<Zone>& zones, double begin) {
         }
         return profile;
     }
-    std::vector<Stretch> stretches;
+    std::vector<ZonePiece> stretches;
     stretches.reserve(zones.size());
     double from = begin;
     for (const Zone& zone : zones) {
@@ -141,7 +141,7 @@ Profile profile_of(const std::vector<Zone>& zones, double begin) {
     turn_round(stretches);
     stretches = carried_on(stretches);
     turn_round(stretches);
-    for (const Stretch& stretch : stretches) {
+    for (const ZonePiece& stretch : stretches) {
         append(profile, stretch.to, stretch.value, stretch.cause);
     }
     return profile;

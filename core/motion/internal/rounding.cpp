@@ -16,8 +16,8 @@ constexpr double off_the_corner = 3.0 / 16.0; // the integral of w over half of 
 constexpr double most_second = 0.75;          // of w' / (2 d), times d
 constexpr double most_third = 1.5;            // of w'' / (2 d)^2, times d^2
 constexpr double normal_share = 0.75;         // of an axis's acceleration and jerk, for the turning itself
-constexpr double most_turn = 0.5;             // rad by which rotary axes may turn on half a rounding
-const double growth = std::exp(most_turn);    // of distances from rotary axes meanwhile
+constexpr double most_turn_of_rounding = 0.5; // rad by which rotary axes may turn on half a rounding
+const double growth = std::exp(most_turn_of_rounding); // of distances from rotary axes meanwhile
 
 /// How much moves in a direction: all that bounds the curvature of the tip's path.
 struct Amount {
@@ -65,7 +65,7 @@ double length_with_rotary(const Mechanism& machine,
     const Amount across = amount(machine, change);
     double d = longest;
     if (along.rotary > 0.0) {
-        d = std::min(d, most_turn / along.rotary);
+        d = std::min(d, most_turn_of_rounding / along.rotary);
     }
     if (turns > 0.0) {
         d = std::min(d, tolerance.angle / (off_the_corner * turns));

@@ -93,7 +93,7 @@ double way_to_rest(const Path& path, double way, double speed) {
     return stop;
 }
 
-void brake(const Path& path, PhaseList& list, double speed) {
+void brake_along(const Path& path, PhaseList& list, double speed) {
     const double stop = way_to_rest(path, list.way(), speed);
     for (auto step = std::ranges::upper_bound(path.acceleration, list.way(), {}, &Step::end);
          step != path.acceleration.end() && speed > 0.0;
@@ -215,7 +215,7 @@ Trajectory brake_to_rest(std::shared_ptr<const Path> path, Departure from) {
     Blocks blocks(*path, from);
     PhaseList list(std::move(from.history));
     if (now.speed > 0.0) {
-        brake(*path, list, now.speed);
+        brake_along(*path, list, now.speed);
         list.stand(path->filter_time);
         blocks.rest_inside(list);
     } else {

@@ -21,7 +21,7 @@ using internal::TipSurface;
 
 constexpr double most_points = 1e8;
 
-void check(const ReliefSettings& settings) {
+void check_relief_settings(const ReliefSettings& settings) {
     check_above_zero("a cutting speed", settings.cutting);
     check_above_zero("a plunging speed", settings.plunging);
     check_above_zero("a safe height", settings.safe_height);
@@ -172,7 +172,7 @@ private:
 } // namespace
 
 CutPath relief(const HeightField& field, const ReliefSettings& settings, const Progress& progress) {
-    check(settings);
+    check_relief_settings(settings);
     expects(field.columns > 0 && field.rows > 0, "a height field has pixels");
     ReliefBuilder builder(field, settings);
     const auto lowest = static_cast<double>(std::ranges::min(field.z));

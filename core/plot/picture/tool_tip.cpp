@@ -30,7 +30,7 @@ std::vector<std::string_view> parts_of(std::string_view text) {
     }
 }
 
-double number(std::string_view part, double most, std::string_view whole) {
+double positive_number(std::string_view part, double most, std::string_view whole) {
     double value = 0.0;
     const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
     if (fault != std::errc() || end != part.data() + part.size() || !(value > 0.0 && value < most)) {
@@ -102,13 +102,14 @@ ToolTip parse_tool_tip(std::string_view text) {
     }
     if ((parts[0] == "ball" || parts[0] == "flat") && parts.size() == 2) {
         tip.kind = parts[0] == "ball" ? TipKind::ball : TipKind::flat;
-        tip.diameter = number(parts[1], largest_diameter, text);
+        tip.diameter = positive_number(parts[1], largest_diameter, text);
         return tip;
     }
     if (parts[0] == "v" && (parts.size() == 2 || parts.size() == 3)) {
         tip.kind = TipKind::v;
-        tip.angle = from_degrees(number(parts[1], straight, text));
-        tip.diameter = parts.size() == 3 ? number(parts[2], largest_diameter, text) : usual_v_diameter;
+        tip.angle = from_degrees(positive_number(parts[1], straight, text));
+        tip.diameter =
+            parts.size() == 3 ? positive_number(parts[2], largest_diameter, text) : usual_v_diameter;
         return tip;
     }
     throw Error(fmt::format("'{}' is no tool", text), {}, "ball:MM, flat:MM, v:DEGREES[:MM] or point");

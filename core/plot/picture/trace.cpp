@@ -16,7 +16,7 @@ namespace {
 
 constexpr double smoothest = 4.0 / 3.0; // alphamax beyond which no corner is left
 
-void check(const TraceSettings& settings) {
+void check_trace_settings(const TraceSettings& settings) {
     const auto within = [](const char* name, double value, double most) {
         if (!(value >= 0.0 && value <= most)) {
             throw Error(fmt::format("{} of {}; it has to be from 0 to {:.4g}", name, value, most));
@@ -122,7 +122,7 @@ Vec2 point_at(const Vec2& from, const TracedCurve& curve, double t) {
 } // namespace
 
 std::vector<TracedPath> trace(const Picture& picture, const TraceSettings& settings) {
-    check(settings);
+    check_trace_settings(settings);
     expects(picture.width > 0 && picture.height > 0, "a picture has pixels");
     const std::unique_ptr<potrace_param_t, decltype(&potrace_param_free)> parameters(potrace_param_default(),
                                                                                      &potrace_param_free);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/json.h"
+#include "core/geometry/vectors.h"
 #include "core/project/settings.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,10 @@
 namespace millwright::project {
 
 using Json = nlohmann::ordered_json;
+
+[[nodiscard]] inline Json point_json(const Vec3& p) {
+    return Json::array({p.x(), p.y(), p.z()});
+}
 
 template <class Value> Value choice(const JsonValue& value, std::span<const Choice<Value>> choices) {
     const std::string text = value.text();

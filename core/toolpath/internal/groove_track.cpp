@@ -10,13 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace millwright::toolpath {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vec3 axis_at(const Covering& of, const Vec3& normal, const Vec3& feed, double along) {
     return of.machine.rotary_axes().empty() ? of.machine.description().tool_axis
@@ -31,7 +28,7 @@ double curvature_of_groove(const Covering& of, const Vec3& normal, const Vec3& f
 }
 
 /// The share of the way from a to b that is nearest to `point`.
-double share_of(const Vec3& a, const Vec3& b, const Vec3& point) {
+double share_along(const Vec3& a, const Vec3& b, const Vec3& point) {
     const Vec3 way = b - a;
     const double squared = way.squaredNorm();
     return squared > 0.0 ? std::clamp((point - a).dot(way) / squared, 0.0, 1.0) : 0.0;
@@ -114,7 +111,7 @@ GrooveTrack::Spot GrooveTrack::nearest(const Vec3& point, std::size_t column) co
     Spot best;
     double best_squared = infinity;
     for (std::size_t from = column == 0 ? 0 : column - 1; from <= std::min(column, last - 1); ++from) {
-        const double t = share_of(columns_[from].contact, columns_[from + 1].contact, point);
+        const double t = share_along(columns_[from].contact, columns_[from + 1].contact, point);
         const Spot here = spot(from, t);
         const double there = (here.contact - point).squaredNorm();
         if (there < best_squared) {

@@ -22,7 +22,7 @@ protected:
 };
 
 TEST_F(FileSnapshotTest, HoldsTheBytesOfTheFile) {
-    const std::string bytes = std::string(3'000'000, 'x') + '\0' + "end\n";
+    const std::string bytes = std::string(3'000'000, 'x').append("\0end\n", 5);
     write_file(folder_ / "a", bytes);
     EXPECT_EQ(FileSnapshot(folder_ / "a").text(), bytes);
 }

@@ -15,7 +15,6 @@ namespace millwright {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Fixed, HasTheDecimalsAskedForAndNoNegativeZero) {
     EXPECT_EQ(fixed(1.5, 3), "1.500");

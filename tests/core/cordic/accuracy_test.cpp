@@ -10,8 +10,6 @@
 namespace millwright::cordic {
 namespace {
 
-using enum Rounding;
-
 void expect_proven(const NumberFormat& format, const Sequence& sequence, const Sampling& sampling) {
     const Accuracy found = measure_accuracy(format, sequence, sampling, Progress());
     // Coordinates are rounded into the format first, which may make the vector longer by that much.
@@ -31,7 +29,8 @@ void expect_proven(const NumberFormat& format, const Sequence& sequence, const S
 }
 
 TEST(AccuracyBound, HoldsForEveryAngleOfSixteenBits) {
-    for (const Rounding rounding : {truncate, toward_zero, nearest, nearest_even}) {
+    for (const Rounding rounding :
+         {Rounding::truncate, Rounding::toward_zero, Rounding::nearest, Rounding::nearest_even}) {
         expect_proven(fixed_format(2, 14, rounding), thesis_sequence(), {});
         expect_proven(fixed_format(2, 14, rounding), classic_sequence(CoordinateSystem::circular, 15), {});
     }
@@ -43,7 +42,8 @@ TEST(AccuracyBound, HoldsForEveryAngleOfSixteenBits) {
 TEST(AccuracyBound, HoldsForEveryAngleOfOtherShortWords) {
     expect_proven(fixed_format(2, 6), thesis_sequence(), {});
     expect_proven(fixed_format(3, 9), classic_sequence(CoordinateSystem::circular, 12), {});
-    expect_proven(fixed_format(4, 14, nearest), classic_sequence(CoordinateSystem::circular, 16), {});
+    expect_proven(
+        fixed_format(4, 14, Rounding::nearest), classic_sequence(CoordinateSystem::circular, 16), {});
 }
 
 TEST(AccuracyBound, HoldsForRandomAnglesOfLongWordsAndFloatingPoint) {

@@ -2,6 +2,7 @@
 
 #include "core/cordic/disassembler.h"
 #include "core/cordic/processor.h"
+#include "tests/core/cordic/wrong_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,50 +60,45 @@ TEST(Assembler, UsesEightBytesForWideFormats) {
     EXPECT_THAT(image.code, ElementsAre(0x12, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f));
 }
 
-struct Wrong {
-    const char* text;
-    int line, column;
-    const char* message;
-};
-
 TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
-    for (const Wrong& wrong : {
-             Wrong{"g00\n  g05", 2, 3, "\"g05\" is no instruction"},
-             Wrong{"mov Q, 1", 1, 5, "\"Q\" is no register"},
-             Wrong{"mov", 1, 4, "a register is missing"},
-             Wrong{"mov XI 1", 1, 8, "a comma is missing"},
-             Wrong{"mov XI,", 1, 8, "a number is missing"},
-             Wrong{"mov XI, one", 1, 9, "\"one\" is no number"},
-             Wrong{"mov XI, nan", 1, 9, "\"nan\" is no number"},
-             Wrong{"mov XI, 1e400", 1, 9, "is no number"},
-             Wrong{".format q8.8\nmov XI, 200", 2, 9, "200 does not fit into q8.8"},
-             Wrong{"mov N, -1", 1, 8, "\"-1\" is no whole number"},
-             Wrong{"mov N, 1.5", 1, 8, "\"1.5\" is no whole number"},
-             Wrong{"mov PC, 65536", 1, 9, "no whole number from 0 to 65535"},
-             Wrong{"mov XI, 0x123456789", 1, 9, "no hexadecimal number of 4 bytes"},
-             Wrong{"mov PC, 0x1000A", 1, 9, "\"0x1000A\" is no whole number from 0 to 65535"},
-             Wrong{".format f64\nmov N, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
-             Wrong{".format f64\nmov P, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
-             Wrong{"mov XI, +-1", 1, 9, "\"+-1\" is no number"},
-             Wrong{"ld Vz, 0x8000", 1, 4, "Vz is computed and cannot be loaded"},
-             Wrong{"ld XI, 70000", 1, 8, "\"70000\" is no address from 0 to 65535"},
-             Wrong{"mov XI, 0x7fc00000", 1, 9, "\"0x7fc00000\" is no number in f32"},
-             Wrong{".format q8.8\nmov XI, 0x8000", 2, 9, "\"0x8000\" is no number in q8.8"},
-             Wrong{"mov Vmax, -5", 1, 11, "Vmax must be above 0"},
-             Wrong{"mov Amax, 0", 1, 11, "Amax must be above 0"},
-             Wrong{"ld XI, 0xbffe", 1, 8, "4 bytes at \"0xbffe\" lie across the border between two memories"},
-             Wrong{"st XI, 0xbffd", 1, 8, "lie across the border between two memories"},
-             Wrong{"ld XI, 0xfffd", 1, 8, "4 bytes at \"0xfffd\" are not all on the bus"},
-             Wrong{"st XI, 0x7fff", 1, 8, "are not all in the RAM or the motion controller's port"},
-             Wrong{"a: st XI, a", 1, 11, "\"a\" is no address"},
-             Wrong{"ld XI, away", 1, 8, "there is no label away"},
-             Wrong{"mov PC, away", 1, 9, "there is no label away"},
-             Wrong{"a: nop\na: nop", 2, 1, "label a is there already"},
-             Wrong{"g01 g02", 1, 5, "\"g02\" is too much"},
-             Wrong{"nop\n.format f64", 2, 9, ".format stands behind"},
-             Wrong{".format f63", 1, 9, "\"f63\" is no number format"},
-             Wrong{".byte 256", 1, 7, ".byte needs a number from 0 to 255"},
-             Wrong{"a: PAGE\n.page\n mov PC, a", 3, 10, "label a lies in another page"},
+    for (const WrongText& wrong : {
+             WrongText{"g00\n  g05", 2, 3, "\"g05\" is no instruction"},
+             WrongText{"mov Q, 1", 1, 5, "\"Q\" is no register"},
+             WrongText{"mov", 1, 4, "a register is missing"},
+             WrongText{"mov XI 1", 1, 8, "a comma is missing"},
+             WrongText{"mov XI,", 1, 8, "a number is missing"},
+             WrongText{"mov XI, one", 1, 9, "\"one\" is no number"},
+             WrongText{"mov XI, nan", 1, 9, "\"nan\" is no number"},
+             WrongText{"mov XI, 1e400", 1, 9, "is no number"},
+             WrongText{".format q8.8\nmov XI, 200", 2, 9, "200 does not fit into q8.8"},
+             WrongText{"mov N, -1", 1, 8, "\"-1\" is no whole number"},
+             WrongText{"mov N, 1.5", 1, 8, "\"1.5\" is no whole number"},
+             WrongText{"mov PC, 65536", 1, 9, "no whole number from 0 to 65535"},
+             WrongText{"mov XI, 0x123456789", 1, 9, "no hexadecimal number of 4 bytes"},
+             WrongText{"mov PC, 0x1000A", 1, 9, "\"0x1000A\" is no whole number from 0 to 65535"},
+             WrongText{".format f64\nmov N, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
+             WrongText{".format f64\nmov P, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
+             WrongText{"mov XI, +-1", 1, 9, "\"+-1\" is no number"},
+             WrongText{"ld Vz, 0x8000", 1, 4, "Vz is computed and cannot be loaded"},
+             WrongText{"ld XI, 70000", 1, 8, "\"70000\" is no address from 0 to 65535"},
+             WrongText{"mov XI, 0x7fc00000", 1, 9, "\"0x7fc00000\" is no number in f32"},
+             WrongText{".format q8.8\nmov XI, 0x8000", 2, 9, "\"0x8000\" is no number in q8.8"},
+             WrongText{"mov Vmax, -5", 1, 11, "Vmax must be above 0"},
+             WrongText{"mov Amax, 0", 1, 11, "Amax must be above 0"},
+             WrongText{
+                 "ld XI, 0xbffe", 1, 8, "4 bytes at \"0xbffe\" lie across the border between two memories"},
+             WrongText{"st XI, 0xbffd", 1, 8, "lie across the border between two memories"},
+             WrongText{"ld XI, 0xfffd", 1, 8, "4 bytes at \"0xfffd\" are not all on the bus"},
+             WrongText{"st XI, 0x7fff", 1, 8, "are not all in the RAM or the motion controller's port"},
+             WrongText{"a: st XI, a", 1, 11, "\"a\" is no address"},
+             WrongText{"ld XI, away", 1, 8, "there is no label away"},
+             WrongText{"mov PC, away", 1, 9, "there is no label away"},
+             WrongText{"a: nop\na: nop", 2, 1, "label a is there already"},
+             WrongText{"g01 g02", 1, 5, "\"g02\" is too much"},
+             WrongText{"nop\n.format f64", 2, 9, ".format stands behind"},
+             WrongText{".format f63", 1, 9, "\"f63\" is no number format"},
+             WrongText{".byte 256", 1, 7, ".byte needs a number from 0 to 255"},
+             WrongText{"a: PAGE\n.page\n mov PC, a", 3, 10, "label a lies in another page"},
          }) {
         const auto errors = assemble(wrong.text, "wrong.asm").errors;
         ASSERT_EQ(errors.size(), 1U) << wrong.text;

@@ -1,6 +1,7 @@
 #include "core/cordic/calculator.h"
 
 #include "core/base/error.h"
+#include "tests/core/cordic/angles.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace millwright::cordic {
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 TEST(Calculator, RotatesByAnyAngleAndKnowsItsError) {
     std::mt19937 random(11);

@@ -9,7 +9,7 @@
 namespace millwright::cordic {
 namespace {
 
-Processor run(const std::string& text, const ProcessorSettings& settings = {}) {
+Processor halted_program(const std::string& text, const ProcessorSettings& settings = {}) {
     const auto [image, lines, errors, warnings] = assemble(text, "commands.asm");
     EXPECT_TRUE(errors.empty()) << errors[0].message;
     Processor processor(settings, image);
@@ -19,7 +19,7 @@ Processor run(const std::string& text, const ProcessorSettings& settings = {}) {
 }
 
 TEST(Commands, AreHandedOverInTheirOrderWithTheirParameter) {
-    const Processor done = run(R"(
+    const Processor done = halted_program(R"(
         MOV P, 12000
         M03
         M08
@@ -55,21 +55,21 @@ TEST(Commands, AreHandedOverInTheirOrderWithTheirParameter) {
 
 TEST(Commands, AllOfM00ToM09AndM30AreKnown) {
     for (const char* name : {"M00", "M01", "M03", "M04", "M05", "M06", "M07", "M08", "M09", "MUSER", "G04"}) {
-        const Processor done = run(std::string("MOV P, 7\n") + name + "\nHLT\n");
+        const Processor done = halted_program(std::string("MOV P, 7\n") + name + "\nHLT\n");
         ASSERT_EQ(done.commanded().size(), 1U) << name;
         EXPECT_EQ(to_text(done.commanded()[0].opcode), name);
         EXPECT_EQ(done.commanded()[0].parameter, takes_parameter(done.commanded()[0].opcode) ? 7U : 0U);
         EXPECT_TRUE(is_command(done.commanded()[0].opcode));
     }
     for (const char* name : {"M02", "M30"}) {
-        EXPECT_EQ(run(name).commanded().size(), 1U) << name;
+        EXPECT_EQ(halted_program(name).commanded().size(), 1U) << name;
     }
 }
 
 TEST(Commands, GoOverTheBusBehindTheRecords) {
     ProcessorSettings settings;
     settings.publishing = Publishing::bus;
-    Processor done = run("MOV P, 0x01020304\nM03\nHLT\n", settings);
+    Processor done = halted_program("MOV P, 0x01020304\nM03\nHLT\n", settings);
     const std::vector<std::uint8_t>& port = done.memory().port;
     EXPECT_EQ(port.at(command_port), 0x43);
     EXPECT_EQ(port.at(command_port + 1U), 4);
@@ -77,7 +77,7 @@ TEST(Commands, GoOverTheBusBehindTheRecords) {
     EXPECT_EQ(port.at(command_port + 3U), 2);
     EXPECT_EQ(port.at(command_port + 4U), 1);
     EXPECT_EQ(done.state().clocks.publish, 5 * 2);
-    EXPECT_EQ(run("M30", settings).commanded().size(), 1U);
+    EXPECT_EQ(halted_program("M30", settings).commanded().size(), 1U);
 }
 
 TEST(Commands, ComputedRegistersCannotBeLoaded) {

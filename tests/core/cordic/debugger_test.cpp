@@ -9,7 +9,7 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr std::int64_t long_enough = 100'000;
+constexpr std::int64_t debugger_clocks = 100'000;
 
 /// Two lines of a program: a line to (6, 8), an arc of three chords about (0, 0).
 Debugger debugger() {
@@ -36,15 +36,15 @@ TEST(Debugger, StepsByClockMicroInstructionInstructionAndBlock) {
     Debugger now = debugger();
     EXPECT_EQ(now.step_clock(), Halt::done);
     EXPECT_EQ(now.state().clocks.total, 1);
-    EXPECT_EQ(now.step_instruction(long_enough), Halt::done);
+    EXPECT_EQ(now.step_instruction(debugger_clocks), Halt::done);
     EXPECT_EQ(now.state().instructions, 1);
     EXPECT_EQ(now.instruction(), 9);
     EXPECT_EQ(now.line(), 1);
-    EXPECT_EQ(now.step_block(long_enough), Halt::done);
+    EXPECT_EQ(now.step_block(debugger_clocks), Halt::done);
     EXPECT_EQ(now.line(), 2);
     EXPECT_EQ(now.instruction(), 37);
     EXPECT_EQ(now.processor().published().size(), 1U);
-    EXPECT_EQ(now.step_block(long_enough), Halt::stopped);
+    EXPECT_EQ(now.step_block(debugger_clocks), Halt::stopped);
     EXPECT_EQ(now.state().stop, Stop::halted);
     EXPECT_EQ(now.step_clock(), Halt::stopped);
 }
@@ -53,10 +53,10 @@ TEST(Debugger, TakesALoopOfOneMicroInstructionAsOneStep) {
     Debugger now = debugger();
     const auto& labels = now.processor().microprogram().labels;
     now.toggle_micro_breakpoint(labels.at("S1"));
-    EXPECT_EQ(now.run(long_enough), Halt::breakpoint);
+    EXPECT_EQ(now.run(debugger_clocks), Halt::breakpoint);
     EXPECT_EQ(now.state().sequencer.address, labels.at("S1"));
     const auto before = now.state().clocks.total;
-    EXPECT_EQ(now.step_micro_instruction(long_enough), Halt::done);
+    EXPECT_EQ(now.step_micro_instruction(debugger_clocks), Halt::done);
     EXPECT_EQ(now.state().clocks.total - before, 29);
     EXPECT_EQ(now.before().clocks.total, before);
 }
@@ -64,17 +64,17 @@ TEST(Debugger, TakesALoopOfOneMicroInstructionAsOneStep) {
 TEST(Debugger, StopsBeforeAnInstructionThatHasABreakpointAndGoesOnFromIt) {
     Debugger now = debugger();
     now.toggle_breakpoint(36);
-    EXPECT_EQ(now.run(long_enough), Halt::breakpoint);
+    EXPECT_EQ(now.run(debugger_clocks), Halt::breakpoint);
     EXPECT_EQ(now.instruction(), 36);
     EXPECT_TRUE(now.processor().published().empty());
-    EXPECT_EQ(now.run(long_enough), Halt::stopped);
+    EXPECT_EQ(now.run(debugger_clocks), Halt::stopped);
     EXPECT_EQ(now.processor().published().size(), 4U);
     now.reset();
-    EXPECT_EQ(now.run(long_enough), Halt::breakpoint);
+    EXPECT_EQ(now.run(debugger_clocks), Halt::breakpoint);
     now.toggle_breakpoint(36);
     now.reset();
-    EXPECT_EQ(now.run_to(37, long_enough), Halt::done);
-    EXPECT_EQ(now.run_to_set_point(long_enough), Halt::done);
+    EXPECT_EQ(now.run_to(37, debugger_clocks), Halt::done);
+    EXPECT_EQ(now.run_to_set_point(debugger_clocks), Halt::done);
     EXPECT_EQ(now.processor().published().size(), 2U);
     EXPECT_EQ(now.run(5), Halt::limit);
 }
@@ -83,7 +83,7 @@ TEST(Debugger, ShowsThePassThatIsUnderWayStepByStep) {
     Debugger now = debugger();
     EXPECT_TRUE(now.iterations().points.empty());
     now.toggle_micro_breakpoint(now.processor().microprogram().labels.at("S1"));
-    now.run(long_enough);
+    now.run(debugger_clocks);
     const IterationTrace start = now.iterations();
     EXPECT_EQ(start.mode, Mode::vectoring);
     ASSERT_EQ(start.points.size(), 1U);
@@ -101,7 +101,7 @@ TEST(Debugger, ShowsThePassThatIsUnderWayStepByStep) {
     EXPECT_EQ(some.points.back().y, word(now.state().path.y));
     EXPECT_EQ(some.points.back().z, word(now.state().path.z));
     now.toggle_micro_breakpoint(now.processor().microprogram().labels.at("S1"));
-    now.run_to_set_point(long_enough);
+    now.run_to_set_point(debugger_clocks);
     const IterationTrace whole = now.iterations();
     EXPECT_EQ(whole.mode, Mode::rotation);
     ASSERT_EQ(whole.points.size(), 1U + 29U + 8U);

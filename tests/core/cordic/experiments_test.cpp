@@ -9,7 +9,7 @@
 namespace millwright::cordic {
 namespace {
 
-double error_of(const Experiments& all, const std::string& experiment, const std::string& what) {
+double largest_error_of(const Experiments& all, const std::string& experiment, const std::string& what) {
     for (const Finding& finding : all.findings) {
         if (finding.experiment == experiment && finding.what.find(what) != std::string::npos) {
             return finding.largest_error;
@@ -21,17 +21,17 @@ double error_of(const Experiments& all, const std::string& experiment, const std
 
 TEST(Experiments, HaveTheLargestErrorsOfTheThesissModel) {
     const Experiments all = run_experiments();
-    EXPECT_EQ(error_of(all, "E2", "PostCORDIC"), 0.0);
-    EXPECT_NEAR(error_of(all, "E3", "within 97"), 5.97e-8, 0.01e-8);
-    EXPECT_NEAR(error_of(all, "E3", "beyond"), 1.313, 0.001);
-    EXPECT_NEAR(error_of(all, "E4", "length"), 3.58e-9, 0.01e-9);
-    EXPECT_NEAR(error_of(all, "E4", "direction"), 5.96e-8, 0.01e-8);
-    EXPECT_NEAR(error_of(all, "E5", "speed"), 2.97e-8, 0.015e-8);
-    EXPECT_NEAR(error_of(all, "E5", "acceleration"), 1.785e-8, 0.01e-8);
-    EXPECT_NEAR(error_of(all, "E6", "X"), 5.19e-6, 0.005e-6);
-    EXPECT_NEAR(error_of(all, "E6", "Y"), 3.86e-6, 0.005e-6);
-    EXPECT_NEAR(error_of(all, "E6", "radius"), 8.96e-7, 0.005e-7);
-    EXPECT_LE(error_of(all, "E7", "arcs"), 1e-6);
+    EXPECT_EQ(largest_error_of(all, "E2", "PostCORDIC"), 0.0);
+    EXPECT_NEAR(largest_error_of(all, "E3", "within 97"), 5.97e-8, 0.01e-8);
+    EXPECT_NEAR(largest_error_of(all, "E3", "beyond"), 1.313, 0.001);
+    EXPECT_NEAR(largest_error_of(all, "E4", "length"), 3.58e-9, 0.01e-9);
+    EXPECT_NEAR(largest_error_of(all, "E4", "direction"), 5.96e-8, 0.01e-8);
+    EXPECT_NEAR(largest_error_of(all, "E5", "speed"), 2.97e-8, 0.015e-8);
+    EXPECT_NEAR(largest_error_of(all, "E5", "acceleration"), 1.785e-8, 0.01e-8);
+    EXPECT_NEAR(largest_error_of(all, "E6", "X"), 5.19e-6, 0.005e-6);
+    EXPECT_NEAR(largest_error_of(all, "E6", "Y"), 3.86e-6, 0.005e-6);
+    EXPECT_NEAR(largest_error_of(all, "E6", "radius"), 8.96e-7, 0.005e-7);
+    EXPECT_LE(largest_error_of(all, "E7", "arcs"), 1e-6);
 }
 
 TEST(Experiments, DrawAPictureOfEachFigure) {

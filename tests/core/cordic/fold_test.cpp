@@ -1,5 +1,7 @@
 #include "core/cordic/fold.h"
 
+#include "tests/core/cordic/angles.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +11,6 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr FloatArithmetic<double> binary;
 
 struct Sector {

@@ -1,5 +1,6 @@
 #include "core/cordic/interpolation.h"
 
+#include "tests/core/cordic/angles.h"
 #include "tests/core/cordic/golden.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,7 @@ namespace {
 using Binary64 = FloatArithmetic<double>;
 using Binary32 = FloatArithmetic<float>;
 
-constexpr double pi = 3.14159265358979323846;
-const Kernel<Binary64> thesis64(Binary64(), thesis_sequence());
+const Kernel<Binary64> interpolating_kernel(Binary64(), thesis_sequence());
 
 TEST(LineSetPoint, HasTheExactBitsOfBinary64InEveryDirection) {
     for (const auto& [x, y, folded_x, folded_y, f1, f2, vx, vy] : golden::lines) {
@@ -26,7 +26,7 @@ TEST(LineSetPoint, HasTheExactBitsOfBinary64InEveryDirection) {
         EXPECT_EQ(folded.y, folded_y);
         EXPECT_EQ(folded.f1, f1);
         EXPECT_EQ(folded.f2, f2);
-        const auto set = line_set_point(thesis64, x, y, 0.0, 0.0, 0.5, 0.3, overflow);
+        const auto set = line_set_point(interpolating_kernel, x, y, 0.0, 0.0, 0.5, 0.3, overflow);
         EXPECT_EQ(set.vx, vx) << x << ' ' << y;
         EXPECT_EQ(set.vy, vy) << x << ' ' << y;
         EXPECT_EQ(set.x, x);
@@ -57,7 +57,8 @@ template <class T> double worst_line(const Kernel<FloatArithmetic<T>>& kernel, T
 TEST(LineSetPoint, IsWithinSixHundredMillionthsOfTheSpeedOnTheWholeCircle) {
     double worst = 0.0;
     for (int n = -18000; n <= 18000; ++n) {
-        worst = worst_line(thesis64, std::cos(n * 0.01 * pi / 180), std::sin(n * 0.01 * pi / 180), worst);
+        worst = worst_line(
+            interpolating_kernel, std::cos(n * 0.01 * pi / 180), std::sin(n * 0.01 * pi / 180), worst);
     }
     EXPECT_LE(worst, 6e-8);
     EXPECT_GE(worst, 5.9e-8);
@@ -75,7 +76,7 @@ TEST(LineSetPoint, KeepsItsErrorForVectorsOfAnyLength) {
         const double theta = angle(random);
         const double x = length * std::cos(theta);
         const double y = length * std::sin(theta);
-        worst64 = worst_line(thesis64, x, y, worst64);
+        worst64 = worst_line(interpolating_kernel, x, y, worst64);
         worst32 = worst_line(thesis32, static_cast<float>(x), static_cast<float>(y), worst32);
     }
     EXPECT_LE(worst64, 6e-8);
@@ -88,14 +89,15 @@ struct Arc {
     std::vector<SetPoint<double>> points;
 };
 
-Arc arc_of_fifty(double sense) {
+Arc interpolated_arc_of_fifty(double sense) {
     Arc arc;
     double x = 10.0;
     double y = 10.0;
     for (int n = 0; n < 50; ++n) {
         bool overflow = false;
-        const auto point = arc_point(thesis64, 5.0, 10.0, x, y, sense * 1.5 * pi / 50, overflow);
-        arc.points.push_back(line_set_point(thesis64, point.x, point.y, x, y, 0.5, 0.3, overflow));
+        const auto point = arc_point(interpolating_kernel, 5.0, 10.0, x, y, sense * 1.5 * pi / 50, overflow);
+        arc.points.push_back(
+            line_set_point(interpolating_kernel, point.x, point.y, x, y, 0.5, 0.3, overflow));
         x = point.x;
         y = point.y;
         EXPECT_FALSE(overflow);
@@ -104,8 +106,8 @@ Arc arc_of_fifty(double sense) {
 }
 
 TEST(ArcPoint, HasTheExactBitsOfBinary64InBothDirections) {
-    const Arc left = arc_of_fifty(1.0);
-    const Arc right = arc_of_fifty(-1.0);
+    const Arc left = interpolated_arc_of_fifty(1.0);
+    const Arc right = interpolated_arc_of_fifty(-1.0);
     for (const auto& [counter_clockwise, chord, x, y, vx, vy] : golden::arc_points) {
         const auto& set = (counter_clockwise ? left : right).points[static_cast<std::size_t>(chord - 1)];
         EXPECT_EQ(set.x, x) << chord;
@@ -121,7 +123,7 @@ TEST(ArcPoint, StaysOnTheArcWithinTheThesissErrors) {
         double worst_y = 0.0;
         double worst_radius = 0.0;
         int k = 0;
-        for (const auto& point : arc_of_fifty(sense).points) {
+        for (const auto& point : interpolated_arc_of_fifty(sense).points) {
             ++k;
             const double theta = sense * k * 1.5 * pi / 50;
             worst_x = std::max(worst_x, std::abs(point.x - (5.0 + 5.0 * std::cos(theta))));

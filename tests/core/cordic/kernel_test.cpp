@@ -1,6 +1,7 @@
 #include "core/cordic/kernel.h"
 
 #include "core/cordic/number_format.h"
+#include "tests/core/cordic/angles.h"
 #include "tests/core/cordic/golden.h"
 #include "tests/support/without_traps.h"
 
@@ -17,8 +18,6 @@ namespace {
 using enum CoordinateSystem;
 using Binary64 = FloatArithmetic<double>;
 using Binary32 = FloatArithmetic<float>;
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 template <class Arithmetic>
 typename Kernel<Arithmetic>::Vector rotated(const Kernel<Arithmetic>& kernel,

@@ -2,6 +2,7 @@
 
 #include "core/cordic/microprogram.h"
 #include "core/cordic/processor.h"
+#include "tests/core/cordic/wrong_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,32 +47,26 @@ TEST(MicroAssembler, TurnsTextIntoWords) {
     EXPECT_EQ(program.labels.at("SUB"), 4);
 }
 
-struct Wrong {
-    const char* text;
-    int line, column;
-    const char* message;
-};
-
 TEST(MicroAssembler, NamesLineAndColumnOfEveryMistake) {
-    for (const Wrong& wrong : {
-             Wrong{"  JUMP always A", 1, 3, "\"JUMP\" is no micro-operation"},
-             Wrong{"CONT\n CJP always NOWHERE", 2, 13, "there is no label NOWHERE"},
-             Wrong{"CJP sometimes 0", 1, 5, "CJP needs a condition"},
-             Wrong{"CJP", 1, 4, "CJP needs a condition"},
-             Wrong{"LDCT", 1, 5, "a branch address or count is missing"},
-             Wrong{"LDCT 256", 1, 6, "256 is not from 0 to 255"},
-             Wrong{"LDCT -1", 1, 6, "-1 is not from 0 to 255"},
-             Wrong{"CONT | fly", 1, 8, "\"fly\" is no control signal"},
-             Wrong{"CONT | rotate,", 1, 15, "a control signal is missing"},
-             Wrong{"CONT rotate", 1, 6, "\"rotate\" is too much"},
-             Wrong{"A: CONT\nA: CONT", 2, 1, "label A is there already"},
-             Wrong{"1A: CONT", 1, 1, "\"1A\" is no label"},
-             Wrong{".map 300 A", 1, 6, ".map needs an opcode from 0 to 255"},
-             Wrong{".map 3", 1, 7, ".map needs a label"},
-             Wrong{".map 3 B", 1, 8, "there is no label B"},
-             Wrong{"", 1, 1, "the microprogram has no words"},
-             Wrong{"; nothing\n\n", 1, 1, "the microprogram has no words"},
-             Wrong{"A: CONT\n.map 1 3 A\n.map 2 A", 3, 8, "opcode 0x02 is mapped already"},
+    for (const WrongText& wrong : {
+             WrongText{"  JUMP always A", 1, 3, "\"JUMP\" is no micro-operation"},
+             WrongText{"CONT\n CJP always NOWHERE", 2, 13, "there is no label NOWHERE"},
+             WrongText{"CJP sometimes 0", 1, 5, "CJP needs a condition"},
+             WrongText{"CJP", 1, 4, "CJP needs a condition"},
+             WrongText{"LDCT", 1, 5, "a branch address or count is missing"},
+             WrongText{"LDCT 256", 1, 6, "256 is not from 0 to 255"},
+             WrongText{"LDCT -1", 1, 6, "-1 is not from 0 to 255"},
+             WrongText{"CONT | fly", 1, 8, "\"fly\" is no control signal"},
+             WrongText{"CONT | rotate,", 1, 15, "a control signal is missing"},
+             WrongText{"CONT rotate", 1, 6, "\"rotate\" is too much"},
+             WrongText{"A: CONT\nA: CONT", 2, 1, "label A is there already"},
+             WrongText{"1A: CONT", 1, 1, "\"1A\" is no label"},
+             WrongText{".map 300 A", 1, 6, ".map needs an opcode from 0 to 255"},
+             WrongText{".map 3", 1, 7, ".map needs a label"},
+             WrongText{".map 3 B", 1, 8, "there is no label B"},
+             WrongText{"", 1, 1, "the microprogram has no words"},
+             WrongText{"; nothing\n\n", 1, 1, "the microprogram has no words"},
+             WrongText{"A: CONT\n.map 1 3 A\n.map 2 A", 3, 8, "opcode 0x02 is mapped already"},
          }) {
         const auto errors = assemble_microprogram(wrong.text, "wrong.mic").errors;
         ASSERT_EQ(errors.size(), 1U) << wrong.text;

@@ -1,5 +1,7 @@
 #include "core/cordic/plc_assembler.h"
 
+#include "tests/core/cordic/wrong_text.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,34 +10,28 @@ namespace {
 
 using testing::HasSubstr;
 
-struct Wrong {
-    const char* text;
-    int line, column;
-    const char* message;
-};
-
 TEST(PlcAssembler, NamesLineAndColumnOfEveryMistake) {
-    for (const Wrong& wrong : {
-             Wrong{"LD I0\n  LOAD I1", 2, 3, "\"LOAD\" is no instruction"},
-             Wrong{"LD I32", 1, 4, "\"I32\" is no bit"},
-             Wrong{"LD", 1, 3, "a bit is missing"},
-             Wrong{"LD I0\nST I1", 2, 4, "I1 is not for the logic to set"},
-             Wrong{"LD I0\nST MOVING", 2, 4, "MOVING is not for the logic to set"},
-             Wrong{"LD I0\nS C0", 2, 3, "C0 is not for the logic to set"},
-             Wrong{"LD I0\nTON Q0, 5", 2, 5, "Q0 is no timer"},
-             Wrong{"LD I0\nCTU T0, 5", 2, 5, "T0 is no counter"},
-             Wrong{"LD I0\nTON T0", 2, 7, "a comma and a time in ms are missing"},
-             Wrong{"LD I0\nTON T0, -1", 2, 9, "a comma and a time in ms are missing"},
-             Wrong{"LD I0\nTON T0, nan", 2, 9, "a comma and a time in ms are missing"},
-             Wrong{"LD I0\nCTU C0, 1.5", 2, 9, "a comma and a count are missing"},
-             Wrong{"LD I0 I1", 1, 7, "\"I1\" is too much"},
-             Wrong{"LD I0\n)", 2, 1, "nothing is open"},
-             Wrong{"LD I0\nAND( I1", 2, 1, "AND( is not closed"},
-             Wrong{"OR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\n OR( "
-                   "I0\n)\n)\n)\n)\n)\n)\n)\n)\n)",
-                   9,
-                   2,
-                   "more than 8 parentheses"},
+    for (const WrongText& wrong : {
+             WrongText{"LD I0\n  LOAD I1", 2, 3, "\"LOAD\" is no instruction"},
+             WrongText{"LD I32", 1, 4, "\"I32\" is no bit"},
+             WrongText{"LD", 1, 3, "a bit is missing"},
+             WrongText{"LD I0\nST I1", 2, 4, "I1 is not for the logic to set"},
+             WrongText{"LD I0\nST MOVING", 2, 4, "MOVING is not for the logic to set"},
+             WrongText{"LD I0\nS C0", 2, 3, "C0 is not for the logic to set"},
+             WrongText{"LD I0\nTON Q0, 5", 2, 5, "Q0 is no timer"},
+             WrongText{"LD I0\nCTU T0, 5", 2, 5, "T0 is no counter"},
+             WrongText{"LD I0\nTON T0", 2, 7, "a comma and a time in ms are missing"},
+             WrongText{"LD I0\nTON T0, -1", 2, 9, "a comma and a time in ms are missing"},
+             WrongText{"LD I0\nTON T0, nan", 2, 9, "a comma and a time in ms are missing"},
+             WrongText{"LD I0\nCTU C0, 1.5", 2, 9, "a comma and a count are missing"},
+             WrongText{"LD I0 I1", 1, 7, "\"I1\" is too much"},
+             WrongText{"LD I0\n)", 2, 1, "nothing is open"},
+             WrongText{"LD I0\nAND( I1", 2, 1, "AND( is not closed"},
+             WrongText{"OR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\nOR( I0\n OR( "
+                       "I0\n)\n)\n)\n)\n)\n)\n)\n)\n)",
+                       9,
+                       2,
+                       "more than 8 parentheses"},
          }) {
         const auto errors = assemble_plc(wrong.text, "wrong.plc").errors;
         ASSERT_FALSE(errors.empty()) << wrong.text;

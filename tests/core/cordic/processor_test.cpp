@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/cordic/assembler.h"
+#include "tests/core/cordic/angles.h"
 #include "tests/core/cordic/golden.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,7 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr std::int64_t long_enough = 10'000'000;
+constexpr std::int64_t enough_clocks = 10'000'000;
 
 /// Builds a program of numbers.
 class Code {
@@ -55,7 +55,7 @@ Code line_to(const NumberFormat& format, double x, double y, Opcode opcode = Opc
 
 Processor run_to_end(const ProcessorSettings& settings, const Image& image) {
     Processor processor(settings, image);
-    processor.run(long_enough);
+    processor.run(enough_clocks);
     return processor;
 }
 
@@ -77,7 +77,7 @@ TEST(Processor, ComputesLinesWithTheExactBitsOfBinary64) {
     }
 }
 
-Code arc_of_fifty(const NumberFormat& format, Opcode opcode) {
+Code code_of_arc_of_fifty(const NumberFormat& format, Opcode opcode) {
     Code code(format);
     code.mov(Register::X0, 10.0).mov(Register::Y0, 10.0).mov(Register::Vmax, 0.5).mov(Register::Amax, 0.3);
     code.mov(Register::XI, 5.0)
@@ -93,7 +93,7 @@ TEST(Processor, ComputesTheArcOfTheThesisWithTheExactBitsOfBinary64InBothDirecti
         for (const Opcode opcode : {Opcode::g02, Opcode::g03}) {
             ProcessorSettings settings;
             settings.sense = sense;
-            const Processor done = run_to_end(settings, arc_of_fifty(binary64, opcode).image());
+            const Processor done = run_to_end(settings, code_of_arc_of_fifty(binary64, opcode).image());
             EXPECT_EQ(done.state().stop, Stop::halted);
             ASSERT_EQ(done.published().size(), 50U);
             const bool left = (opcode == Opcode::g03) == (sense == ArcSense::iso);
@@ -116,10 +116,10 @@ TEST(Processor, ComputesTheArcOfTheThesisWithTheExactBitsOfBinary64InBothDirecti
 std::int64_t clocks_of_instruction(const Image& image, int n, std::int64_t& cordic) {
     Processor processor({}, image);
     for (int before = 0; before < n; ++before) {
-        processor.run_instruction(long_enough);
+        processor.run_instruction(enough_clocks);
     }
     const ClockCounts start = processor.state().clocks;
-    processor.run_instruction(long_enough);
+    processor.run_instruction(enough_clocks);
     const ClockCounts end = processor.state().clocks;
     cordic = end.cordic - start.cordic;
     constexpr int fetch = 3; // FETCH, F1 and the load of IR
@@ -142,7 +142,7 @@ TEST(Clocks, OfAMovAreFifteenAndNineteenMoreForFourMoreBytes) {
 
 TEST(Clocks, OfAnArcAre111OfCordicAChord) {
     std::int64_t cordic = 0;
-    EXPECT_EQ(clocks_of_instruction(arc_of_fifty(binary32, Opcode::g03).image(), 8, cordic), 6052);
+    EXPECT_EQ(clocks_of_instruction(code_of_arc_of_fifty(binary32, Opcode::g03).image(), 8, cordic), 6052);
     EXPECT_EQ(cordic, 50 * 111);
 }
 
@@ -150,7 +150,7 @@ TEST(Clocks, AddUp) {
     ProcessorSettings settings;
     settings.publishing = Publishing::bus;
     settings.wait_states = 2;
-    const Processor done = run_to_end(settings, arc_of_fifty(binary32, Opcode::g02).image());
+    const Processor done = run_to_end(settings, code_of_arc_of_fifty(binary32, Opcode::g02).image());
     const ClockCounts& clocks = done.state().clocks;
     EXPECT_EQ(clocks.cordic, 50 * 111);
     EXPECT_EQ(clocks.fetch, 10 * (3 + 2)); // opcodes, two wait states each
@@ -164,7 +164,7 @@ TEST(Publishing, OverTheBusPutsTheRecordBehindTheAddressDecoder) {
     ProcessorSettings settings;
     settings.publishing = Publishing::bus;
     Processor processor(settings, line_to(binary32, 6.0, 8.0).image());
-    processor.run(long_enough);
+    processor.run(enough_clocks);
     ASSERT_EQ(processor.published().size(), 1U);
     for (std::size_t word = 0; word < 6; ++word) {
         std::uint32_t bits = 0;
@@ -224,7 +224,7 @@ TEST(Processor, RunsFromTheDualPortRamThatAHostFilled) {
     Processor processor({}, jump.image());
     const Code in_ram = line_to(binary32, 3.0, 4.0);
     std::copy(in_ram.image().code.begin(), in_ram.image().code.end(), processor.memory().ram.begin());
-    processor.run(long_enough);
+    processor.run(enough_clocks);
     EXPECT_EQ(processor.state().stop, Stop::halted);
     ASSERT_EQ(processor.published().size(), 1U);
     EXPECT_GE(processor.published()[0].instruction_at, ram_begin);
@@ -409,21 +409,21 @@ TEST(Stop, AMicroprogramThatCallsTooDeepOrReturnsFromNothingIsStopped) {
 
 TEST(Processor, StaysAsItIsOnceItStands) {
     Processor processor({}, line_to(binary64, 3.0, 4.0).image());
-    processor.run(long_enough);
+    processor.run(enough_clocks);
     const ProcessorState stood = processor.state();
     EXPECT_EQ(processor.run(1000), 0);
     EXPECT_EQ(processor.state(), stood);
     processor.reset();
-    processor.run(long_enough);
+    processor.run(enough_clocks);
     EXPECT_EQ(processor.state(), stood);
     EXPECT_EQ(processor.published().size(), 1U);
 }
 
 TEST(Processor, CanBeCopiedBetweenTwoClocksAndGoesOnTheSame) {
-    Processor processor({}, arc_of_fifty(binary32, Opcode::g02).image());
+    Processor processor({}, code_of_arc_of_fifty(binary32, Opcode::g02).image());
     processor.run(1234);
     Processor copy = processor;
-    processor.run(long_enough);
+    processor.run(enough_clocks);
     while (copy.state().stop == Stop::none) {
         copy.clock();
     }

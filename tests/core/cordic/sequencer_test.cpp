@@ -65,7 +65,7 @@ constexpr std::array table = {
     Row{MicroOp::TWB, true, branch, pop, hold, next, pop, hold},
 };
 
-constexpr SequencerInputs inputs{.pass = false, .branch = 0x80, .map = 0x90, .vector = 0xa0};
+constexpr SequencerInputs sequencer_inputs{.pass = false, .branch = 0x80, .map = 0x90, .vector = 0xa0};
 
 SequencerState busy_state(bool counter_is_zero) {
     return {.address = 0x10,
@@ -97,7 +97,7 @@ std::uint8_t address_of(From from, const SequencerState& before) {
 void expect_row(const Row& row, bool pass) {
     SequencerState state = busy_state(row.counter_is_zero);
     const SequencerState before = state;
-    SequencerInputs in = inputs;
+    SequencerInputs in = sequencer_inputs;
     in.pass = pass;
     step(state, row.op, in);
     const auto where = std::string(to_text(row.op)) + (pass ? " pass" : " fail") +

@@ -39,7 +39,7 @@ Image line_in_space(const NumberFormat& format, const Point& from, const Point& 
     return image;
 }
 
-Processor run(const Image& image, const ProcessorSettings& settings = {}) {
+Processor halted_after(const Image& image, const ProcessorSettings& settings = {}) {
     Processor processor(settings, image);
     processor.run(1'000'000);
     EXPECT_EQ(processor.state().stop, Stop::halted) << to_text(processor.state().stop);
@@ -47,10 +47,10 @@ Processor run(const Image& image, const ProcessorSettings& settings = {}) {
 }
 
 /// The largest error of speed and acceleration against V d / |d|, in parts of V.
-double error_of(const NumberFormat& format, const Point& from, const Point& to) {
+double space_line_error(const NumberFormat& format, const Point& from, const Point& to) {
     constexpr double v = 1.5;
     constexpr double a = 0.75;
-    const Processor done = run(line_in_space(format, from, to, v, a));
+    const Processor done = halted_after(line_in_space(format, from, to, v, a));
     const auto held = [&](double value) { return done.number(word_of(format, value)); };
     const Point d{held(to.x) - held(from.x), held(to.y) - held(from.y), held(to.z) - held(from.z)};
     const double length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
@@ -91,8 +91,8 @@ TEST(LineInSpace, HasSpeedAndAccelerationAlongItsWayInEveryDirectionAndFormat) {
             const Point way{number(random) * (tall ? scale : 1.0),
                             number(random) * (tall ? scale : 1.0),
                             number(random) * (tall ? 1.0 : scale)};
-            worst =
-                std::max(worst, error_of(c.format, from, {from.x + way.x, from.y + way.y, from.z + way.z}));
+            worst = std::max(
+                worst, space_line_error(c.format, from, {from.x + way.x, from.y + way.y, from.z + way.z}));
         }
         EXPECT_LT(worst, c.bound) << to_text(c.format);
     }
@@ -100,7 +100,8 @@ TEST(LineInSpace, HasSpeedAndAccelerationAlongItsWayInEveryDirectionAndFormat) {
 
 TEST(LineInSpace, GoesStraightUpAndDownWithoutAnySpeedInThePlane) {
     for (const double z : {2.0, -2.0}) {
-        const Processor done = run(line_in_space(binary64, {1.0, 1.0, 0.0}, {1.0, 1.0, z}, 0.5, 0.3));
+        const Processor done =
+            halted_after(line_in_space(binary64, {1.0, 1.0, 0.0}, {1.0, 1.0, z}, 0.5, 0.3));
         const auto set = done.set_point(done.published()[0]);
         const auto height = done.height_point(done.published()[0]);
         EXPECT_EQ(set.vx, 0.0);
@@ -112,14 +113,14 @@ TEST(LineInSpace, GoesStraightUpAndDownWithoutAnySpeedInThePlane) {
 }
 
 TEST(LineInSpace, WithoutLengthHasNoSpeed) {
-    const Processor done = run(line_in_space(binary32, {1.0, 1.0, 2.0}, {1.0, 1.0, 2.0}, 0.5, 0.3));
+    const Processor done = halted_after(line_in_space(binary32, {1.0, 1.0, 2.0}, {1.0, 1.0, 2.0}, 0.5, 0.3));
     EXPECT_EQ(done.set_point(done.published()[0]).vx, 0.0);
     EXPECT_EQ(done.height_point(done.published()[0]).vz, 0.0);
 }
 
 // Vectoring with correction, vectoring, and two rotations with correction.
 TEST(LineInSpace, Takes140ClocksOfCordic) {
-    const Processor done = run(line_in_space(binary32, {}, {1.0, 2.0, 3.0}, 1.0, 1.0));
+    const Processor done = halted_after(line_in_space(binary32, {}, {1.0, 2.0, 3.0}, 1.0, 1.0));
     EXPECT_EQ(done.state().clocks.cordic, 37 + 29 + 37 + 37);
 }
 
@@ -129,7 +130,7 @@ TEST(LineInSpace, LeavesNoSpeedOfTheThirdAxisToTheNextLineInThePlane) {
     append(image.code, {Opcode::mov, Register::XI, word_of(binary32, 5.0)}, binary32);
     append(image.code, {.opcode = Opcode::g01}, binary32);
     append(image.code, {.opcode = Opcode::hlt}, binary32);
-    const Processor done = run(image);
+    const Processor done = halted_after(image);
     ASSERT_EQ(done.published().size(), 2U);
     EXPECT_EQ(done.height_point(done.published()[1]).z, 3.0);
     EXPECT_EQ(done.height_point(done.published()[1]).vz, 0.0);
@@ -139,7 +140,7 @@ TEST(LineInSpace, LeavesNoSpeedOfTheThirdAxisToTheNextLineInThePlane) {
 TEST(LineInSpace, IsWrittenOverTheBusAsNineWords) {
     ProcessorSettings settings;
     settings.publishing = Publishing::bus;
-    Processor done = run(line_in_space(binary32, {}, {1.0, 2.0, 3.0}, 1.0, 1.0), settings);
+    Processor done = halted_after(line_in_space(binary32, {}, {1.0, 2.0, 3.0}, 1.0, 1.0), settings);
     for (std::size_t word = 0; word < 9; ++word) {
         Word bits = 0;
         for (std::size_t byte = 0; byte < 4; ++byte) {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-namespace millwright::cordic::test {
+namespace millwright::test {
 
 struct Waves {
     std::map<std::string, std::map<std::int64_t, std::uint64_t>> changes; ///< name -> time -> value
@@ -62,4 +62,4 @@ inline Waves read_waves(const std::string& text) {
     return waves;
 }
 
-} // namespace millwright::cordic::test
+} // namespace millwright::test

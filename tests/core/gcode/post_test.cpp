@@ -20,7 +20,6 @@ namespace {
 using kinematics::AxisPositions;
 using kinematics::forward;
 using kinematics::MachineModel;
-using toolpath::MoveKind;
 using toolpath::Toolpath;
 
 /// Height of the tip above the tangent plane of the nearest path point, by looking at all of them.
@@ -56,9 +55,9 @@ Toolpath tracks_at(const std::vector<std::pair<double, double>>& xz) {
     for (std::size_t track = 0; track < xz.size(); ++track) {
         for (int k = 0; k < 9; ++k) {
             const double y = 5.0 * (track % 2 == 0 ? k : 8 - k);
-            const auto kind = path.points.empty() ? MoveKind::start
-                              : k == 0            ? MoveKind::cross
-                                                  : MoveKind::track;
+            const auto kind = path.points.empty() ? toolpath::MoveKind::start
+                              : k == 0            ? toolpath::MoveKind::cross
+                                                  : toolpath::MoveKind::track;
             path.points.push_back({{{xz[track].first, y, xz[track].second}, Vec3::UnitZ()}, kind, {}});
         }
     }

@@ -13,7 +13,7 @@ namespace {
 using kinematics::MachineDescription;
 using kinematics::MachineModel;
 
-MachineDescription on_table(Vec3 z_direction, double z_min, double z_max) {
+MachineDescription machine_with_z_in_table(Vec3 z_direction, double z_min, double z_max) {
     MachineDescription description = test::machine("ac-table").description();
     kinematics::MachineAxis z = description.head.back();
     description.head.pop_back();
@@ -35,7 +35,7 @@ TEST(RetractAxis, IsTheHeadsZUpwardsOnTheShippedMachines) {
 }
 
 TEST(RetractAxis, PullsATableThatMovesUpwardsDown) {
-    const MachineModel machine(on_table(Vec3::UnitZ(), -200.0, 100.0));
+    const MachineModel machine(machine_with_z_in_table(Vec3::UnitZ(), -200.0, 100.0));
     EXPECT_LT(retract_axis(machine).sense, 0.0);
     EXPECT_EQ(safe_position(machine, {}), -200.0);
 }
@@ -48,7 +48,7 @@ TEST(SafePosition, IsTheOneThatIsSet) {
 
 TEST(SafePosition, MustBeSetWhereTheAxisHasNoLimit) {
     const double endless = std::numeric_limits<double>::infinity();
-    const MachineModel machine(on_table(-Vec3::UnitZ(), -200.0, endless));
+    const MachineModel machine(machine_with_z_in_table(-Vec3::UnitZ(), -200.0, endless));
     EXPECT_THROW((void)safe_position(machine, {}), Error);
 }
 

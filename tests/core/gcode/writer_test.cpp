@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// XYZAB with a rapid, two feeds and the end.
-Program small_program() {
+Program small_rotary_program() {
     const auto machine = test::machine("rotary-tilt-listing");
     Program program = test::empty_program(machine);
     AxisPositions q = program.start;
@@ -33,7 +33,7 @@ Program small_program() {
 }
 
 TEST(GcodeWriter, WritesOnlyWhatChangesAndAFeedWordOnEveryFeedMove) {
-    EXPECT_EQ(write_gcode(small_program(), {}).text,
+    EXPECT_EQ(write_gcode(small_rotary_program(), {}).text,
               "G21 G90 G17 G40 G49 G80\n"
               "G54 G94 G64 P0.0050\n"
               "G0 X1.0000 Y2.0000 Z3.0000 A30.0000 B-45.5000\n"
@@ -43,7 +43,7 @@ TEST(GcodeWriter, WritesOnlyWhatChangesAndAFeedWordOnEveryFeedMove) {
 }
 
 TEST(GcodeWriter, LeavesInverseTimeBeforeARapid) {
-    Program program = small_program();
+    Program program = small_rotary_program();
     program.blocks.pop_back();
     test::add_move(program, program.start);
     EXPECT_THAT(write_gcode(program, {}).text, HasSubstr("\nG94 G0 X0.0000"));
@@ -63,7 +63,7 @@ TEST(GcodeWriter, WritesAnAxisThatWasNeverWrittenEvenIfItDoesNotMove) {
 }
 
 TEST(GcodeWriter, KeepsListingAndBlocksInStep) {
-    Program program = small_program();
+    Program program = small_rotary_program();
     Block note;
     note.kind = BlockKind::comment;
     note.target = program.start;
@@ -84,7 +84,7 @@ TEST(GcodeWriter, WritesTheDecimalsLineNumbersAndExactPathThatAreAskedFor) {
     settings.angle_decimals = 1;
     settings.line_numbers = true;
     settings.path_tolerance = 0.0;
-    const std::string text = write_gcode(small_program(), settings).text;
+    const std::string text = write_gcode(small_rotary_program(), settings).text;
     EXPECT_THAT(text, HasSubstr("N20 G54 G94 G61\n"));
     EXPECT_THAT(text, HasSubstr("N30 G0 X1.00 Y2.00 Z3.00 A30.0 B-45.5\n"));
 }
@@ -110,7 +110,7 @@ TEST(GcodeWriter, BeginsAProgramAsItsReferencePageShows) {
 }
 
 TEST(GcodeWriter, RefusesATargetThatIsNotFinite) {
-    Program program = small_program();
+    Program program = small_rotary_program();
     program.blocks[1].target[0] = std::numeric_limits<double>::infinity();
     EXPECT_THROW((void)write_gcode(program, {}), Defect);
 }

@@ -12,7 +12,7 @@
 namespace millwright::geometry {
 namespace {
 
-ControlNet random_net(int rows, int columns, unsigned seed, bool rational) {
+ControlNet random_net_of(int rows, int columns, unsigned seed, bool rational) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
     std::uniform_real_distribution<double> weight(0.3, 3.0);
@@ -47,7 +47,7 @@ Vec3 matrix_form(const ControlNet& net, double u, double v) {
 
 // T2.
 TEST(BezierPatch, MatrixFormEqualsBernsteinForm) {
-    const ControlNet net = random_net(4, 4, 7, false);
+    const ControlNet net = random_net_of(4, 4, 7, false);
     const BezierPatch patch(net);
     for (double u = 0.0; u <= 1.0; u += 0.125) {
         for (double v = 0.0; v <= 1.0; v += 0.125) {
@@ -57,7 +57,7 @@ TEST(BezierPatch, MatrixFormEqualsBernsteinForm) {
 }
 
 TEST(BezierPatch, PassesThroughItsCornerPointsExactly) {
-    const ControlNet net = random_net(5, 3, 11, true);
+    const ControlNet net = random_net_of(5, 3, 11, true);
     const BezierPatch patch(net);
     EXPECT_LT((patch.position(0.0, 0.0) - net.point(0, 0)).norm(), 1e-13);
     EXPECT_LT((patch.position(1.0, 0.0) - net.point(4, 0)).norm(), 1e-13);
@@ -70,7 +70,7 @@ class BezierDerivatives : public ::testing::TestWithParam<std::tuple<int, int, b
 // T2.
 TEST_P(BezierDerivatives, EqualCentralDifferences) {
     const auto [rows, columns, rational] = GetParam();
-    const BezierPatch patch(random_net(rows, columns, 3, rational));
+    const BezierPatch patch(random_net_of(rows, columns, 3, rational));
     constexpr double h = 1e-5;
     const auto near = [](const Vec3& a, const Vec3& b, double tolerance) {
         return (a - b).norm() < tolerance * (1.0 + a.norm());
@@ -120,7 +120,7 @@ TEST(BezierPatch, ARationalPatchOfDegreeTwoIsExactlyACylinder) {
 }
 
 TEST(BezierPatch, EqualWeightsOtherThanOneChangeNothing) {
-    ControlNet net = random_net(4, 4, 5, false);
+    ControlNet net = random_net_of(4, 4, 5, false);
     const BezierPatch plain(net);
     net.weights.assign(net.weights.size(), 2.5);
     const BezierPatch weighted(net);
@@ -141,7 +141,7 @@ TEST(BezierPatch, TheHighestDegreeStillSumsToOne) {
 
 // T2.
 TEST(UnitNormal, IsReportedMissingWhereAnEdgeHasCollapsed) {
-    ControlNet net = random_net(4, 4, 9, false);
+    ControlNet net = random_net_of(4, 4, 9, false);
     for (int j = 0; j < 4; ++j) {
         net.point(0, j) = {0.0, 0.0, 0.0};
     }

@@ -1,12 +1,14 @@
 #include "core/geometry/glb.h"
 
 #include "core/base/error.h"
+#include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 
 namespace millwright::geometry {
 namespace {
@@ -85,8 +87,11 @@ TEST(Glb, RefusesWhatIsNone) {
 }
 
 TEST(Glb, OpensNoOtherFile) {
+    const test::ScratchFolder folder;
+    const std::filesystem::path other = folder.path() / "other.bin";
+    std::ofstream(other) << "8 bytes.";
     const std::string elsewhere =
-        R"({"asset":{"version":"2.0"},"buffers":[{"uri":"/etc/passwd","byteLength":8}]})";
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":8,"uri":")" + other.string() + R"("}]})";
     EXPECT_THAT(reason(glb_with(elsewhere)), HasSubstr("damaged"));
 }
 

@@ -8,7 +8,7 @@
 namespace millwright::geometry {
 namespace {
 
-ControlNet random_net(std::mt19937& random, bool rational) {
+ControlNet random_net_of_any_size(std::mt19937& random, bool rational) {
     std::uniform_int_distribution<int> size(2, 9);
     std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
     std::uniform_real_distribution<double> weight(0.3, 3.0);
@@ -28,7 +28,7 @@ TEST(SurfacePoint, IsTheSameBitsAsTheDerivatives) {
     std::mt19937 random(64);
     std::uniform_real_distribution<double> parameter(-0.2, 1.2);
     for (int round = 0; round < 200; ++round) {
-        const BezierPatch patch(random_net(random, round % 2 == 1));
+        const BezierPatch patch(random_net_of_any_size(random, round % 2 == 1));
         for (int k = 0; k < 20; ++k) {
             const double u = k == 0 ? 0.0 : parameter(random);
             const double v = k == 1 ? 1.0 : parameter(random);

@@ -12,7 +12,7 @@ namespace {
 
 using test::rectangle;
 
-Trim::Loop circle(const Vec2& middle, double radius, int corners = 400) {
+Trim::Loop circle_of_400(const Vec2& middle, double radius, int corners = 400) {
     return test::circle(middle, radius, corners);
 }
 
@@ -26,7 +26,7 @@ TEST(Trim, WithoutLoopsIsEverything) {
 }
 
 TEST(Trim, AHoleDoesNotBelongToIt) {
-    const Trim trim{{circle({0.5, 0.5}, 0.4), circle({0.5, 0.5}, 0.2)}};
+    const Trim trim{{circle_of_400({0.5, 0.5}, 0.4), circle_of_400({0.5, 0.5}, 0.2)}};
     EXPECT_TRUE(trim.contains({0.5, 0.8}));
     EXPECT_FALSE(trim.contains({0.5, 0.5}));
     EXPECT_FALSE(trim.contains({0.05, 0.05}));
@@ -39,7 +39,7 @@ TEST(Trim, AHoleDoesNotBelongToIt) {
 }
 
 TEST(Trim, PartsAreWhereTheirPlacesAreInside) {
-    const Trim trim{{circle({0.4, 0.5}, 0.35), rectangle(0.2, 0.45, 0.6, 0.6)}};
+    const Trim trim{{circle_of_400({0.4, 0.5}, 0.35), rectangle(0.2, 0.45, 0.6, 0.6)}};
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(0.0, 1.0);
     for (int n = 0; n < 300; ++n) {

@@ -20,7 +20,7 @@ using test::rectangle;
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-Trim::Loop circle(const Vec2& middle, double radius, int corners = 48) {
+Trim::Loop circle_of_48(const Vec2& middle, double radius, int corners = 48) {
     return test::circle(middle, radius, corners);
 }
 
@@ -74,15 +74,15 @@ void expect_no_cracks(const TrimmedSquare& square) {
 
 TEST(TrimmedSquare, LeavesTheAreaOfThePolygonsWithoutCracks) {
     const Trim::Loop outer{{0.0, 0.0}, {1.0, 0.03}, {0.9, 0.95}, {0.42, 1.0}, {0.0, 0.7}};
-    const Trim::Loop round = circle({0.6, 0.4}, 0.213), tiny = circle({0.3, 0.5}, 0.004, 7);
+    const Trim::Loop round = circle_of_48({0.6, 0.4}, 0.213), tiny = circle_of_48({0.3, 0.5}, 0.004, 7);
     const std::vector<std::pair<Trim, double>> cases{
         {{{round}}, area(round)},
         {{{outer, round}}, area(outer) - area(round)},
         {{{outer, tiny}}, area(outer) - area(tiny)},
         {{{rectangle(0.25, 0.5, 0.75, 1.0)}}, 0.25},
         {{{rectangle(0.0, 0.0, 1.0, 1.0)}}, 1.0},
-        {{{rectangle(0.1, 0.1, 0.9, 0.9), rectangle(0.2, 0.2, 0.8, 0.8), circle({0.5, 0.5}, 0.1)}},
-         0.64 - 0.36 + area(circle({0.5, 0.5}, 0.1))}};
+        {{{rectangle(0.1, 0.1, 0.9, 0.9), rectangle(0.2, 0.2, 0.8, 0.8), circle_of_48({0.5, 0.5}, 0.1)}},
+         0.64 - 0.36 + area(circle_of_48({0.5, 0.5}, 0.1))}};
     for (const auto& [trim, wanted] : cases) {
         for (const auto& [nu, nv] : {std::pair{8, 8}, {1, 1}, {13, 5}, {40, 64}}) {
             const TrimmedSquare square = trimmed_square(trim, nu, nv);
@@ -94,7 +94,7 @@ TEST(TrimmedSquare, LeavesTheAreaOfThePolygonsWithoutCracks) {
 }
 
 TEST(TrimmedSquare, EveryTriangleIsWhollyOnOneSide) {
-    const Trim trim{{rectangle(0.0, 0.0, 1.0, 1.0), circle({0.55, 0.45}, 0.31)}};
+    const Trim trim{{rectangle(0.0, 0.0, 1.0, 1.0), circle_of_48({0.55, 0.45}, 0.31)}};
     const TrimmedSquare square = trimmed_square(trim, 10, 10);
     const auto expect_all = [&](const Triangles& triangles, bool inside) {
         for (const auto& [a, b, c] : triangles) {
@@ -225,7 +225,7 @@ TEST(TrimmedSquare, LeavesNoHoleAmongMoreCrossingsThanAreFollowed) {
 }
 
 TEST(TrimmedSquare, SlicesOnlyTheCellsThatACornerIsBeside) {
-    const Trim slot{{rectangle(0.01, 0.02, 0.03, 0.98), circle({0.955, 0.5}, 0.02, 400)}};
+    const Trim slot{{rectangle(0.01, 0.02, 0.03, 0.98), circle_of_48({0.955, 0.5}, 0.02, 400)}};
     const TrimmedSquare square = trimmed_square(slot, 20, 1);
     EXPECT_LT(square.inside.size() + square.outside.size(), 4'000U) << "the slot is not cut at the circle";
     expect_no_cracks(square);

@@ -15,7 +15,7 @@
 namespace millwright::grid {
 namespace {
 
-PathObjective objective(const ErrorModel& model, const NodeArray& nodes, TrackDirection direction) {
+PathObjective unit_cost_objective(const ErrorModel& model, const NodeArray& nodes, TrackDirection direction) {
     PathObjectiveSettings settings;
     settings.unit_cost = 0.05;
     return {model, direction, nodes, settings};
@@ -63,7 +63,7 @@ least_by_trying_all(const PathObjective& f, const NodeArray& nodes, const BentTr
 TEST_P(BentTracks, FindWhatTryingAllPlacesFinds) {
     const bool along_v = GetParam() == TrackDirection::along_v;
     const NodeArray nodes = along_v ? test::shaken(3, 4, 0.2) : test::shaken(4, 3, 0.2);
-    const PathObjective f = objective(spike_, nodes, GetParam());
+    const PathObjective f = unit_cost_objective(spike_, nodes, GetParam());
     const BentTrackSettings settings{.places_along = 2, .places_across = 1, .reach = 0.25};
     const NodeArray found = shortest_bent_tracks(f, nodes, settings, {});
     NodeArray before = found; // the outer tracks have gone first
@@ -78,7 +78,7 @@ TEST_P(BentTracks, FindWhatTryingAllPlacesFinds) {
 
 TEST_P(BentTracks, NeverRiseAndFoldNothing) {
     NodeArray nodes = test::shaken(9, 10, 0.3);
-    const PathObjective f = objective(spike_, nodes, GetParam());
+    const PathObjective f = unit_cost_objective(spike_, nodes, GetParam());
     double before = f.value(nodes, {});
     ASSERT_TRUE(std::isfinite(before));
     for (const double reach : {1.5, 0.8, 0.3, 0.1}) {
@@ -96,7 +96,7 @@ TEST_P(BentTracks, NeverRiseAndFoldNothing) {
 
 TEST_P(BentTracks, AreTheSameBytesOnAnyNumberOfThreads) {
     const NodeArray nodes = test::shaken(8, 7, 0.2);
-    const PathObjective f = objective(spike_, nodes, GetParam());
+    const PathObjective f = unit_cost_objective(spike_, nodes, GetParam());
     set_thread_count(1);
     const NodeArray alone = shortest_bent_tracks(f, nodes, {}, {});
     for (const int threads : {2, 8}) {
@@ -119,7 +119,7 @@ public:
 TEST_P(BentTracks, ADescentLeapsOverRidges) {
     const RidgedErrorModel ridged;
     const NodeArray start = test::shaken(6, 6, 0.15);
-    PathDescent descent(objective(ridged, start, GetParam()), start, {});
+    PathDescent descent(unit_cost_objective(ridged, start, GetParam()), start, {});
     while (descent.iterate({})) {
     }
     const double at_rest = descent.value();

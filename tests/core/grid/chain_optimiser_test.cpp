@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/closed_form_error_model.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
@@ -17,10 +18,10 @@
 namespace millwright::grid {
 namespace {
 
-constexpr TrackDirection along_v = TrackDirection::along_v;
+using test::along_v;
 
 /// Small enough for tests.
-ChainSettings small() {
+ChainSettings small_chain() {
     ChainSettings settings;
     settings.tracks.lattice = 60;
     settings.tracks.polish_sweeps = 3;
@@ -33,7 +34,7 @@ ChainSettings small() {
 
 TEST(ChainOptimiser, EachLinkCutsTheErrorOfASpike) {
     const SpikeErrorModel model({.width = 0.02});
-    ChainOptimiser chain(model, Grid::uniform(12, 15), along_v, small());
+    ChainOptimiser chain(model, Grid::uniform(12, 15), along_v, small_chain());
     const ImproverState state = run(chain, {});
     EXPECT_LT(state.of_best.mean, 0.85 * state.start.mean);
     EXPECT_LT(state.of_best.max, 0.3 * state.start.max);
@@ -72,7 +73,7 @@ bool has_link(const ImproverState& state, std::string_view name, bool accepted) 
 
 TEST(ChainOptimiser, PricesTheAxisWhereTheBestTracksTurnItTooFar) {
     const TwistedErrorModel model(7);
-    ChainSettings settings = small();
+    ChainSettings settings = small_chain();
     settings.candidates_a_gap = 8;
     ChainOptimiser chain(model, Grid::uniform(8, 12), along_v, settings);
     const ImproverState state = run(chain, {});
@@ -85,7 +86,7 @@ TEST(ChainOptimiser, PricesTheAxisWhereTheBestTracksTurnItTooFar) {
 
 TEST(ChainOptimiser, EndsWithTheNameOfTheLinkWhoseGridIsKept) {
     const SpikeErrorModel model({.width = 0.02});
-    ChainSettings settings = small();
+    ChainSettings settings = small_chain();
     settings.later_descents = 0; // so that the descents end before they begin
     ChainOptimiser chain(model, Grid::uniform(12, 15), along_v, settings);
     const ImproverState state = run(chain, {});
@@ -96,7 +97,7 @@ TEST(ChainOptimiser, EndsWithTheNameOfTheLinkWhoseGridIsKept) {
 
 TEST(ChainOptimiser, SaysThatNoLinkWasTakenAndWhy) {
     const SpikeErrorModel model({.width = 0.02});
-    ChainSettings settings = small();
+    ChainSettings settings = small_chain();
     settings.least_jacobian = 1.0; // which only the uniform grid has
     ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, settings);
     const ImproverState state = run(chain, {});
@@ -108,7 +109,7 @@ TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {
     for (unsigned seed = 1; seed <= 8; ++seed) {
         const test::RandomErrorModel model(seed, true);
         const Grid start = Grid::uniform(5, 6);
-        ChainSettings settings = small();
+        ChainSettings settings = small_chain();
         settings.first_descent = settings.later_descents = 3;
         ChainOptimiser chain(model, start, along_v, settings);
         const ImproverState state = run(chain, {});
@@ -124,7 +125,7 @@ TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {
 
 TEST(ChainOptimiser, CancelledItStandsWhereItStood) {
     const SpikeErrorModel model({});
-    ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, small());
+    ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, small_chain());
     chain.advance({});
     chain.advance({});
     const ImproverState before = chain.state();
@@ -140,7 +141,7 @@ TEST(ChainOptimiser, CancelledItStandsWhereItStood) {
 TEST(ChainOptimiser, RefusesSettingsThatMakeNoSense) {
     const SpikeErrorModel model({});
     const auto refused = [&](auto change) {
-        ChainSettings settings = small();
+        ChainSettings settings = small_chain();
         change(settings);
         EXPECT_THROW(ChainOptimiser(model, Grid::uniform(5, 5), along_v, settings), Defect);
     };

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/grid/expression_weight.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/pole_error_model.h"
 #include "tests/support/test_weights.h"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <memory>
 #include <random>
 #include <stop_token>
@@ -19,7 +19,7 @@
 namespace millwright::grid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 EllipticAdaptationSettings quick() {
     EllipticAdaptationSettings settings;

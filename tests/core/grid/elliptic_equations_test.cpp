@@ -20,7 +20,7 @@ namespace {
 using Real = long double;
 
 /// x and y as quadratic polynomials of (xi, eta): 1, xi, eta, xi^2, xi eta, eta^2; w = w0 + wx x + wy y.
-struct Case {
+struct QuadraticCase {
     std::array<Real, 6> x{}, y{};
     std::array<Real, 3> w{};
 };
@@ -32,9 +32,9 @@ struct State {
 
 using Density = std::function<Real(const State&, Real w)>;
 
-Case random_case(std::mt19937& random) {
+QuadraticCase random_case(std::mt19937& random) {
     std::uniform_real_distribution<double> small(-0.15, 0.15);
-    Case c;
+    QuadraticCase c;
     for (std::size_t k = 0; k < 6; ++k) {
         c.x[k] = small(random);
         c.y[k] = small(random);
@@ -45,7 +45,7 @@ Case random_case(std::mt19937& random) {
     return c;
 }
 
-State state(const Case& c, Real xi, Real eta) {
+State state(const QuadraticCase& c, Real xi, Real eta) {
     const auto value = [&](const std::array<Real, 6>& p) {
         return p[0] + p[1] * xi + p[2] * eta + p[3] * xi * xi + p[4] * xi * eta + p[5] * eta * eta;
     };
@@ -55,7 +55,7 @@ State state(const Case& c, Real xi, Real eta) {
 }
 
 /// dL/d(member) at (xi, eta).
-Real partial(const Case& c, const Density& L, Real State::*member, Real xi, Real eta) {
+Real partial(const QuadraticCase& c, const Density& L, Real State::*member, Real xi, Real eta) {
     constexpr Real h = 1e-4L;
     const auto at = [&](Real step) {
         State s = state(c, xi, eta);
@@ -66,7 +66,8 @@ Real partial(const Case& c, const Density& L, Real State::*member, Real xi, Real
 }
 
 /// dL/dx - d/dxi dL/dx_xi - d/deta dL/dx_eta at (0, 0).
-Real euler_lagrange(const Case& c, const Density& L, Real State::*f, Real State::*f_xi, Real State::*f_eta) {
+Real euler_lagrange(
+    const QuadraticCase& c, const Density& L, Real State::*f, Real State::*f_xi, Real State::*f_eta) {
     constexpr Real h = 1e-4L;
     const auto d_xi = [&](Real step) { return partial(c, L, f_xi, step, 0) - partial(c, L, f_xi, -step, 0); };
     const auto d_eta = [&](Real step) {
@@ -77,7 +78,7 @@ Real euler_lagrange(const Case& c, const Density& L, Real State::*f, Real State:
 }
 
 /// The equations of the middle of the 3 x 3 nodes that the mapping makes of xi, eta = -1, 0, 1.
-NodeEquations coded(const Case& c, const FunctionalWeights& lambda) {
+NodeEquations coded(const QuadraticCase& c, const FunctionalWeights& lambda) {
     NodeArray nodes(3, 3);
     std::vector<double> w;
     for (int i = 0; i < 3; ++i) {
@@ -107,7 +108,7 @@ Real orthogonality(const State& s, Real) {
     return product * product;
 }
 
-void expect_is(Real factor, const Density& L, const Case& c, double R_X, double R_Y) {
+void expect_is(Real factor, const Density& L, const QuadraticCase& c, double R_X, double R_Y) {
     const Real in_x = euler_lagrange(c, L, &State::x, &State::x_xi, &State::x_eta);
     const Real in_y = euler_lagrange(c, L, &State::y, &State::y_xi, &State::y_eta);
     const double scale = 1.0 + std::abs(static_cast<double>(in_x)) + std::abs(static_cast<double>(in_y));
@@ -121,7 +122,7 @@ constexpr int cases = 50;
 TEST(EllipticEquations, SmoothnessResidualIsMinusHalfOfItsEulerLagrangeExpression) {
     std::mt19937 random(1997);
     for (int n = 0; n < cases; ++n) {
-        const Case c = random_case(random);
+        const QuadraticCase c = random_case(random);
         const NodeEquations e = coded(c, {.adaptation = 0.0, .orthogonality = 0.0});
         expect_is(-2, smoothness, c, e.R_X, e.R_Y);
     }
@@ -130,7 +131,7 @@ TEST(EllipticEquations, SmoothnessResidualIsMinusHalfOfItsEulerLagrangeExpressio
 TEST(EllipticEquations, VolumeResidualIsMinusItsEulerLagrangeExpression) {
     std::mt19937 random(1998);
     for (int n = 0; n < cases; ++n) {
-        const Case c = random_case(random);
+        const QuadraticCase c = random_case(random);
         const NodeEquations with = coded(c, {.adaptation = 1.0, .orthogonality = 0.0});
         const NodeEquations without = coded(c, {.adaptation = 0.0, .orthogonality = 0.0});
         expect_is(-1, volume, c, with.R_X - without.R_X, with.R_Y - without.R_Y);
@@ -140,7 +141,7 @@ TEST(EllipticEquations, VolumeResidualIsMinusItsEulerLagrangeExpression) {
 TEST(EllipticEquations, OrthogonalityResidualIsMinusHalfOfItsEulerLagrangeExpression) {
     std::mt19937 random(1999);
     for (int n = 0; n < cases; ++n) {
-        const Case c = random_case(random);
+        const QuadraticCase c = random_case(random);
         const NodeEquations with = coded(c, {.adaptation = 0.0, .orthogonality = 1.0});
         const NodeEquations without = coded(c, {.adaptation = 0.0, .orthogonality = 0.0});
         expect_is(-2, orthogonality, c, with.R_X - without.R_X, with.R_Y - without.R_Y);
@@ -156,7 +157,7 @@ TEST(EllipticEquations, OfTheWholeAreThoseOfTheFunctionalWithTwiceLV) {
                static_cast<Real>(LO) * orthogonality(s, w);
     };
     for (int n = 0; n < cases; ++n) {
-        const Case c = random_case(random);
+        const QuadraticCase c = random_case(random);
         const NodeEquations e = coded(c, {.adaptation = LV, .orthogonality = LO});
         expect_is(-2, whole, c, e.R_X, e.R_Y);
     }

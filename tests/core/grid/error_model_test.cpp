@@ -2,24 +2,24 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 namespace millwright::grid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 TEST(Measure, HasEachTracksMovesInOrder) {
     const SpikeErrorModel model({});
     const Grid grid = Grid::uniform(3, 5);
-    const auto along_v = measure(model, grid, TrackDirection::along_v, coarse);
-    ASSERT_EQ(along_v.size(), 3U * 4U);
-    EXPECT_EQ(along_v[1 * 4 + 2].tip, model.move(grid.node(1, 2), grid.node(1, 3), coarse).tip);
+    const auto moves_along_v = measure(model, grid, TrackDirection::along_v, coarse);
+    ASSERT_EQ(moves_along_v.size(), 3U * 4U);
+    EXPECT_EQ(moves_along_v[1 * 4 + 2].tip, model.move(grid.node(1, 2), grid.node(1, 3), coarse).tip);
     const auto along_u = measure(model, grid, TrackDirection::along_u, coarse);
     ASSERT_EQ(along_u.size(), 5U * 2U);
     EXPECT_EQ(along_u[4 * 2 + 1].tip, model.move(grid.node(1, 4), grid.node(2, 4), coarse).tip);

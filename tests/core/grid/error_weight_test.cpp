@@ -1,6 +1,8 @@
 #include "core/grid/error_weight.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/spike_error_model.h"
 
@@ -8,12 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 namespace millwright::grid {
 namespace {
+
+using test::infinity;
 
 Grid bent_grid(int nu, int nv) {
     NodeArray nodes = Grid::uniform(nu, nv).array();
@@ -25,7 +28,7 @@ Grid bent_grid(int nu, int nv) {
     return Grid(std::move(nodes));
 }
 
-double value(const Weight& weight, const Vec2& p) {
+double weight_at(const Weight& weight, const Vec2& p) {
     double w = 0.0;
     weight.values({&p, 1}, {&w, 1});
     return w;
@@ -66,7 +69,6 @@ TEST(ErrorDensity, IsTheLargerOfTheTwoMovesAtANode) {
 
 TEST(ErrorDensity, TakesAMoveOutOfReachForTheWorstAndRoundingForNothing) {
     const Grid grid = Grid::uniform(2, 3);
-    const double infinity = std::numeric_limits<double>::infinity();
     const std::vector<MoveError> moves{{infinity, infinity, 1}, {5.0, 0, 1}, {1e-12, 0, 1}, {2.0, 0, 1}};
     const auto density = error_density(grid, TrackDirection::along_v, moves);
     EXPECT_EQ(density, (std::vector<double>{5.0, 5.0, 5.0, 0.0, 2.0, 2.0}));
@@ -108,7 +110,7 @@ TEST(WeightOn, ReproducesALinearFieldOnABentGrid) {
     for (int n = 0; n < 300; ++n) { // half a sample from the edge the blend is no longer linear
         const Vec2 p(std::uniform_real_distribution(0.5, 10.5)(random),
                      std::uniform_real_distribution(0.5, 7.5)(random));
-        EXPECT_NEAR(value(*weight, p), 1.0 + 0.3 * p.x() + 0.7 * p.y(), 1e-9);
+        EXPECT_NEAR(weight_at(*weight, p), 1.0 + 0.3 * p.x() + 0.7 * p.y(), 1e-9);
     }
 }
 
@@ -120,7 +122,7 @@ TEST(WeightOn, StaysBetweenTheSmallestAndTheLargestNodalWeight) {
     double largest = 0.0;
     for (double x = -1.0; x <= 9.0; x += 0.13) {
         for (double y = -1.0; y <= 9.0; y += 0.17) {
-            const double here = value(*weight, {x, y});
+            const double here = weight_at(*weight, {x, y});
             EXPECT_GE(here, 0.01 - 1e-15);
             EXPECT_LE(here, 1.0 + 1e-15);
             largest = std::max(largest, here);
@@ -143,10 +145,12 @@ TEST(WeightOn, HasTheGradientOfItsValuesAlsoAcrossSamples) {
                      std::uniform_real_distribution(0.1, 5.9)(random));
         Vec2 found = Vec2::Zero();
         weight->gradients({&p, 1}, {&found, 1});
-        EXPECT_NEAR(
-            found.x(), (value(*weight, p + Vec2(h, 0)) - value(*weight, p - Vec2(h, 0))) / (2 * h), 1e-5);
-        EXPECT_NEAR(
-            found.y(), (value(*weight, p + Vec2(0, h)) - value(*weight, p - Vec2(0, h))) / (2 * h), 1e-5);
+        EXPECT_NEAR(found.x(),
+                    (weight_at(*weight, p + Vec2(h, 0)) - weight_at(*weight, p - Vec2(h, 0))) / (2 * h),
+                    1e-5);
+        EXPECT_NEAR(found.y(),
+                    (weight_at(*weight, p + Vec2(0, h)) - weight_at(*weight, p - Vec2(0, h))) / (2 * h),
+                    1e-5);
     }
 }
 

@@ -15,18 +15,18 @@
 namespace millwright::grid {
 namespace {
 
-constexpr int nu = 21;
-constexpr int nv = 11;
+constexpr int expression_nu = 21;
+constexpr int expression_nv = 11;
 
-double value(const std::string& text, const Vec2& p) {
+double expression_at(const std::string& text, const Vec2& p) {
     double w = 0.0;
-    expression_weight(text, nu, nv)->values({&p, 1}, {&w, 1});
+    expression_weight(text, expression_nu, expression_nv)->values({&p, 1}, {&w, 1});
     return w;
 }
 
 Diagnostic fault_of(const std::string& text) {
     try {
-        (void)expression_weight(text, nu, nv);
+        (void)expression_weight(text, expression_nu, expression_nv);
     } catch (const Error& error) {
         return error.diagnostic();
     }
@@ -36,28 +36,28 @@ Diagnostic fault_of(const std::string& text) {
 // T16.
 TEST(ExpressionWeight, KnowsParametersNodesAndPi) {
     const Vec2 p(5.0, 2.0); // u = 0.25, v = 0.2
-    EXPECT_DOUBLE_EQ(value("u", p), 0.25);
-    EXPECT_DOUBLE_EQ(value("v", p), 0.2);
-    EXPECT_DOUBLE_EQ(value("10*i + j", p), 52.0);
-    EXPECT_DOUBLE_EQ(value("1 + sin(2*pi*u)^2 + exp(-v)", p), 2.0 + std::exp(-0.2));
-    EXPECT_DOUBLE_EQ(value("u < 0.5 ? 3 : 1", p), 3.0);
-    EXPECT_DOUBLE_EQ(value("(u == 0.25) + (v >= 0.2) + (v != 1)", p), 3.0);
+    EXPECT_DOUBLE_EQ(expression_at("u", p), 0.25);
+    EXPECT_DOUBLE_EQ(expression_at("v", p), 0.2);
+    EXPECT_DOUBLE_EQ(expression_at("10*i + j", p), 52.0);
+    EXPECT_DOUBLE_EQ(expression_at("1 + sin(2*pi*u)^2 + exp(-v)", p), 2.0 + std::exp(-0.2));
+    EXPECT_DOUBLE_EQ(expression_at("u < 0.5 ? 3 : 1", p), 3.0);
+    EXPECT_DOUBLE_EQ(expression_at("(u == 0.25) + (v >= 0.2) + (v != 1)", p), 3.0);
 }
 
-std::shared_ptr<const geometry::BezierPatch> dome() {
+std::shared_ptr<const geometry::BezierPatch> shared_dome_patch() {
     return std::make_shared<const geometry::BezierPatch>(
         geometry::surface_preset("dome").make().patch(geometry::PatchId{0}));
 }
 
 TEST(ExpressionWeight, KnowsTheSurfaceWhereThereIsOne) {
-    const auto patch = dome();
+    const auto patch = shared_dome_patch();
     const Vec2 p(5.0, 2.0);
     const geometry::SurfaceDerivatives at = patch->derivatives(0.25, 0.2);
     const Vec3 normal = patch->unit_normal(at).value();
     const auto bent = geometry::principal_curvatures(at).value();
     const auto value_of = [&](const std::string& text) {
         double w = 0.0;
-        expression_weight(text, nu, nv, {patch, nullptr})->values({&p, 1}, {&w, 1});
+        expression_weight(text, expression_nu, expression_nv, {patch, nullptr})->values({&p, 1}, {&w, 1});
         return w;
     };
     EXPECT_DOUBLE_EQ(value_of("x"), at.position.x());
@@ -75,7 +75,7 @@ TEST(ExpressionWeight, KnowsTheErrorWhereItWasMeasured) {
     });
     const Vec2 p(5.0, 2.0);
     double w = 0.0;
-    expression_weight("2*err", nu, nv, {nullptr, error})->values({&p, 1}, {&w, 1});
+    expression_weight("2*err", expression_nu, expression_nv, {nullptr, error})->values({&p, 1}, {&w, 1});
     EXPECT_DOUBLE_EQ(w, 410.0);
     EXPECT_NE(fault_of("err").message.find("error"), std::string::npos);
     EXPECT_TRUE(speaks_of_error("1 + err*u"));
@@ -92,7 +92,7 @@ TEST(ExpressionWeight, ItsFaultsAreKnownWithoutAnyGrid) {
 }
 
 TEST(ExpressionWeight, HasTheGradientOfItsFormula) {
-    const WeightPtr w = expression_weight("1 + sin(u)*i + j^2", nu, nv);
+    const WeightPtr w = expression_weight("1 + sin(u)*i + j^2", expression_nu, expression_nv);
     const Vec2 p(7.3, 4.1);
     Vec2 found = Vec2::Zero();
     w->gradients({&p, 1}, {&found, 1});
@@ -101,8 +101,8 @@ TEST(ExpressionWeight, HasTheGradientOfItsFormula) {
 }
 
 TEST(ExpressionWeight, DoesNotAskForValuesBeyondTheSurface) {
-    const WeightPtr w = expression_weight("1 + sqrt(1 - u) + sqrt(v)", nu, nv);
-    const Vec2 corner(nu - 1, 0.0);
+    const WeightPtr w = expression_weight("1 + sqrt(1 - u) + sqrt(v)", expression_nu, expression_nv);
+    const Vec2 corner(expression_nu - 1, 0.0);
     Vec2 found = Vec2::Zero();
     EXPECT_NO_THROW(w->gradients({&corner, 1}, {&found, 1}));
     EXPECT_TRUE(is_finite(found));
@@ -135,7 +135,7 @@ TEST(ExpressionWeight, AValueThatIsNotFiniteIsAnErrorThatSaysWhere) {
 }
 
 TEST(ExpressionWeight, OffTheNodesOfTheUniformGridIsLookedAtWhenAsked) {
-    const WeightPtr w = expression_weight("1/(i - 0.5)", nu, nv); // no node has i = 0.5
+    const WeightPtr w = expression_weight("1/(i - 0.5)", expression_nu, expression_nv); // no node has i = 0.5
     const Vec2 p(0.5, 3.0);
     double value_there = 0.0;
     EXPECT_THROW(w->values({&p, 1}, {&value_there, 1}), Error);

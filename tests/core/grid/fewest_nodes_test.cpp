@@ -12,7 +12,7 @@
 namespace millwright::grid {
 namespace {
 
-constexpr Track middle{TrackDirection::along_v, 0.5};
+constexpr Track middle_track{TrackDirection::along_v, 0.5};
 
 TEST(ShortestPath, HasTheFewestMovesAndOfThoseTheCheapest) {
     for (unsigned seed = 1; seed <= 30; ++seed) {
@@ -21,7 +21,7 @@ TEST(ShortestPath, HasTheFewestMovesAndOfThoseTheCheapest) {
         for (int n = 0; n <= 14; ++n) {
             places.push_back(n / 14.0);
         }
-        const MoveTable table(model, middle, places, {0.0, 0.4}, coarse, {});
+        const MoveTable table(model, middle_track, places, {0.0, 0.4}, coarse, {});
         const MoveLimits limits{0.3, 0.7};
         const auto path = shortest_path(table, {}, limits);
         std::optional<LatticePath> expected;
@@ -40,7 +40,8 @@ TEST(FewestNodes, AreAsManyAsTheClosedFormSays) {
     // kappa h^2 everywhere: moves of length sqrt(tolerance / kappa).
     const SpikeErrorModel even({.background = 20.0, .height = 0.0, .limit = 1e9});
     for (const double tolerance : {0.5, 0.1, 0.02}) {
-        const auto found = fewest_nodes(even, middle, 0.0, 1.0, {.tip = tolerance}, {.lattice = 1000}, {});
+        const auto found =
+            fewest_nodes(even, middle_track, 0.0, 1.0, {.tip = tolerance}, {.lattice = 1000}, {});
         ASSERT_TRUE(found.has_value());
         const double longest = std::sqrt(tolerance / 20.0);
         const auto moves = static_cast<double>(found->places.size() - 1);
@@ -53,29 +54,32 @@ TEST(FewestNodes, AreAsManyAsTheClosedFormSays) {
 
 TEST(FewestNodes, AreWithinTheToleranceByFineSampling) {
     const test::RandomErrorModel model(5, true); // fine sampling sees quite other errors
-    const auto found = fewest_nodes(model, middle, 0.0, 1.0, {.tip = 0.6, .axis = 1.0}, {.lattice = 40}, {});
+    const auto found =
+        fewest_nodes(model, middle_track, 0.0, 1.0, {.tip = 0.6, .axis = 1.0}, {.lattice = 40}, {});
     if (found) {
         for (std::size_t n = 1; n < found->places.size(); ++n) {
             const MoveError move =
-                model.move(middle.at(found->places[n - 1]), middle.at(found->places[n]), fine);
+                model.move(middle_track.at(found->places[n - 1]), middle_track.at(found->places[n]), fine);
             EXPECT_LE(move.tip, 0.6);
         }
     }
     const SpikeErrorModel spike({});
-    const auto on_spike = fewest_nodes(spike, middle, 0.0, 1.0, {.tip = 0.05}, {}, {});
+    const auto on_spike = fewest_nodes(spike, middle_track, 0.0, 1.0, {.tip = 0.05}, {}, {});
     ASSERT_TRUE(on_spike.has_value());
     for (std::size_t n = 1; n < on_spike->places.size(); ++n) {
-        EXPECT_LE(spike.move(middle.at(on_spike->places[n - 1]), middle.at(on_spike->places[n]), fine).tip,
-                  0.05);
+        EXPECT_LE(
+            spike.move(middle_track.at(on_spike->places[n - 1]), middle_track.at(on_spike->places[n]), fine)
+                .tip,
+            0.05);
     }
 }
 
 TEST(FewestNodes, AreNothingWhereTheLatticeIsTooCoarse) {
     const SpikeErrorModel spike({});
-    EXPECT_FALSE(fewest_nodes(spike, middle, 0.0, 1.0, {.tip = 1e-6}, {.lattice = 50}, {}).has_value());
-    EXPECT_THROW((void)fewest_nodes(spike, middle, 0.5, 0.5, {}, {}, {}), Defect);
-    EXPECT_THROW((void)fewest_nodes(spike, middle, 0.0, 1.0, {}, {.lattice = 7}, {}), Defect);
-    EXPECT_THROW((void)fewest_nodes(spike, middle, 0.0, 1.0, {}, {.longest_move = 0.0}, {}), Defect);
+    EXPECT_FALSE(fewest_nodes(spike, middle_track, 0.0, 1.0, {.tip = 1e-6}, {.lattice = 50}, {}).has_value());
+    EXPECT_THROW((void)fewest_nodes(spike, middle_track, 0.5, 0.5, {}, {}, {}), Defect);
+    EXPECT_THROW((void)fewest_nodes(spike, middle_track, 0.0, 1.0, {}, {.lattice = 7}, {}), Defect);
+    EXPECT_THROW((void)fewest_nodes(spike, middle_track, 0.0, 1.0, {}, {.longest_move = 0.0}, {}), Defect);
 }
 
 } // namespace

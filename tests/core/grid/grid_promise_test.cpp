@@ -1,5 +1,7 @@
 #include "core/grid/grid_promise.h"
 
+#include "tests/core/grid/short_names.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,7 @@
 namespace millwright::grid {
 namespace {
 
-constexpr TrackDirection along_v = TrackDirection::along_v;
+using test::along_v;
 
 /// Each move by itself wants to be 0.5 long; what the path is worth is said.
 class PathModel final : public ErrorModel {

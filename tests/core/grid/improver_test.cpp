@@ -71,14 +71,14 @@ double largest_jump(const std::set<double>& told) {
     return std::max(largest, 1.0 - last);
 }
 
-const SpikeErrorModel spike({.width = 0.02});
+const SpikeErrorModel narrow_spike({.width = 0.02});
 
 TEST(Improver, TheChainTellsTrulyHowFarItIs) {
     ChainSettings settings;
     settings.tracks.gap_allowance = 2.0;
     settings.first_descent = 40;
     settings.later_descents = 20;
-    ChainOptimiser chain(spike, Grid::uniform(8, 10), TrackDirection::along_v, settings);
+    ChainOptimiser chain(narrow_spike, Grid::uniform(8, 10), TrackDirection::along_v, settings);
     const std::set<double> told = told_by(chain);
     EXPECT_GT(told.size(), 100U);
     EXPECT_LT(largest_jump(told), 0.2);
@@ -88,14 +88,15 @@ TEST(Improver, TheTracksTellTrulyHowFarTheyAre) {
     TrackSettings settings;
     settings.lattice = 60;
     settings.gap_allowance = 2.0;
-    TrackOptimiser tracks(spike, Grid::uniform(8, 10), TrackDirection::along_v, settings);
+    TrackOptimiser tracks(narrow_spike, Grid::uniform(8, 10), TrackDirection::along_v, settings);
     EXPECT_GT(told_by(tracks).size(), 20U);
 }
 
 TEST(Improver, TheOthersTellTrulyHowFarTheyAre) {
-    EllipticAdaptation elliptic(spike, Grid::uniform(12, 12), EllipticAdaptationSettings{});
+    EllipticAdaptation elliptic(narrow_spike, Grid::uniform(12, 12), EllipticAdaptationSettings{});
     EXPECT_GT(told_by(elliptic).size(), 3U);
-    Redistribution shares(spike, Grid::uniform(8, 10), TrackDirection::along_v, RedistributionSettings{});
+    Redistribution shares(
+        narrow_spike, Grid::uniform(8, 10), TrackDirection::along_v, RedistributionSettings{});
     EXPECT_GT(told_by(shares).size(), 3U);
 }
 

@@ -19,7 +19,7 @@
 namespace millwright::grid {
 namespace {
 
-EllipticSettings with_adaptation(double LV, int cap) {
+EllipticSettings newton_adaptation(double LV, int cap) {
     return {.functional = {.adaptation = LV, .orthogonality = 0.0}, .max_iterations = cap};
 }
 
@@ -47,7 +47,7 @@ void PrintTo(const Row& row, std::ostream* out) {
 const std::vector<double> norms_01{0.04051050779, 0.033121216, 0.02732086939, 0.02273304249, 0.01907781206};
 const std::vector<double> norms_1{0.4045922466, 0.328164831, 0.2664142164, 0.2161995387, 0.175208779};
 
-const std::vector<Row> rows{
+const std::vector<Row> reference_rows{
     {"LV0", 0.0, 250, SolverStatus::converged, 1, 0.0, 1.0, {}, {}},
     {"LV01",
      0.1,
@@ -94,7 +94,7 @@ class JacobiNewtonRow : public testing::TestWithParam<Row> {};
 // T13.
 TEST_P(JacobiNewtonRow, HoldsAndNoIterationFolds) {
     const Row& row = GetParam();
-    JacobiNewton solver(square_grid(25), weight_w1(), with_adaptation(row.LV, row.cap));
+    JacobiNewton solver(square_grid(25), weight_w1(), newton_adaptation(row.LV, row.cap));
     std::vector<double> norms;
     do {
         solver.iterate();
@@ -115,12 +115,12 @@ TEST_P(JacobiNewtonRow, HoldsAndNoIterationFolds) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, JacobiNewtonRow, testing::ValuesIn(rows), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(Table, JacobiNewtonRow, testing::ValuesIn(reference_rows), [](const auto& tested) {
     return tested.param.name;
 });
 
 TEST(JacobiNewton, IsSymmetricAboutTheDiagonalAsItsWeightIs) {
-    JacobiNewton solver(square_grid(25), weight_w1(), with_adaptation(1.0, 5000));
+    JacobiNewton solver(square_grid(25), weight_w1(), newton_adaptation(1.0, 5000));
     ASSERT_EQ(solve(solver), SolverStatus::converged);
     for (int i = 0; i < 25; ++i) {
         for (int j = 0; j < 25; ++j) {
@@ -132,7 +132,7 @@ TEST(JacobiNewton, IsSymmetricAboutTheDiagonalAsItsWeightIs) {
 
 // T14.
 TEST(JacobiNewton, ReportsAFoldAtTheFirstIterationWithAWeightTooStrongForIt) {
-    JacobiNewton solver(square_grid(25), weight_w1(), with_adaptation(100.0, 220));
+    JacobiNewton solver(square_grid(25), weight_w1(), newton_adaptation(100.0, 220));
     EXPECT_EQ(solve(solver), SolverStatus::folded);
     EXPECT_EQ(solver.iterations(), 1);
     EXPECT_NEAR(solver.norm(), 189.082913, 1e-8 * 189.0);
@@ -154,7 +154,7 @@ TEST(JacobiNewton, ReportsAFoldAtTheFirstIterationWithAWeightTooStrongForIt) {
 
 // T14.
 TEST(JacobiNewton, WithTheListedDerivativesIsReportedFoldedInsteadOfConvergedByNaN) {
-    EllipticSettings settings = with_adaptation(1.0, 220);
+    EllipticSettings settings = newton_adaptation(1.0, 220);
     settings.derivatives = WeightDerivatives::listed;
     JacobiNewton solver(square_grid(25), weight_w1(), settings);
     ASSERT_TRUE(solver.iterate());
@@ -167,7 +167,7 @@ TEST(JacobiNewton, WithTheListedDerivativesIsReportedFoldedInsteadOfConvergedByN
 
 // T13.
 TEST(JacobiNewton, SmoothesADisplacedGridBackToTheUniformOne) {
-    JacobiNewton solver(displaced_square_grid(25, 1.2), constant_weight(1.0), with_adaptation(0.0, 5000));
+    JacobiNewton solver(displaced_square_grid(25, 1.2), constant_weight(1.0), newton_adaptation(0.0, 5000));
     solver.iterate();
     EXPECT_NEAR(solver.norm(), 0.1506331222, 1e-8 * 0.15);
     solver.iterate();
@@ -178,7 +178,7 @@ TEST(JacobiNewton, SmoothesADisplacedGridBackToTheUniformOne) {
 }
 
 TEST(JacobiNewton, SmoothedLongEnoughIsTheUniformGrid) {
-    EllipticSettings settings = with_adaptation(0.0, 5000);
+    EllipticSettings settings = newton_adaptation(0.0, 5000);
     settings.tolerance = 0.0;
     JacobiNewton solver(displaced_square_grid(25, 1.2), constant_weight(1.0), settings);
     EXPECT_EQ(solve(solver), SolverStatus::iteration_limit);
@@ -191,7 +191,7 @@ TEST(JacobiNewton, SmoothedLongEnoughIsTheUniformGrid) {
 // T13.
 TEST(JacobiNewton, NeedsOneIterationForW4OnAnySize) {
     for (const int n : {50, 70, 100, 150}) {
-        JacobiNewton solver(square_grid(n), weight_w4(), with_adaptation(1.0, 220));
+        JacobiNewton solver(square_grid(n), weight_w4(), newton_adaptation(1.0, 220));
         EXPECT_EQ(solve(solver), SolverStatus::converged);
         EXPECT_EQ(solver.iterations(), 1);
         EXPECT_NEAR(solver.norm(), 1.2335955e-4, 1e-8);
@@ -199,7 +199,7 @@ TEST(JacobiNewton, NeedsOneIterationForW4OnAnySize) {
 }
 
 TEST(JacobiNewton, LeavesAUniformGridAloneToTheBitWhenTheWeightIsConstant) {
-    JacobiNewton solver(unit_spaced(12, 9), constant_weight(3.7), with_adaptation(50.0, 220));
+    JacobiNewton solver(unit_spaced(12, 9), constant_weight(3.7), newton_adaptation(50.0, 220));
     EXPECT_EQ(solve(solver), SolverStatus::converged);
     EXPECT_EQ(solver.iterations(), 1);
     EXPECT_EQ(solver.norm(), 0.0);
@@ -210,7 +210,7 @@ TEST(JacobiNewton, LeavesAUniformGridAloneToTheBitWhenTheWeightIsConstant) {
 TEST(JacobiNewton, DoesNotMoveAFixedBoundaryByOneBit) {
     NodeArray start = displaced_square_grid(25, 0.4);
     start.at(0, 7) += Vec2(0.1234567, 0.0); // neither straight nor even
-    JacobiNewton solver(start, weight_w1(), with_adaptation(1.0, 100));
+    JacobiNewton solver(start, weight_w1(), newton_adaptation(1.0, 100));
     solve(solver);
     EXPECT_NE(solver.nodes().at(12, 12), start.at(12, 12));
     for (int k = 0; k < 25; ++k) {
@@ -222,7 +222,7 @@ TEST(JacobiNewton, DoesNotMoveAFixedBoundaryByOneBit) {
 }
 
 TEST(JacobiNewton, SlidesTheBoundaryAlongItsSideInOrderAndKeepsTheCorners) {
-    EllipticSettings settings = with_adaptation(10.0, 5000);
+    EllipticSettings settings = newton_adaptation(10.0, 5000);
     settings.boundary = Boundary::sliding;
     const NodeArray start = square_grid(25);
     JacobiNewton solver(start, weight_w3(24, 24), settings);
@@ -246,7 +246,7 @@ TEST(JacobiNewton, SlidesTheBoundaryAlongItsSideInOrderAndKeepsTheCorners) {
 
 // T22.
 TEST(JacobiNewton, IsTheSameAsTwoSweepsAnIterationToTheBit) {
-    const EllipticSettings settings = with_adaptation(5.0, 60);
+    const EllipticSettings settings = newton_adaptation(5.0, 60);
     JacobiNewton solver(square_grid(25), weight_w1(), settings);
     solve(solver);
 
@@ -267,7 +267,7 @@ TEST(JacobiNewton, IsTheSameAsTwoSweepsAnIterationToTheBit) {
 
 // T21.
 TEST(JacobiNewton, GivesTheSameBytesOnAnyNumberOfThreads) {
-    EllipticSettings settings = with_adaptation(5.0, 25);
+    EllipticSettings settings = newton_adaptation(5.0, 25);
     settings.boundary = Boundary::sliding;
     std::vector<NodeArray> found;
     for (const int threads : {1, 2, 7}) {
@@ -284,7 +284,7 @@ TEST(JacobiNewton, GivesTheSameBytesOnAnyNumberOfThreads) {
 // T14.
 TEST(JacobiNewton, KeepsANodeWhoseSystemIsSingularAndSaysSo) {
     // On the uniform grid R_XX = -2 (2 + 2 w LV): zero for w LV = -1.
-    JacobiNewton solver(square_grid(5), constant_weight(-1.0), with_adaptation(1.0, 220));
+    JacobiNewton solver(square_grid(5), constant_weight(-1.0), newton_adaptation(1.0, 220));
     EXPECT_EQ(solve(solver), SolverStatus::singular);
     EXPECT_EQ(solver.nodes(), square_grid(5));
 }
@@ -315,7 +315,7 @@ TEST(JacobiNewton, RefusesWhatItCannotSolve) {
 }
 
 TEST(JacobiNewton, ClonedGoesItsOwnWay) {
-    JacobiNewton solver(square_grid(25), weight_w1(), with_adaptation(1.0, 220));
+    JacobiNewton solver(square_grid(25), weight_w1(), newton_adaptation(1.0, 220));
     solver.iterate();
     const auto clone = solver.clone();
     const NodeArray before = solver.nodes();

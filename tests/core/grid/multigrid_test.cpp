@@ -34,18 +34,18 @@ double farthest(const NodeArray& a, const NodeArray& b) {
     return found;
 }
 
-struct Case {
+struct SolvedCase {
     std::string name;
     int rows, columns;
     double LV, LO;
     Boundary boundary;
 };
 
-void PrintTo(const Case& tested, std::ostream* out) {
+void PrintTo(const SolvedCase& tested, std::ostream* out) {
     *out << tested.name;
 }
 
-class MultigridCase : public testing::TestWithParam<Case> {};
+class MultigridCase : public testing::TestWithParam<SolvedCase> {};
 
 TEST_P(MultigridCase, FindsTheGridOfTheReferenceIteration) {
     const auto& [name, rows, columns, LV, LO, boundary] = GetParam();
@@ -64,13 +64,13 @@ TEST_P(MultigridCase, FindsTheGridOfTheReferenceIteration) {
 
 INSTANTIATE_TEST_SUITE_P(AllKinds,
                          MultigridCase,
-                         testing::Values(Case{"Square", 25, 25, 1.0, 0.0, Boundary::fixed},
-                                         Case{"NoPowerOfTwo", 22, 19, 1.0, 0.0, Boundary::fixed},
-                                         Case{"Long", 5, 30, 1.0, 0.0, Boundary::fixed},
-                                         Case{"Tiny", 7, 6, 5.0, 0.0, Boundary::fixed},
-                                         Case{"Orthogonal", 20, 20, 1.0, 0.2, Boundary::fixed},
-                                         Case{"Sliding", 16, 21, 1.0, 0.0, Boundary::sliding},
-                                         Case{"Strong", 17, 17, 10.0, 0.0, Boundary::fixed}),
+                         testing::Values(SolvedCase{"Square", 25, 25, 1.0, 0.0, Boundary::fixed},
+                                         SolvedCase{"NoPowerOfTwo", 22, 19, 1.0, 0.0, Boundary::fixed},
+                                         SolvedCase{"Long", 5, 30, 1.0, 0.0, Boundary::fixed},
+                                         SolvedCase{"Tiny", 7, 6, 5.0, 0.0, Boundary::fixed},
+                                         SolvedCase{"Orthogonal", 20, 20, 1.0, 0.2, Boundary::fixed},
+                                         SolvedCase{"Sliding", 16, 21, 1.0, 0.0, Boundary::sliding},
+                                         SolvedCase{"Strong", 17, 17, 10.0, 0.0, Boundary::fixed}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(Multigrid, SmoothsADisplacedGridBackToTheUniformOne) {

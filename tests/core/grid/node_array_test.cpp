@@ -1,6 +1,7 @@
 #include "core/grid/node_array.h"
 
 #include "core/base/error.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/grid_arrays.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace millwright::grid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 TEST(NodeArray, IsRowMajor) {
     NodeArray array(2, 3);

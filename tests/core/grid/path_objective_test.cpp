@@ -13,12 +13,12 @@
 namespace millwright::grid {
 namespace {
 
-const SpikeErrorModel spike({});
+const SpikeErrorModel default_spike({});
 
-PathObjective objective(const NodeArray& nodes, TrackDirection direction) {
+PathObjective spike_objective(const NodeArray& nodes, TrackDirection direction) {
     PathObjectiveSettings settings;
     settings.unit_cost = 0.05;
-    return {spike, direction, nodes, settings};
+    return {default_spike, direction, nodes, settings};
 }
 
 /// Inside both ways, on a side along it, in a corner not at all.
@@ -34,7 +34,7 @@ class PathObjectiveTest : public ::testing::TestWithParam<TrackDirection> {};
 
 TEST_P(PathObjectiveTest, ItsGradientIsTheDifferenceOfItsValue) {
     const NodeArray nodes = test::shaken(7, 9, 0.2);
-    const PathObjective f = objective(nodes, GetParam());
+    const PathObjective f = spike_objective(nodes, GetParam());
     const std::vector<Vec2> gradient = f.gradient(nodes, {});
     for (std::size_t n = 0; n < gradient.size(); ++n) {
         for (const int coordinate : {0, 1}) {
@@ -51,7 +51,7 @@ TEST_P(PathObjectiveTest, ItsGradientIsTheDifferenceOfItsValue) {
 
 TEST_P(PathObjectiveTest, IsTheSameBytesOnAnyNumberOfThreads) {
     const NodeArray nodes = test::shaken(12, 10, 0.2);
-    const PathObjective f = objective(nodes, GetParam());
+    const PathObjective f = spike_objective(nodes, GetParam());
     set_thread_count(1);
     const double value = f.value(nodes, {});
     const std::vector<Vec2> gradient = f.gradient(nodes, {});
@@ -65,7 +65,7 @@ TEST_P(PathObjectiveTest, IsTheSameBytesOnAnyNumberOfThreads) {
 
 TEST_P(PathObjectiveTest, ADescentLessensTheErrorAndFoldsNothing) {
     const NodeArray start = Grid::uniform(10, 12).array();
-    const PathObjective f = objective(start, GetParam());
+    const PathObjective f = spike_objective(start, GetParam());
     PathDescent descent(f, start, {});
     double before = descent.value();
     const double first = before;
@@ -82,7 +82,7 @@ TEST_P(PathObjectiveTest, ADescentLessensTheErrorAndFoldsNothing) {
 
 TEST_P(PathObjectiveTest, IsInfiniteWhereACellFolds) {
     NodeArray nodes = Grid::uniform(5, 5).array();
-    const PathObjective f = objective(nodes, GetParam());
+    const PathObjective f = spike_objective(nodes, GetParam());
     EXPECT_TRUE(std::isfinite(f.value(nodes, {})));
     nodes.at(2, 2) = nodes.at(3, 3);
     EXPECT_TRUE(std::isinf(f.value(nodes, {})));
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(BothWays,
 
 TEST(PathObjective, TracksThatDriftApartCostMore) {
     const NodeArray uniform = Grid::uniform(5, 5).array();
-    const PathObjective f = objective(uniform, TrackDirection::along_v);
+    const PathObjective f = spike_objective(uniform, TrackDirection::along_v);
     NodeArray apart = uniform;
     for (int j = 0; j < 5; ++j) {
         apart.at(2, j).x() += 0.05; // gaps of 1.2 and 0.8
@@ -103,7 +103,7 @@ TEST(PathObjective, TracksThatDriftApartCostMore) {
     PathObjectiveSettings free;
     free.unit_cost = 0.05;
     free.widest_gap = 2.0;
-    const PathObjective without(spike, TrackDirection::along_v, uniform, free);
+    const PathObjective without(default_spike, TrackDirection::along_v, uniform, free);
     EXPECT_NEAR(f.value(apart, {}) - without.value(apart, {}), 5.0 * 0.75 * 0.75, 1e-9);
     EXPECT_NEAR(f.value(uniform, {}), without.value(uniform, {}), 1e-12);
 }
@@ -111,7 +111,7 @@ TEST(PathObjective, TracksThatDriftApartCostMore) {
 TEST(PathObjective, WantsAnOutlineThatNodesCanSlideAlong) {
     NodeArray bent = Grid::uniform(4, 4).array();
     bent.at(0, 1).x() += 0.01;
-    EXPECT_THROW((void)objective(bent, TrackDirection::along_u), Defect);
+    EXPECT_THROW((void)spike_objective(bent, TrackDirection::along_u), Defect);
 }
 
 } // namespace

@@ -19,7 +19,7 @@ PlacedTrack uniform_track(int nodes) {
     return found;
 }
 
-double cost_of(const TrackPolish& polish, const MoveCost& cost) {
+double total_move_cost(const TrackPolish& polish, const MoveCost& cost) {
     double sum = 0.0;
     for (const MoveError& move : polish.moves()) {
         sum += cost(move);
@@ -32,10 +32,10 @@ TEST(TrackPolish, NeverRaisesTheCostAndKeepsTheEnds) {
         const test::RandomErrorModel model(seed);
         const PolishSettings settings{.cost = {.axis_weight = 0.5}, .min_gap = 0.01};
         TrackPolish polish(model, uniform_track(9), settings);
-        double before = cost_of(polish, settings.cost);
+        double before = total_move_cost(polish, settings.cost);
         for (int sweep = 0; sweep < 10; ++sweep) {
             (void)polish.sweep({});
-            const double after = cost_of(polish, settings.cost);
+            const double after = total_move_cost(polish, settings.cost);
             EXPECT_LE(after, before * (1.0 + 1e-15)) << seed;
             before = after;
         }

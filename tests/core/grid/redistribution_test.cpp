@@ -1,6 +1,7 @@
 #include "core/grid/redistribution.h"
 
 #include "core/base/error.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
 #include "tests/support/without_traps.h"
@@ -13,7 +14,7 @@
 namespace millwright::grid {
 namespace {
 
-constexpr TrackDirection along_v = TrackDirection::along_v;
+using test::along_v;
 
 ImproverState
 redistributed(const ErrorModel& model, const Grid& start, RedistributionSettings settings = {}) {

@@ -1,16 +1,16 @@
 #include "core/grid/track_choice.h"
 
 #include "core/base/error.h"
+#include "tests/core/grid/short_names.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <random>
 
 namespace millwright::grid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 /// The least sum over all choices, by trying them all.
 double least_sum(const std::vector<double>& costs, int at, int left, int nearest, int furthest) {

@@ -8,7 +8,7 @@ namespace millwright::grid {
 namespace {
 
 /// Three tracks of two moves; `tip` and `axis` of every move.
-std::vector<MeasuredTrack> tracks(double tip, double axis, double middle = 0.5) {
+std::vector<MeasuredTrack> three_tracks(double tip, double axis, double middle = 0.5) {
     std::vector<MeasuredTrack> found;
     for (const double across : {0.0, 0.5, 1.0}) {
         const MoveError move{tip, axis, 50.0, tip / 2.0, tip};
@@ -18,18 +18,18 @@ std::vector<MeasuredTrack> tracks(double tip, double axis, double middle = 0.5) 
 }
 
 /// Only its track gap is used: the distance of nodes of equal number.
-const SpikeErrorModel model({});
+const SpikeErrorModel guarded_model({});
 
 class NeverWorse : public ::testing::Test {
 protected:
     GuardedTracks guarded(const std::vector<std::vector<MeasuredTrack>>& versions,
                           double gap_allowance = 0.15) {
-        const TrackPromise promise = promise_of(model, start_, gap_allowance, {});
-        return never_worse(model, versions, start_, promise, {});
+        const TrackPromise promise = promise_of(guarded_model, start_, gap_allowance, {});
+        return never_worse(guarded_model, versions, start_, promise, {});
     }
-    std::vector<MeasuredTrack> start_ = tracks(1.0, 0.2);
-    std::vector<MeasuredTrack> good_ = tracks(0.5, 0.1, 0.55);
-    std::vector<MeasuredTrack> better_ = tracks(0.3, 0.1, 0.6);
+    std::vector<MeasuredTrack> start_ = three_tracks(1.0, 0.2);
+    std::vector<MeasuredTrack> good_ = three_tracks(0.5, 0.1, 0.55);
+    std::vector<MeasuredTrack> better_ = three_tracks(0.3, 0.1, 0.6);
 };
 
 TEST_F(NeverWorse, TakesTheMostWantedVersion) {
@@ -78,8 +78,8 @@ TEST_F(NeverWorse, ClosesAGapThatIsTooWide) {
 }
 
 TEST_F(NeverWorse, IgnoresRoundingOfAnErrorThatIsNoneAtAll) {
-    start_ = tracks(1e-13, 1e-13);
-    EXPECT_EQ(guarded({tracks(2e-13, 2e-13)}).kept_from_start, 0);
+    start_ = three_tracks(1e-13, 1e-13);
+    EXPECT_EQ(guarded({three_tracks(2e-13, 2e-13)}).kept_from_start, 0);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
 #include "tests/support/without_traps.h"
@@ -14,11 +15,11 @@
 namespace millwright::grid {
 namespace {
 
-constexpr TrackDirection along_v = TrackDirection::along_v;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::along_v;
+using test::infinity;
 
 /// Small enough for tests. The models' gap is between nodes of equal number, so it opens when nodes slide.
-TrackSettings small() {
+TrackSettings small_tracks() {
     TrackSettings settings;
     settings.lattice = 60;
     settings.polish_sweeps = 5;
@@ -26,7 +27,7 @@ TrackSettings small() {
     return settings;
 }
 
-ImproverState optimised(const ErrorModel& model, const Grid& start, TrackSettings settings = small()) {
+ImproverState optimised(const ErrorModel& model, const Grid& start, TrackSettings settings = small_tracks()) {
     TrackOptimiser optimiser(model, start, along_v, settings);
     return run(optimiser, {});
 }
@@ -80,7 +81,7 @@ TEST(TrackOptimiser, NeverReportsAGridWorseThanTheStart) {
     for (unsigned seed = 1; seed <= 12; ++seed) {
         const test::RandomErrorModel model(seed, true);
         const Grid start = Grid::uniform(5, 7);
-        TrackSettings settings = small();
+        TrackSettings settings = small_tracks();
         settings.gap_allowance = 0.3;
         const ImproverState state = optimised(model, start, settings);
         const auto moves = measure(model, state.best, along_v, fine);
@@ -98,7 +99,7 @@ TEST(TrackOptimiser, NeverReportsAGridWorseThanTheStart) {
 
 TEST(TrackOptimiser, KeepsTracksStraightAndTheirEndsOnTheEdge) {
     const SpikeErrorModel model({});
-    TrackOptimiser optimiser(model, Grid::uniform(9, 6), TrackDirection::along_u, small());
+    TrackOptimiser optimiser(model, Grid::uniform(9, 6), TrackDirection::along_u, small_tracks());
     const Grid best = run(optimiser, {}).best;
     for (int j = 0; j < 6; ++j) {
         EXPECT_EQ(best.node(0, j), Vec2(0.0, j / 5.0));
@@ -111,7 +112,7 @@ TEST(TrackOptimiser, KeepsTracksStraightAndTheirEndsOnTheEdge) {
 
 TEST(TrackOptimiser, IsWatchedStepByStepAndCostsNoStepTooMany) {
     const SpikeErrorModel model({});
-    TrackOptimiser optimiser(model, Grid::uniform(6, 9), along_v, small());
+    TrackOptimiser optimiser(model, Grid::uniform(6, 9), along_v, small_tracks());
     EXPECT_EQ(optimiser.state().current, Grid::uniform(6, 9).array());
     EXPECT_TRUE(optimiser.advance({}));
     EXPECT_GT(optimiser.state().start.mean, 0.0);
@@ -155,7 +156,7 @@ TEST_F(TrackOptimiserThreads, GivesTheSameBytesOnAnyNumberOfThreads) {
 TEST(TrackOptimiser, LeavesItsStateWhenAStepIsCancelledAndGoesOnAfterwards) {
     const SpikeErrorModel model({});
     const Grid start = Grid::uniform(6, 9);
-    TrackOptimiser interrupted(model, start, along_v, small());
+    TrackOptimiser interrupted(model, start, along_v, small_tracks());
     std::stop_source stop;
     stop.request_stop();
     const Progress cancelled(nullptr, stop.get_token());
@@ -182,7 +183,7 @@ TEST(TrackOptimiser, IsCancelledInTheMiddleOfAStep) {
             }
         },
         stop.get_token());
-    TrackOptimiser optimiser(model, Grid::uniform(20, 9), along_v, small());
+    TrackOptimiser optimiser(model, Grid::uniform(20, 9), along_v, small_tracks());
     EXPECT_THROW((void)optimiser.advance(progress), Cancelled);
     EXPECT_EQ(optimiser.state().round, 0);
     EXPECT_TRUE(optimiser.advance({}));
@@ -200,7 +201,7 @@ TEST(TrackOptimiser, LeavesTracksThatCannotBeReached) {
 
 TEST(TrackOptimiser, SaysSoWhenThereIsNothingToGain) {
     const SpikeErrorModel model({.spike = {0.0, 0.3}});
-    TrackSettings settings = small();
+    TrackSettings settings = small_tracks();
     settings.lattice = 9;
     settings.longest_move = 1.5;
     settings.shortest_move = 0.5;

@@ -2,6 +2,7 @@
 #include "core/grid/track_path.h"
 
 #include "core/base/error.h"
+#include "tests/core/grid/short_names.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
 
@@ -13,7 +14,8 @@
 namespace millwright::grid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
+
 const Track track{TrackDirection::along_v, 0.4};
 
 std::vector<double> random_places(int count, unsigned seed) {

@@ -14,15 +14,15 @@
 namespace millwright::grid {
 namespace {
 
-constexpr int nu = 21;
-constexpr int nv = 11;
+constexpr int mix_nu = 21;
+constexpr int mix_nv = 11;
 
-geometry::BezierPatch dome() {
+geometry::BezierPatch dome_patch() {
     return geometry::surface_preset("dome").make().patch(geometry::PatchId{0});
 }
 
 double at(const WeightPtr& weight, const Vec2& uv) {
-    const Vec2 p = uv.cwiseProduct(Vec2(nu - 1, nv - 1));
+    const Vec2 p = uv.cwiseProduct(Vec2(mix_nu - 1, mix_nv - 1));
     double w = 0.0;
     weight->values({&p, 1}, {&w, 1});
     return w;
@@ -41,11 +41,11 @@ TEST(WeightMix, AddsMultipliesOrTakesTheLargest) {
     settings.error = 0.0;
     settings.painted = 4.0;
     settings.expression = 2.0;
-    EXPECT_NEAR(at(mixed_weight(reasons, settings, nu, nv), {0.3, 0.7}), 2.0 + 6.0, 1e-12);
+    EXPECT_NEAR(at(mixed_weight(reasons, settings, mix_nu, mix_nv), {0.3, 0.7}), 2.0 + 6.0, 1e-12);
     settings.combination = Combination::product;
-    EXPECT_NEAR(at(mixed_weight(reasons, settings, nu, nv), {0.3, 0.7}), 3.0 * 7.0, 1e-12);
+    EXPECT_NEAR(at(mixed_weight(reasons, settings, mix_nu, mix_nv), {0.3, 0.7}), 3.0 * 7.0, 1e-12);
     settings.combination = Combination::largest;
-    EXPECT_NEAR(at(mixed_weight(reasons, settings, nu, nv), {0.3, 0.7}), 6.0, 1e-12);
+    EXPECT_NEAR(at(mixed_weight(reasons, settings, mix_nu, mix_nv), {0.3, 0.7}), 6.0, 1e-12);
 }
 
 TEST(WeightMix, StaysInItsRange) {
@@ -57,7 +57,7 @@ TEST(WeightMix, StaysInItsRange) {
     settings.expression = 1.0;
     settings.low = 0.5;
     settings.high = 9.0;
-    const WeightPtr mixed = mixed_weight({.expression = slope}, settings, nu, nv);
+    const WeightPtr mixed = mixed_weight({.expression = slope}, settings, mix_nu, mix_nv);
     EXPECT_DOUBLE_EQ(at(mixed, {0.0, 0.5}), 0.5);
     EXPECT_NEAR(at(mixed, {0.5, 0.5}), 5.0, 1e-9);
     EXPECT_DOUBLE_EQ(at(mixed, {1.0, 0.5}), 9.0);
@@ -69,7 +69,7 @@ TEST(WeightMix, DividesTheErrorByItsLargest) {
     });
     MixSettings settings = unsmoothed();
     settings.low = 1e-6;
-    const WeightPtr mixed = mixed_weight({.error = error}, settings, nu, nv);
+    const WeightPtr mixed = mixed_weight({.error = error}, settings, mix_nu, mix_nv);
     EXPECT_NEAR(at(mixed, {1.0, 0.5}), 1.0, 1e-2);
     EXPECT_NEAR(at(mixed, {0.5, 0.5}), std::pow(0.5, 0.7), 1e-3);
 }
@@ -83,7 +83,7 @@ TEST(WeightMix, SmoothingLowersASpikeAndKeepsAConstant) {
         settings.error = 0.0;
         settings.expression = 1.0;
         settings.smoothing_passes = passes;
-        return at(mixed_weight({.expression = spike}, settings, nu, nv), {0.5, 0.5});
+        return at(mixed_weight({.expression = spike}, settings, mix_nu, mix_nv), {0.5, 0.5});
     };
     EXPECT_GT(peak(0), 2.0 * peak(1));
     EXPECT_GT(peak(1), peak(3));
@@ -91,17 +91,20 @@ TEST(WeightMix, SmoothingLowersASpikeAndKeepsAConstant) {
     settings.error = 0.0;
     settings.expression = 1.0;
     settings.smoothing_passes = 7;
-    EXPECT_NEAR(
-        at(mixed_weight({.expression = constant_weight(2.0)}, settings, nu, nv), {0.1, 0.9}), 2.0, 1e-12);
+    EXPECT_NEAR(at(mixed_weight({.expression = constant_weight(2.0)}, settings, mix_nu, mix_nv), {0.1, 0.9}),
+                2.0,
+                1e-12);
 }
 
 TEST(WeightMix, HasTheGradientOfItsValues) {
-    const WeightPtr mixed = field_weight({2, 2, {0.0, 1.0, 0.5, 0.2}}, nu, nv);
+    const WeightPtr mixed = field_weight({2, 2, {0.0, 1.0, 0.5, 0.2}}, mix_nu, mix_nv);
     const Vec2 p(7.3, 4.6);
     Vec2 slope = Vec2::Zero();
     mixed->gradients({&p, 1}, {&slope, 1});
     constexpr double h = 1e-5;
-    const auto value = [&](double x, double y) { return at(mixed, Vec2(x / (nu - 1), y / (nv - 1))); };
+    const auto value = [&](double x, double y) {
+        return at(mixed, Vec2(x / (mix_nu - 1), y / (mix_nv - 1)));
+    };
     EXPECT_NEAR(slope.x(), (value(7.3 + h, 4.6) - value(7.3 - h, 4.6)) / (2.0 * h), 1e-6);
     EXPECT_NEAR(slope.y(), (value(7.3, 4.6 + h) - value(7.3, 4.6 - h)) / (2.0 * h), 1e-6);
 }
@@ -114,11 +117,11 @@ TEST(WeightMix, OfTheCurvatureIsLargestWhereTheSurfaceBendsMost) {
             net.point(i, j) = Vec3(i / 3.0, j, i == 3 ? 1.0 : 0.0);
         }
     }
-    const WeightPtr curvature = curvature_weight(geometry::BezierPatch(net), nu, nv);
+    const WeightPtr curvature = curvature_weight(geometry::BezierPatch(net), mix_nu, mix_nv);
     const auto bent = [](double x) { return 6.0 * x / std::pow(1.0 + 9.0 * x * x * x * x, 1.5); };
     double largest = 0.0;
-    for (int k = 0; k <= 2 * (nu - 1); ++k) {
-        largest = std::max(largest, bent(k / (2.0 * (nu - 1))));
+    for (int k = 0; k <= 2 * (mix_nu - 1); ++k) {
+        largest = std::max(largest, bent(k / (2.0 * (mix_nu - 1))));
     }
     for (const double u : {0.2, 0.45, 0.8}) {
         EXPECT_NEAR(at(curvature, {u, 0.5}), bent(u) / largest, 0.02) << u;
@@ -127,7 +130,7 @@ TEST(WeightMix, OfTheCurvatureIsLargestWhereTheSurfaceBendsMost) {
 
 // T20.
 TEST(WeightMix, ABrushIsRoundOnTheSurfaceInMillimetres) {
-    const geometry::BezierPatch patch = dome();
+    const geometry::BezierPatch patch = dome_patch();
     const Vec2 middle(0.4, 0.6);
     const Vec3 at_middle = patch.position(0.4, 0.6);
     Field field = Field::constant(65, 49, 0.0);
@@ -151,7 +154,7 @@ TEST(WeightMix, ABrushIsRoundOnTheSurfaceInMillimetres) {
 }
 
 TEST(WeightMix, AStrokeLeavesNoGapBetweenItsDabs) {
-    const geometry::BezierPatch patch = dome();
+    const geometry::BezierPatch patch = dome_patch();
     Field field = Field::constant(129, 129, 0.0);
     ASSERT_TRUE(stroke(field, patch, {0.1, 0.5}, {0.9, 0.5}, {.radius_mm = 5.0, .hardness = 0.9}));
     for (double u = 0.15; u < 0.9; u += 0.01) {
@@ -162,13 +165,13 @@ TEST(WeightMix, AStrokeLeavesNoGapBetweenItsDabs) {
 
 TEST(WeightMix, RefusesWhatHasNoSense) {
     MixSettings settings;
-    EXPECT_THROW((void)mixed_weight({}, settings, nu, nv), Defect); // the error is not there
+    EXPECT_THROW((void)mixed_weight({}, settings, mix_nu, mix_nv), Defect); // the error is not there
     settings.error = 0.0;
     settings.low = 0.0;
-    EXPECT_THROW((void)mixed_weight({}, settings, nu, nv), Defect);
+    EXPECT_THROW((void)mixed_weight({}, settings, mix_nu, mix_nv), Defect);
     settings.low = 2.0;
     settings.high = 1.0;
-    EXPECT_THROW((void)mixed_weight({}, settings, nu, nv), Defect);
+    EXPECT_THROW((void)mixed_weight({}, settings, mix_nu, mix_nv), Defect);
     EXPECT_THROW((void)Field::constant(1, 5, 0.0), Defect);
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Vec3 down = -Vec3::UnitZ();
-const Vec3 up = Vec3::UnitZ();
+const Vec3 straight_down = -Vec3::UnitZ();
+const Vec3 straight_up = Vec3::UnitZ();
 
 JointPositions rest(int joints = 5) {
     return JointPositions::Zero(joints);
@@ -46,8 +46,8 @@ double farthest_from_line(const ArmModel& arm, const ArmPath& path, const Vec3& 
 TEST(ArmPath, StaysOnALineBetweenItsPointsToo) {
     const Vec3 a(800.0, -300.0, -100.0), b(500.0, 600.0, 200.0);
     for (const double tolerance : {1.0, 0.1, 0.01, 0.001}) {
-        const ArmPath path =
-            followed({test::line_way(a, b, down)}, {.tip_tolerance = tolerance, .longest_step = 100.0});
+        const ArmPath path = followed({test::line_way(a, b, straight_down)},
+                                      {.tip_tolerance = tolerance, .longest_step = 100.0});
         ASSERT_TRUE(path.whole());
         EXPECT_EQ(path.points.front().share, 0.0);
         EXPECT_EQ(path.points.back().share, 1.0);
@@ -62,7 +62,8 @@ TEST(ArmPath, StaysOnALineBetweenItsPointsToo) {
 }
 
 TEST(ArmPath, TellsWhereItsReachEnds) {
-    const ArmPath path = followed({test::line_way(Vec3(1000.0, 0.0, 0.0), Vec3(2000.0, 0.0, 0.0), down)});
+    const ArmPath path =
+        followed({test::line_way(Vec3(1000.0, 0.0, 0.0), Vec3(2000.0, 0.0, 0.0), straight_down)});
     ASSERT_EQ(path.findings.size(), 1U);
     const ArmFinding& finding = path.findings.front();
     EXPECT_EQ(finding.trouble, ArmTrouble::out_of_reach);
@@ -73,7 +74,8 @@ TEST(ArmPath, TellsWhereItsReachEnds) {
 
 TEST(ArmPath, GoesOnBehindAHole) {
     // Joint 3 ends at 160 deg, and so does the reach inwards; 100 mm beside the shoulder is a hole.
-    const ArmPath path = followed({test::line_way(Vec3(400.0, 100.0, 0.0), Vec3(-400.0, 100.0, 0.0), up)});
+    const ArmPath path =
+        followed({test::line_way(Vec3(400.0, 100.0, 0.0), Vec3(-400.0, 100.0, 0.0), straight_up)});
     ASSERT_EQ(path.findings.size(), 3U);
     EXPECT_EQ(path.findings[0].trouble, ArmTrouble::joint_limit);
     EXPECT_EQ(path.findings[1].trouble, ArmTrouble::out_of_reach);
@@ -87,13 +89,13 @@ TEST(ArmPath, GoesOnBehindAHole) {
 
 TEST(ArmPath, TurnsTheBaseWherePathsPassItsAxis) {
     const Vec3 a(1.0, -300.0, 700.0), b(1.0, 300.0, 700.0);
-    const ArmPath path = followed({test::line_way(a, b, up)});
+    const ArmPath path = followed({test::line_way(a, b, straight_up)});
     ASSERT_TRUE(path.whole()) << path.findings.front().why;
     EXPECT_LE(farthest_from_line(test::arm("motoman-l3"), path, a, b), 0.011);
     double fastest = 0.0;
     for (std::size_t n = 1; n < path.points.size(); ++n) {
         const double turn = path.points[n].joints[0] - path.points[n - 1].joints[0];
-        fastest = std::max(fastest, std::abs(turn) / length_to(path, {test::line_way(a, b, up)}, n));
+        fastest = std::max(fastest, std::abs(turn) / length_to(path, {test::line_way(a, b, straight_up)}, n));
     }
     // Next to the axis the base turns by 1 rad / r a mm.
     EXPECT_NEAR(fastest, 1.0, 0.05);
@@ -114,7 +116,8 @@ TEST(ArmPath, NamesTheLimitWhereNoBranchIsLeft) {
     narrow.joints[1].max = from_degrees(-30.0);
     narrow.joints[0].min = from_degrees(-90.0);
     narrow.joints[0].max = from_degrees(90.0);
-    const ArmPath path = follow_path_well(ArmModel(narrow), {test::line_way(a, b, down)}, rest(), {}, {});
+    const ArmPath path =
+        follow_path_well(ArmModel(narrow), {test::line_way(a, b, straight_down)}, rest(), {}, {});
     ASSERT_FALSE(path.whole());
     EXPECT_EQ(path.findings.front().trouble, ArmTrouble::joint_limit);
     EXPECT_THAT(path.findings.front().why, HasSubstr("joint 2 would have to go to"));
@@ -156,13 +159,14 @@ TEST(ArmPath, ArmsWithoutAClosedFormFollowToo) {
     const ArmModel six = test::arm("six-axis");
     const Vec3 a = base_T_tool(six, JointPositions::Constant(6, 0.3)).translation();
     const Vec3 b = a + Vec3(30.0, -40.0, 20.0);
-    const ArmPath path = follow_path_well(six, {test::line_way(a, b, down)}, rest(6), {}, {});
+    const ArmPath path = follow_path_well(six, {test::line_way(a, b, straight_down)}, rest(6), {}, {});
     ASSERT_TRUE(path.whole()) << path.findings.front().why;
     EXPECT_LE(farthest_from_line(six, path, a, b), 0.011);
 }
 
 TEST(ArmPath, IsStoppedWhereItNeedsTooManyPoints) {
-    const std::vector<ArmWay> ways{test::line_way(Vec3(800.0, 0.0, 0.0), Vec3(900.0, 0.0, 0.0), down)};
+    const std::vector<ArmWay> ways{
+        test::line_way(Vec3(800.0, 0.0, 0.0), Vec3(900.0, 0.0, 0.0), straight_down)};
     EXPECT_THROW((void)followed(ways, {.longest_step = 0.1, .most_points = 500}), Error);
 }
 

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What reading says of the shipped A-on-C table with `from` replaced by `to`.
-std::string fault(const std::string& from, const std::string& to) {
+std::string file_fault(const std::string& from, const std::string& to) {
     std::string text = read_file("assets/machines/ac-table.json");
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
@@ -64,17 +64,18 @@ TEST(MachineFile, EveryShippedMachineReads) {
 }
 
 TEST(MachineFile, FaultsAreReportedWithLineAndField) {
-    EXPECT_NE(fault("\"max_velocity\": 60", "\"max_velocity\": \"fast\"").find("table[0]/max_velocity"),
+    EXPECT_NE(file_fault("\"max_velocity\": 60", "\"max_velocity\": \"fast\"").find("table[0]/max_velocity"),
               std::string::npos);
-    EXPECT_NE(fault("\"max_jerk\": 50000", "\"max_jerk\": 0").find("max_jerk"), std::string::npos);
-    EXPECT_NE(fault("\"rotary\"", "\"round\"").find("'round' is neither"), std::string::npos);
-    EXPECT_NE(fault("[-1, 0, 0]", "[0, 0, 0]").find("needs a length"), std::string::npos);
-    EXPECT_NE(fault("\"tool_tip\"", "\"tool_top\"").find("tool_top"), std::string::npos);
-    EXPECT_NE(fault("millwright-machine", "something-else").find("not a machine file"), std::string::npos);
-    EXPECT_NE(fault("\"version\": 1", "\"version\": 9").find("version"), std::string::npos);
-    EXPECT_NE(fault("[-120, 120]", "[120, -120]").find("lower limit"), std::string::npos);
-    EXPECT_NE(fault("\"axis\": \"C\"", "\"axis\": \"A\"").find("stands twice"), std::string::npos);
-    EXPECT_NE(fault("\"workpiece_offset\": [0, 0, 0]", "\"workpiece_offset\": [0, 0, 1e300]")
+    EXPECT_NE(file_fault("\"max_jerk\": 50000", "\"max_jerk\": 0").find("max_jerk"), std::string::npos);
+    EXPECT_NE(file_fault("\"rotary\"", "\"round\"").find("'round' is neither"), std::string::npos);
+    EXPECT_NE(file_fault("[-1, 0, 0]", "[0, 0, 0]").find("needs a length"), std::string::npos);
+    EXPECT_NE(file_fault("\"tool_tip\"", "\"tool_top\"").find("tool_top"), std::string::npos);
+    EXPECT_NE(file_fault("millwright-machine", "something-else").find("not a machine file"),
+              std::string::npos);
+    EXPECT_NE(file_fault("\"version\": 1", "\"version\": 9").find("version"), std::string::npos);
+    EXPECT_NE(file_fault("[-120, 120]", "[120, -120]").find("lower limit"), std::string::npos);
+    EXPECT_NE(file_fault("\"axis\": \"C\"", "\"axis\": \"A\"").find("stands twice"), std::string::npos);
+    EXPECT_NE(file_fault("\"workpiece_offset\": [0, 0, 0]", "\"workpiece_offset\": [0, 0, 1e300]")
                   .find("workpiece_offset[2]"),
               std::string::npos);
 }

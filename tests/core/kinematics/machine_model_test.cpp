@@ -13,7 +13,7 @@ namespace millwright::kinematics {
 namespace {
 
 /// What the model says of the A-on-C table after `spoil`.
-std::string fault(const std::function<void(MachineDescription&)>& spoil) {
+std::string model_fault(const std::function<void(MachineDescription&)>& spoil) {
     MachineDescription description = test::machine("ac-table").description();
     spoil(description);
     try {
@@ -37,31 +37,33 @@ TEST(MachineModel, OrdersAxesByLetterAndChainsFromTheBase) {
 }
 
 TEST(MachineModel, RefusesMachinesThatAreNone) {
-    EXPECT_EQ(fault([](auto&) {}), "");
-    EXPECT_NE(fault([](auto& m) { m.head.pop_back(); }).find("three linear axes"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) {
+    EXPECT_EQ(model_fault([](auto&) {}), "");
+    EXPECT_NE(model_fault([](auto& m) { m.head.pop_back(); }).find("three linear axes"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) {
                   m.table.insert(m.table.end(), 2, m.table[0]);
                   m.table[2].letter = 'B';
                   m.table[3].letter = 'U';
               }).find("three rotary ones at most"),
               std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.table[0].max_jerk = 0.0; }).find("jerk"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.head[0].letter = 'Y'; }).find("stands twice"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.head[0].letter = 'Q'; }).find("none of X Y Z"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.head[0].direction = m.head[1].direction; }).find("span"),
+    EXPECT_NE(model_fault([](auto& m) { m.table[0].max_jerk = 0.0; }).find("jerk"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.head[0].letter = 'Y'; }).find("stands twice"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.head[0].letter = 'Q'; }).find("none of X Y Z"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.head[0].direction = m.head[1].direction; }).find("span"),
               std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.table[0].direction = m.table[1].direction; }).find("parallel"),
+    EXPECT_NE(model_fault([](auto& m) { m.table[0].direction = m.table[1].direction; }).find("parallel"),
               std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.table[0].direction *= 2.0; }).find("unit vector"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.table[0].min = m.table[0].max; }).find("lower limit"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.head[2].max_velocity = 0.0; }).find("positive"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) {
+    EXPECT_NE(model_fault([](auto& m) { m.table[0].direction *= 2.0; }).find("unit vector"),
+              std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.table[0].min = m.table[0].max; }).find("lower limit"),
+              std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.head[2].max_velocity = 0.0; }).find("positive"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) {
                   m.table[0].point.x() = std::numeric_limits<double>::infinity();
               }).find("not finite"),
               std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.tool_axis = Vec3::Zero(); }).find("tool axis"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.bodies[0].carried_by = 'W'; }).find("axis W"), std::string::npos);
-    EXPECT_NE(fault([](auto& m) { m.bodies[0].size.x() = 0.0; }).find("body"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.tool_axis = Vec3::Zero(); }).find("tool axis"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.bodies[0].carried_by = 'W'; }).find("axis W"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.bodies[0].size.x() = 0.0; }).find("body"), std::string::npos);
 }
 
 TEST(MachineModel, OfOneOrThreeRotaryAxesHasNoInverse) {

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace millwright::machine {
@@ -25,7 +24,7 @@ namespace {
 using kinematics::AxisPositions;
 using ::testing::HasSubstr;
 
-struct Bench {
+struct DispatcherBench {
     test::TemporaryFolder folder;
     test::ManualClock clock;
     Job job = test::dome_job();
@@ -46,7 +45,7 @@ std::vector<LogEvent> events(const ReadLog& log) {
 }
 
 TEST(Dispatcher, RunsAJobToItsEndAndLogsIt) {
-    Bench bench;
+    DispatcherBench bench;
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {});
     EXPECT_EQ(outcome.end, JobEnd::done);
     EXPECT_EQ(outcome.executed_blocks, bench.blocks());
@@ -64,7 +63,7 @@ TEST(Dispatcher, RunsAJobToItsEndAndLogsIt) {
 }
 
 TEST(Dispatcher, TellsHowFarTheJobIs) {
-    Bench bench;
+    DispatcherBench bench;
     std::vector<JobReport> reports;
     std::vector<double> fractions;
     const Progress progress([&](const Progress::Report& report) { fractions.push_back(report.fraction); },
@@ -78,7 +77,7 @@ TEST(Dispatcher, TellsHowFarTheJobIs) {
 }
 
 TEST(Dispatcher, LogsWhatTheMachineWaitsFor) {
-    Bench bench;
+    DispatcherBench bench;
     const auto router = std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
     const Job job = planned_job("G21 G90\nG1 X10 F6000\nM0\nX20\nT4 M6\nX30\nM30\n", "part.ngc", router);
     VirtualMachine machine(job.program->start, {}, bench.clock, router);
@@ -105,7 +104,7 @@ TEST(Dispatcher, LogsWhatTheMachineWaitsFor) {
 }
 
 TEST(Dispatcher, LogsTheSwitchForOptionalStops) {
-    Bench bench;
+    DispatcherBench bench;
     const auto router = std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
     const Job job = planned_job("G21 G90\nG1 X10 F6000\nM1\nX20\nM30\n", "part.ngc", router);
     VirtualMachine machine(job.program->start, {}, bench.clock, router);
@@ -125,7 +124,7 @@ TEST(Dispatcher, LogsTheSwitchForOptionalStops) {
 }
 
 /// A program of the router, in the words of Grbl.
-Job router_job() {
+Job grbl_router_job() {
     const auto router = test::machine("router-xyz");
     gcode::Program program = test::empty_program(router);
     for (int n = 1; n <= 100; ++n) {
@@ -146,7 +145,7 @@ TEST(Dispatcher, TellsHowFarAControllerIsThatPlansForItself) {
     test::GrblWire wire({}, {.line_numbers = true});
     test::WireClock clock(wire, wire.now + 600.0);
     test::WireDriver driver(wire);
-    const Job job = router_job();
+    const Job job = grbl_router_job();
     std::vector<double> fractions;
     std::vector<JobReport> reports;
     const JobOutcome outcome =
@@ -166,7 +165,7 @@ TEST(Dispatcher, TellsHowFarAControllerIsThatPlansForItself) {
 }
 
 TEST(Dispatcher, LogsHoldResumeAndStopWithTimeAndPosition) {
-    Bench bench;
+    DispatcherBench bench;
     int looks = 0;
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
         ++looks;
@@ -189,7 +188,7 @@ TEST(Dispatcher, LogsHoldResumeAndStopWithTimeAndPosition) {
 }
 
 TEST(Dispatcher, StopsTheMachineWhenItsProgressIsCancelled) {
-    Bench bench;
+    DispatcherBench bench;
     std::stop_source source;
     int looks = 0;
     const JobOutcome outcome =
@@ -204,7 +203,7 @@ TEST(Dispatcher, StopsTheMachineWhenItsProgressIsCancelled) {
 }
 
 TEST(Dispatcher, DoesNotStartWhatIsCancelledBefore) {
-    Bench bench;
+    DispatcherBench bench;
     std::stop_source source;
     source.request_stop();
     EXPECT_THROW((void)bench.dispatcher.run(bench.job, Progress({}, source.get_token())), Cancelled);
@@ -212,7 +211,7 @@ TEST(Dispatcher, DoesNotStartWhatIsCancelledBefore) {
 }
 
 TEST(Dispatcher, ReportsAFaultAndWhatWasExecutedForCertain) {
-    Bench bench;
+    DispatcherBench bench;
     int looks = 0;
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
         if (++looks == 400) {
@@ -229,7 +228,7 @@ TEST(Dispatcher, ReportsAFaultAndWhatWasExecutedForCertain) {
 }
 
 TEST(Dispatcher, TakesALostLinkForAFaultWithTheLastKnownPosition) {
-    Bench bench;
+    DispatcherBench bench;
     kinematics::AxisPositions last;
     int looks = 0;
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport& report) {
@@ -244,7 +243,7 @@ TEST(Dispatcher, TakesALostLinkForAFaultWithTheLastKnownPosition) {
 }
 
 TEST(Dispatcher, RunsAJobAgainFromWhereTheMachineWasStopped) {
-    Bench bench;
+    DispatcherBench bench;
     int looks = 0;
     (void)bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
         if (++looks == 300) {
@@ -257,7 +256,7 @@ TEST(Dispatcher, RunsAJobAgainFromWhereTheMachineWasStopped) {
 }
 
 TEST(Dispatcher, LogsTheLineThatAnApproachLeadsTo) {
-    Bench bench;
+    DispatcherBench bench;
     constexpr int from = 40;
     const Job rest = job_from_line(bench.job, from, {});
     VirtualMachine machine(rest.program->start, {}, bench.clock);
@@ -273,7 +272,7 @@ TEST(Dispatcher, LogsTheLineThatAnApproachLeadsTo) {
 }
 
 TEST(Dispatcher, MovesNothingIfTheLogFolderCannotBeMade) {
-    Bench bench;
+    DispatcherBench bench;
     write_file(bench.folder.path() / "logs", "in the way");
     EXPECT_THROW((void)bench.dispatcher.run(bench.job, {}), Error);
     bench.clock.wait(10.0);
@@ -281,7 +280,7 @@ TEST(Dispatcher, MovesNothingIfTheLogFolderCannotBeMade) {
 }
 
 TEST(Dispatcher, MovesNothingIfThePreflightFindsSomething) {
-    Bench bench;
+    DispatcherBench bench;
     gcode::Program program = *bench.job.program;
     program.blocks[9].target[1] = 1e4;
     program.blocks[9].target[2] = -1e4;
@@ -297,7 +296,7 @@ TEST(Dispatcher, MovesNothingIfThePreflightFindsSomething) {
 }
 
 TEST(Dispatcher, StopsTheMachineIfItsListenerFails) {
-    Bench bench;
+    DispatcherBench bench;
     int looks = 0;
     const auto failing = [&](const JobReport&) {
         if (++looks == 300) {
@@ -312,7 +311,7 @@ TEST(Dispatcher, StopsTheMachineIfItsListenerFails) {
 }
 
 TEST(Dispatcher, RunsOneJobAtATime) {
-    Bench bench;
+    DispatcherBench bench;
     int looks = 0;
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {}, [&](const JobReport&) {
         if (++looks == 10) {

@@ -32,7 +32,7 @@ LogStart start() {
     return start;
 }
 
-LogRecord record(LogEvent event, double time, int executed) {
+LogRecord log_record_at(LogEvent event, double time, int executed) {
     LogRecord record;
     record.event = event;
     record.time = time;
@@ -46,9 +46,9 @@ LogRecord record(LogEvent event, double time, int executed) {
 std::filesystem::path written_log(const std::filesystem::path& folder) {
     JobLog log(folder, "dome");
     log.write(start());
-    log.write(record(LogEvent::executed, 0.5, 4));
-    log.write(record(LogEvent::hold, 0.75, 5));
-    LogRecord end = record(LogEvent::end, 1.5, 6);
+    log.write(log_record_at(LogEvent::executed, 0.5, 4));
+    log.write(log_record_at(LogEvent::hold, 0.75, 5));
+    LogRecord end = log_record_at(LogEvent::end, 1.5, 6);
     end.end = JobEnd::stopped;
     end.text = "The machine was stopped.";
     log.write(end);
@@ -73,7 +73,7 @@ TEST(JobLog, IsOnDiskBeforeTheNextThingHappens) {
     const test::TemporaryFolder folder;
     JobLog log(folder.path(), "dome");
     log.write(start());
-    log.write(record(LogEvent::executed, 0.5, 4));
+    log.write(log_record_at(LogEvent::executed, 0.5, 4));
     EXPECT_EQ(read_job_log(log.file()).executed_blocks(), 4);
 }
 
@@ -82,7 +82,7 @@ TEST(JobLog, GoesOnBehindALineThatDidNotFit) {
     const test::TemporaryFolder folder;
     JobLog log(folder.path(), "full");
     log.write(start());
-    LogRecord next = record(LogEvent::executed, 0.5, 4);
+    LogRecord next = log_record_at(LogEvent::executed, 0.5, 4);
     log.write(next);
     const auto whole = std::filesystem::file_size(log.file());
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);

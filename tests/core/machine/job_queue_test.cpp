@@ -39,7 +39,7 @@ std::vector<std::string> names(const JobQueue& queue) {
 }
 
 /// The reason of the Error that `act` throws; empty if it throws none.
-template <class Act> std::string refusal(Act&& act) {
+template <class Act> std::string queue_refusal(Act&& act) {
     try {
         act();
     } catch (const Error& error) {
@@ -61,11 +61,11 @@ struct Three : testing::Test {
 };
 
 TEST_F(Three, BeginInTheirOrderAndNeverTwoAtATime) {
-    EXPECT_THAT(refusal([&] { (void)queue.begin(b); }), HasSubstr("b does not come next"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("b does not come next"));
     EXPECT_EQ(queue.begin(a).name, "a");
     EXPECT_FALSE(queue.next());
-    EXPECT_THAT(refusal([&] { (void)queue.begin(b); }), HasSubstr("b does not come next"));
-    EXPECT_THAT(refusal([&] { (void)queue.begin(a); }), HasSubstr("a is running"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("b does not come next"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("a is running"));
     queue.ended(outcome_of(JobEnd::done));
     EXPECT_EQ(queue.next()->id, b);
     run(b, JobEnd::done);
@@ -83,8 +83,8 @@ TEST_F(Three, AreHeldByOneThatDoesNotEndWell) {
         EXPECT_EQ(queue.held()->id, a);
         EXPECT_EQ(queue.held()->end, end);
         EXPECT_EQ(queue.held()->sentence, "it ended");
-        EXPECT_THAT(refusal([&] { (void)queue.begin(b); }), HasSubstr("does not come next"));
-        EXPECT_THAT(refusal([&] { (void)queue.begin(a); }), HasSubstr("a is held"));
+        EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("does not come next"));
+        EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("a is held"));
         queue.release(a); // a person has looked at the machine
         EXPECT_EQ(queue.next()->id, a);
     }
@@ -118,14 +118,14 @@ TEST_F(Three, KeepWhatIsKnownOfAJobThatCannotGoOn) {
 
 TEST_F(Three, AreMovedWhileTheyWait) {
     (void)queue.begin(a);
-    EXPECT_THAT(refusal([&] { queue.move(a, 1); }), HasSubstr("only a waiting job"));
+    EXPECT_THAT(queue_refusal([&] { queue.move(a, 1); }), HasSubstr("only a waiting job"));
     queue.move(c, 0);
     EXPECT_THAT(names(queue), ElementsAre("a running", "c waiting", "b waiting"));
     queue.move(c, 99);
     EXPECT_THAT(names(queue), ElementsAre("a running", "b waiting", "c waiting"));
-    EXPECT_THAT(refusal([&] { queue.remove(a); }), HasSubstr("is running"));
+    EXPECT_THAT(queue_refusal([&] { queue.remove(a); }), HasSubstr("is running"));
     queue.remove(b);
-    EXPECT_THAT(refusal([&] { queue.move(b, 0); }), HasSubstr("no longer in the queue"));
+    EXPECT_THAT(queue_refusal([&] { queue.move(b, 0); }), HasSubstr("no longer in the queue"));
     queue.ended(outcome_of(JobEnd::done));
     EXPECT_EQ(queue.next()->id, c);
 }
@@ -141,7 +141,7 @@ TEST_F(Three, CanBeBegunInTheirMiddleAfterAFault) {
         run(id, JobEnd::done);
     }
     run(d, JobEnd::fault);
-    EXPECT_THAT(refusal([&] { queue.load(d, small_job("d")); }), HasSubstr("another program"));
+    EXPECT_THAT(queue_refusal([&] { queue.load(d, small_job("d")); }), HasSubstr("another program"));
     queue.load(d, job_from_line(whole, 15, {}));
     EXPECT_EQ(queue.held()->from_line, 15);
     queue.release(d);
@@ -192,7 +192,7 @@ TEST(JobQueue, OutlivesItsProgram) {
 
     const QueuedJobId a = queue.held()->id;
     queue.release(a);
-    EXPECT_THAT(refusal([&] { (void)queue.begin(a); }), HasSubstr("was not loaded"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("was not loaded"));
     queue.load(a, small_job("a"));
     EXPECT_EQ(queue.begin(a).name, "a");
     EXPECT_GT(queue.add(small_job("d")), before[2].id);
@@ -201,7 +201,8 @@ TEST(JobQueue, OutlivesItsProgram) {
 TEST(JobQueue, BelongsToOneProgramAtATime) {
     const test::TemporaryFolder folder;
     const JobQueue queue(folder.path() / "queue.json");
-    EXPECT_THAT(refusal([&] { JobQueue(folder.path() / "queue.json"); }), HasSubstr("in use by another"));
+    EXPECT_THAT(queue_refusal([&] { JobQueue(folder.path() / "queue.json"); }),
+                HasSubstr("in use by another"));
 }
 
 TEST(JobQueue, RefusesFilesThatAreNone) {
@@ -236,7 +237,7 @@ TEST(JobQueue, KeepsItsRulesWhateverIsPressed) {
         return jobs.empty() ? QueuedJobId{} : jobs[random() % jobs.size()].id;
     };
     for (int n = 0; n < 2000; ++n) {
-        (void)refusal([&] {
+        (void)queue_refusal([&] {
             switch (random() % 8) {
             case 0:
                 (void)queue.add(small_job(std::to_string(n)));

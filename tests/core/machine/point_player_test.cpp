@@ -74,18 +74,18 @@ std::shared_ptr<const std::vector<Vec3>> diagonal() {
     return std::make_shared<const std::vector<Vec3>>(std::move(points));
 }
 
-struct Bench {
+struct PointPlayerBench {
     LateClock clock;
     KeptLink::Kept kept;
     kinematics::MachineModel model = test::machine("forming-table");
     PointPlayer player;
 
-    explicit Bench(const PlayerOptions& options = {.period = 0.04, .decimals = 2})
+    explicit PointPlayerBench(const PlayerOptions& options = {.period = 0.04, .decimals = 2})
         : player(std::make_unique<KeptLink>(kept, clock), clock, diagonal(), model, options) {}
 };
 
 TEST(PointPlayer, SendsOnePointAPeriod) {
-    Bench bench;
+    PointPlayerBench bench;
     const PlayStatus status = bench.player.play({});
     EXPECT_EQ(status.state, PlayState::done);
     ASSERT_EQ(bench.kept.records.size(), 36U);
@@ -103,7 +103,7 @@ TEST(PointPlayer, SendsOnePointAPeriod) {
 // The rest until the second point, 40 ms, begins with an awakening that is 30 ms late after 20 ms: that point
 // comes 10 ms late, the next one in its own time.
 TEST(PointPlayer, MeasuresDelaysAndDoesNotAddThemUp) {
-    Bench bench;
+    PointPlayerBench bench;
     bench.clock.late = 0.03;
     const PlayStatus status = bench.player.play({});
     EXPECT_NEAR(bench.kept.times.back() - bench.kept.times.front(), 1.4, 1e-9);
@@ -112,13 +112,13 @@ TEST(PointPlayer, MeasuresDelaysAndDoesNotAddThemUp) {
 }
 
 TEST(PointPlayer, PlaysFasterOrSlowerThanTheTime) {
-    Bench bench({.period = 0.04, .speed = 4.0});
+    PointPlayerBench bench({.period = 0.04, .speed = 4.0});
     (void)bench.player.play({});
     EXPECT_NEAR(bench.kept.times.back() - bench.kept.times.front(), 0.35, 1e-9);
 }
 
 TEST(PointPlayer, SendsNothingAfterAnEmergencyStop) {
-    Bench bench({.period = 0.4});
+    PointPlayerBench bench({.period = 0.4});
     std::size_t then = 0;
     const PlayStatus status = bench.player.play({}, [&](const PlayStatus& now) {
         EXPECT_NEAR(now.position.x(), (static_cast<double>(now.points) - 1.0) * 10.0 / 35.0, 1e-12);
@@ -135,7 +135,7 @@ TEST(PointPlayer, SendsNothingAfterAnEmergencyStop) {
 }
 
 TEST(PointPlayer, StopsForWhoAsksTheWorkToStop) {
-    Bench bench({.period = 0.4});
+    PointPlayerBench bench({.period = 0.4});
     std::stop_source stop;
     const PlayStatus status = bench.player.play(stop.get_token(), [&](const PlayStatus& now) {
         if (now.points == 5) {
@@ -147,13 +147,13 @@ TEST(PointPlayer, StopsForWhoAsksTheWorkToStop) {
 }
 
 TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
-    Bench complains({.period = 0.4});
+    PointPlayerBench complains({.period = 0.4});
     const PlayStatus said = complains.player.play(
         {}, [&](const PlayStatus& now) { complains.kept.says = now.points == 7 ? "limit Z\n" : ""; });
     EXPECT_EQ(complains.kept.records.size(), 7U);
     EXPECT_THAT(said.sentence, HasSubstr("the table said 'limit Z'"));
 
-    Bench goes({.period = 0.4});
+    PointPlayerBench goes({.period = 0.4});
     const PlayStatus gone = goes.player.play({}, [&](const PlayStatus& now) {
         if (now.points == 7) {
             goes.kept.lost = "unplugged";
@@ -165,7 +165,7 @@ TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
 
 TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
     const PlayerOptions asks = {.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok"}};
-    Bench slow(asks);
+    PointPlayerBench slow(asks);
     slow.kept.answer = "ok";
     slow.kept.answers_after = 0.3;
     const PlayStatus status = slow.player.play({});
@@ -177,7 +177,7 @@ TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
     }
     EXPECT_GT(status.jitter.most, 0.2);
 
-    Bench quick(asks);
+    PointPlayerBench quick(asks);
     quick.kept.answer = "ok";
     quick.kept.answers_after = 0.01;
     EXPECT_EQ(quick.player.play({}).state, PlayState::done);
@@ -185,7 +185,8 @@ TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
 }
 
 TEST(PointPlayer, StopsWhereNoAnswerComesInTime) {
-    Bench silent({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok", .patience = 1.0}});
+    PointPlayerBench silent(
+        {.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok", .patience = 1.0}});
     const PlayStatus status = silent.player.play({});
     EXPECT_EQ(status.state, PlayState::emergency_stop);
     EXPECT_EQ(status.sentence, "the table did not answer point 1 within 1 s");
@@ -193,7 +194,8 @@ TEST(PointPlayer, StopsWhereNoAnswerComesInTime) {
     EXPECT_EQ(status.sent, 1);
     EXPECT_EQ(status.points, 0);
 
-    Bench single({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok", .patience = 1.0}});
+    PointPlayerBench single(
+        {.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok", .patience = 1.0}});
     single.kept.answer = "ok";
     single.kept.answers_after = 0.01;
     bool said = false;
@@ -206,7 +208,7 @@ TEST(PointPlayer, StopsWhereNoAnswerComesInTime) {
 }
 
 TEST(PointPlayer, TellsWhereATableStandsThatRefusedAPoint) {
-    Bench bench({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok"}});
+    PointPlayerBench bench({.period = 0.04, .format = {.pattern = "{X} {Y}", .answer = "ok"}});
     bench.kept.answer = "ok";
     bench.kept.refused = 20;
     const PlayStatus status = bench.player.play({});
@@ -218,9 +220,9 @@ TEST(PointPlayer, TellsWhereATableStandsThatRefusedAPoint) {
 
 // Z stays 0 in these points, so that a record may leave it out; Y changes.
 TEST(PointPlayer, RefusesRecordsThatLeaveOutWhatChanges) {
-    EXPECT_NO_THROW(Bench({.period = 0.04, .format = {.pattern = "{X} {Y}"}}));
+    EXPECT_NO_THROW(PointPlayerBench({.period = 0.04, .format = {.pattern = "{X} {Y}"}}));
     try {
-        const Bench bench({.period = 0.04, .format = {.pattern = "{X} {Z}"}});
+        const PointPlayerBench bench({.period = 0.04, .format = {.pattern = "{X} {Z}"}});
         ADD_FAILURE() << "it is taken";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("does not tell Y, which the points change"));

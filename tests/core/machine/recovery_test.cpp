@@ -22,7 +22,7 @@ LogStart start_of(int blocks) {
     return start;
 }
 
-LogRecord record(LogEvent event, int executed, int line, int allowed = 0) {
+LogRecord log_record_of_line(LogEvent event, int executed, int line, int allowed = 0) {
     LogRecord result;
     result.event = event;
     result.executed_blocks = executed;
@@ -32,24 +32,24 @@ LogRecord record(LogEvent event, int executed, int line, int allowed = 0) {
     return result;
 }
 
-struct Bench {
+struct StoppedJobBench {
     test::ScratchFolder folder;
     std::optional<JobLog> log;
     std::filesystem::path file;
 
-    Bench() {
+    StoppedJobBench() {
         log.emplace(folder / "logs", "part");
         file = log->file();
         log->write(start_of(100));
-        log->write(record(LogEvent::ahead, 0, 1, 40));
-        log->write(record(LogEvent::executed, 12, 15));
-        log->write(record(LogEvent::ahead, 12, 15, 60));
+        log->write(log_record_of_line(LogEvent::ahead, 0, 1, 40));
+        log->write(log_record_of_line(LogEvent::executed, 12, 15));
+        log->write(log_record_of_line(LogEvent::ahead, 12, 15, 60));
     }
     [[nodiscard]] JobStory story() const { return job_story(file); }
 };
 
 TEST(Recovery, TellsARunningJobFromOneWhoseProgramWasKilled) {
-    Bench bench;
+    StoppedJobBench bench;
     EXPECT_TRUE(bench.story().running);
     EXPECT_FALSE(bench.story().broken_off());
     bench.log.reset(); // as the end of its program does
@@ -69,15 +69,15 @@ TEST(Recovery, AJobThatEndedInItsApproachGoesOnFromItsLine) {
     start.from_line = 30;
     JobLog log(folder / "logs", "part");
     log.write(start);
-    log.write(record(LogEvent::ahead, 0, 1, 7));
-    log.write(record(LogEvent::executed, 3, 4));
+    log.write(log_record_of_line(LogEvent::ahead, 0, 1, 7));
+    log.write(log_record_of_line(LogEvent::executed, 3, 4));
     EXPECT_EQ(job_story(log.file()).next_line, 30);
-    log.write(record(LogEvent::executed, 9, 33));
+    log.write(log_record_of_line(LogEvent::executed, 9, 33));
     EXPECT_EQ(job_story(log.file()).next_line, 33);
 }
 
 TEST(Recovery, RemembersThatAPersonHasSeenWhatBecameOfAJob) {
-    Bench bench;
+    StoppedJobBench bench;
     bench.log.reset();
     const std::string before = read_file(bench.file);
     EXPECT_FALSE(bench.story().seen);
@@ -89,8 +89,8 @@ TEST(Recovery, RemembersThatAPersonHasSeenWhatBecameOfAJob) {
 }
 
 TEST(Recovery, TellsHowAJobEnded) {
-    Bench bench;
-    LogRecord end = record(LogEvent::end, 12, 15);
+    StoppedJobBench bench;
+    LogRecord end = log_record_of_line(LogEvent::end, 12, 15);
     end.end = JobEnd::stopped;
     bench.log->write(end);
     EXPECT_FALSE(bench.story().running); // its end is written
@@ -99,7 +99,7 @@ TEST(Recovery, TellsHowAJobEnded) {
 }
 
 TEST(Recovery, LeavesOutALineThatWasCutOff) {
-    Bench bench;
+    StoppedJobBench bench;
     bench.log.reset();
     const std::string text = read_file(bench.file);
     write_file(bench.file, text + R"({"record":"executed","time_s":1,"executed_b)");
@@ -107,7 +107,7 @@ TEST(Recovery, LeavesOutALineThatWasCutOff) {
 }
 
 TEST(Recovery, ReadsAFolderAndNamesWhatIsNoLog) {
-    Bench bench;
+    StoppedJobBench bench;
     bench.log.reset();
     write_file(bench.folder / "logs" / "other.jsonl", "nonsense\n");
     write_file(bench.folder / "logs" / "notes.txt", "nonsense\n");

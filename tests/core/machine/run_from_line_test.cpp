@@ -65,7 +65,7 @@ private:
     bool coolant_ = false;
 };
 
-Recorder record(const std::string& text, int from, Dialect dialect) {
+Recorder recorded_from_line(const std::string& text, int from, Dialect dialect) {
     Recorder recorder(from);
     gcode::ReaderSettings settings;
     settings.dialect = dialect;
@@ -155,8 +155,8 @@ TEST(RunFromLine, DoesTheRestOfAnyProgramAsTheWholeWouldAndComesFromAbove) {
                 }
                 ++begun;
                 ASSERT_EQ(std::ranges::count(rest.text, '\n'), lines);
-                const Recorder whole = record(text, line, dialect);
-                const Recorder part = record(rest.text, line, dialect);
+                const Recorder whole = recorded_from_line(text, line, dialect);
+                const Recorder part = recorded_from_line(rest.text, line, dialect);
                 ASSERT_TRUE(texts(part.moves) == texts(whole.moves)) << rest.text << "line " << line;
                 for (std::size_t n = 0; n < part.moves.size(); ++n) {
                     for (const gcode::Axis axis : {gcode::Axis::x, gcode::Axis::y, gcode::Axis::z}) {
@@ -185,7 +185,7 @@ std::string with_head(const std::string& middle, const std::string& rest = "G1 X
     return "G21 G90 G94\nG0 X0 Y0 Z20\nM3 S100\nF100\n\n\n\n\n\n\n\n\n" + middle + rest;
 }
 
-std::string refusal(const std::string& text, int line, RunFromSettings settings = {}) {
+std::string start_line_refusal(const std::string& text, int line, RunFromSettings settings = {}) {
     try {
         (void)run_from_line(text, "test.ngc", line, settings);
     } catch (const Error& error) {
@@ -195,29 +195,32 @@ std::string refusal(const std::string& text, int line, RunFromSettings settings 
 }
 
 TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
-    EXPECT_THAT(refusal(with_head("G41 D1\nG1 X5\n"), 14), HasSubstr("cutter compensation"));
-    EXPECT_THAT(refusal(with_head("G81 X1 Z-1 R1\nX2\n"), 14), HasSubstr("canned cycle"));
-    EXPECT_THAT(refusal(with_head("o1 if [1]\nG1 X1\no1 endif\n"), 14), HasSubstr("subroutines or loops"));
-    EXPECT_THAT(refusal(with_head("#1=3\nG1 X#1\n"), 14), HasSubstr("parameters"));
-    EXPECT_THAT(refusal(with_head("G38.2 Z-5\n"), 14), HasSubstr("probes"));
-    EXPECT_THAT(refusal(with_head("G92 X0\n"), 14), HasSubstr("offsets"));
-    EXPECT_THAT(refusal(with_head("G10 L2 P2 X5\n"), 14), HasSubstr("offsets"));
-    EXPECT_THAT(refusal(with_head("G53 G0 Z0\n"), 14), HasSubstr("machine position"));
-    EXPECT_THAT(refusal(with_head("G28\nG0 X1 Y1\n"), 15), HasSubstr("tells Z since"));
+    EXPECT_THAT(start_line_refusal(with_head("G41 D1\nG1 X5\n"), 14), HasSubstr("cutter compensation"));
+    EXPECT_THAT(start_line_refusal(with_head("G81 X1 Z-1 R1\nX2\n"), 14), HasSubstr("canned cycle"));
+    EXPECT_THAT(start_line_refusal(with_head("o1 if [1]\nG1 X1\no1 endif\n"), 14),
+                HasSubstr("subroutines or loops"));
+    EXPECT_THAT(start_line_refusal(with_head("#1=3\nG1 X#1\n"), 14), HasSubstr("parameters"));
+    EXPECT_THAT(start_line_refusal(with_head("G38.2 Z-5\n"), 14), HasSubstr("probes"));
+    EXPECT_THAT(start_line_refusal(with_head("G92 X0\n"), 14), HasSubstr("offsets"));
+    EXPECT_THAT(start_line_refusal(with_head("G10 L2 P2 X5\n"), 14), HasSubstr("offsets"));
+    EXPECT_THAT(start_line_refusal(with_head("G53 G0 Z0\n"), 14), HasSubstr("machine position"));
+    EXPECT_THAT(start_line_refusal(with_head("G28\nG0 X1 Y1\n"), 15), HasSubstr("tells Z since"));
     const std::string blank(9, '\n');
-    EXPECT_THAT(refusal("G21 G90\nF600\nG0 X60 Y50\n" + blank + "G1 X61\nG1 X62\n", 14),
+    EXPECT_THAT(start_line_refusal("G21 G90\nF600\nG0 X60 Y50\n" + blank + "G1 X61\nG1 X62\n", 14),
                 HasSubstr("tells where Z is"));
-    EXPECT_THAT(refusal("G21 G90\nF600\nG0 Z5\nG91\n" + blank + "G1 X1 Y1\nG1 X1\n", 15),
+    EXPECT_THAT(start_line_refusal("G21 G90\nF600\nG0 Z5\nG91\n" + blank + "G1 X1 Y1\nG1 X1\n", 15),
                 HasSubstr("tells where X is"))
         << "ways alone lead from nowhere";
-    EXPECT_THAT(refusal(with_head("G2 X2 I1\n", "X4 I1\nM2\n"), 14), HasSubstr("arc or a spline"));
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 3), HasSubstr("takes 5 lines, and 2 stand above it"));
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 6), HasSubstr("takes 6 lines, and 5 stand above it"));
-    EXPECT_EQ(refusal(with_head("G1 X1\n"), 7), "");
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 99), HasSubstr("has 15 lines"));
-    EXPECT_THAT(refusal(with_head("M2\n"), 14), HasSubstr("ends at line 13"));
-    EXPECT_THAT(refusal(with_head("G1 X1\n"), 14, {.clearance = -5.0}), HasSubstr("is below"));
-    EXPECT_EQ(refusal(with_head("G28\nG0 X1 Y1 Z9\n"), 15), "");
+    EXPECT_THAT(start_line_refusal(with_head("G2 X2 I1\n", "X4 I1\nM2\n"), 14), HasSubstr("arc or a spline"));
+    EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 3),
+                HasSubstr("takes 5 lines, and 2 stand above it"));
+    EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 6),
+                HasSubstr("takes 6 lines, and 5 stand above it"));
+    EXPECT_EQ(start_line_refusal(with_head("G1 X1\n"), 7), "");
+    EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 99), HasSubstr("has 15 lines"));
+    EXPECT_THAT(start_line_refusal(with_head("M2\n"), 14), HasSubstr("ends at line 13"));
+    EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 14, {.clearance = -5.0}), HasSubstr("is below"));
+    EXPECT_EQ(start_line_refusal(with_head("G28\nG0 X1 Y1 Z9\n"), 15), "");
 }
 
 TEST(RunFromLine, TakesTheHighestRapidForItsClearance) {

@@ -27,7 +27,7 @@ ArmModel arm() {
     return test::arm("motoman-l3");
 }
 
-JointPositions degrees(double a, double b, double c, double d, double e) {
+JointPositions joints_in_degrees(double a, double b, double c, double d, double e) {
     JointPositions q(5);
     q << a, b, c, d, e;
     return q * (pi / 180.0);
@@ -35,8 +35,8 @@ JointPositions degrees(double a, double b, double c, double d, double e) {
 
 TEST(ArmMotion, AJointMoveTakesWhatItsSlowestJointNeeds) {
     const ArmModel model = arm();
-    ArmMotion motion(model, degrees(0, -90, 90, 0, 0));
-    motion.go_to(degrees(45, -80, 90, 0, 0));
+    ArmMotion motion(model, joints_in_degrees(0, -90, 90, 0, 0));
+    motion.go_to(joints_in_degrees(45, -80, 90, 0, 0));
     const Trajectory trajectory = plan(motion.program(), model, {}, {});
     const double velocity = 90.0, acceleration = 300.0; // of joint 1, deg/s and deg/s^2
     EXPECT_NEAR(trajectory.duration(), 45.0 / velocity + velocity / acceleration, 1e-9);
@@ -47,7 +47,8 @@ TEST(ArmMotion, ALineIsFollowedAtItsFeedWithinItsTolerance) {
     const ArmModel model = arm();
     const Vec3 a(800.0, -200.0, 100.0), b(800.0, 200.0, 100.0);
     const std::vector<ArmWay> ways{test::line_way(a, b, down, 20.0)};
-    const ArmPath path = kinematics::follow_path_well(model, ways, degrees(0, -90, 90, 0, 0), {}, {});
+    const ArmPath path =
+        kinematics::follow_path_well(model, ways, joints_in_degrees(0, -90, 90, 0, 0), {}, {});
     ArmMotion motion(model, path.points.front().joints);
     motion.follow(ways, path, "part.ngc");
     PlannerSettings settings;
@@ -70,7 +71,8 @@ TEST(ArmMotion, NoJointIsFasterThanItCanWhereThePathIsNearlySingular) {
     const ArmModel model = arm();
     const std::vector<ArmWay> ways{
         test::line_way(Vec3(2.0, -300.0, 700.0), Vec3(2.0, 300.0, 700.0), Vec3::UnitZ(), 200.0)};
-    const ArmPath path = kinematics::follow_path_well(model, ways, degrees(0, -90, 90, 0, 0), {}, {});
+    const ArmPath path =
+        kinematics::follow_path_well(model, ways, joints_in_degrees(0, -90, 90, 0, 0), {}, {});
     ASSERT_TRUE(path.whole());
     ArmMotion motion(model, path.points.front().joints);
     motion.follow(ways, path, "part.ngc");
@@ -89,7 +91,7 @@ TEST(ArmMotion, NoJointIsFasterThanItCanWhereThePathIsNearlySingular) {
 TEST(ArmMotion, RefusesWhatTheArmCannotFollowWithItsLine) {
     std::vector<ArmWay> ways{test::line_way(Vec3(1400.0, 0.0, 0.0), Vec3(1500.0, 0.0, 0.0), down)};
     ways.front().line = 17;
-    const JointPositions rest = degrees(0, -90, 90, 0, 0);
+    const JointPositions rest = joints_in_degrees(0, -90, 90, 0, 0);
     const ArmPath path = kinematics::follow_path_well(arm(), ways, rest, {}, {});
     const ArmModel model = arm();
     ArmMotion motion(model, rest);
@@ -104,9 +106,9 @@ TEST(ArmMotion, RefusesWhatTheArmCannotFollowWithItsLine) {
 
 TEST(ArmMotion, RefusesJointsBeyondTheirLimits) {
     const ArmModel model = arm();
-    ArmMotion motion(model, degrees(0, -90, 90, 0, 0));
+    ArmMotion motion(model, joints_in_degrees(0, -90, 90, 0, 0));
     try {
-        motion.go_to(degrees(0, 70, 90, 0, 0));
+        motion.go_to(joints_in_degrees(0, 70, 90, 0, 0));
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(to_text(error.diagnostic()),

@@ -22,7 +22,7 @@ ArmModel l3() {
     return kinematics::read_arm("assets/arms/motoman-l3.json").arm;
 }
 
-JointPositions degrees(double a, double b, double c, double d, double e) {
+JointPositions joints_from_degrees(double a, double b, double c, double d, double e) {
     JointPositions joints(5);
     joints << from_degrees(a), from_degrees(b), from_degrees(c), from_degrees(d), from_degrees(e);
     return joints;
@@ -111,8 +111,8 @@ TEST(ArmTourC6, NamesThePointThatItCannotGoTo) {
     EXPECT_THAT(refusal(to("Drill", beside_home(179), false, 1.0)), testing::HasSubstr("'Drill' cannot be"));
     EXPECT_THAT(refusal(to("Scara", JointPositions::Zero(4), false, 1.0)), testing::HasSubstr("4 joints"));
     // a line to the other side leads through the base
-    std::vector<ArmStop> stops = to("Back", degrees(140, -90, 90, 0, 0), false, 1.0);
-    add(stops, "Front", degrees(-40, -90, 90, 0, 0), true, 1.0);
+    std::vector<ArmStop> stops = to("Back", joints_from_degrees(140, -90, 90, 0, 0), false, 1.0);
+    add(stops, "Front", joints_from_degrees(-40, -90, 90, 0, 0), true, 1.0);
     EXPECT_THAT(refusal(stops), testing::HasSubstr("'Front' cannot be"));
 }
 

@@ -13,8 +13,8 @@ namespace {
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
-constexpr int samples = 2'000;
-constexpr double corner_time = 0.002;
+constexpr int hold_samples = 2'000;
+constexpr double hold_corner_time = 0.002;
 
 struct Case {
     MachineModel machine = test::machine("rotary-tilt-listing");
@@ -29,8 +29,8 @@ void expect_seamless(const Sample& before, const Sample& after) {
 
 /// Every sample lies on the straight way of its block.
 void expect_on_path(const Trajectory& trajectory) {
-    for (int k = 0; k <= samples; ++k) {
-        const Sample sample = trajectory.at(trajectory.duration() * k / samples);
+    for (int k = 0; k <= hold_samples; ++k) {
+        const Sample sample = trajectory.at(trajectory.duration() * k / hold_samples);
         const auto n = static_cast<std::size_t>(sample.block);
         const AxisPositions a = trajectory.path().positions[n];
         const AxisPositions b = trajectory.path().positions[n + 1];
@@ -48,7 +48,7 @@ TEST(Hold, BrakesFromAnyMomentToRestOnThePathWithinTheLimits) {
             SCOPED_TRACE("seed " + std::to_string(seed) + " time " + std::to_string(time));
             const Trajectory braking = brake(c.planned, time);
             expect_seamless(c.planned.at(time), braking.at(0.0));
-            test::expect_within_limits(braking, c.machine, corner_time, samples);
+            test::expect_within_limits(braking, c.machine, hold_corner_time, hold_samples);
             expect_on_path(braking);
             EXPECT_EQ(braking.at(braking.duration()).velocity.norm(), 0.0);
             EXPECT_LE(braking.duration(), c.planned.duration() - time + 1e-9);
@@ -68,7 +68,7 @@ TEST(Hold, RejoinsThePlanFromRestAndFromTheMidstOfBraking) {
             const double pause = braking.duration() * (k % 2 == 0 ? 1.0 : share(random));
             const Trajectory again = go_on(braking, pause, {});
             expect_seamless(braking.at(pause), again.at(0.0));
-            test::expect_within_limits(again, c.machine, corner_time, samples);
+            test::expect_within_limits(again, c.machine, hold_corner_time, hold_samples);
             expect_on_path(again);
             EXPECT_EQ(again.at(again.duration()).position, c.planned.at(c.planned.duration()).position);
             EXPECT_GE(time + pause + again.duration(), c.planned.duration() - 1e-9);

@@ -66,9 +66,9 @@ void add_differences(
     use.samples += count;
 }
 
-constexpr double most = 1.0 + 1e-9;
+constexpr double most_by_formula = 1.0 + 1e-9;
 constexpr double most_by_differences = 1.0 + 1e-4; // rounding of positions over h^3
-constexpr double step = 0.002;                     // s, of the differences
+constexpr double difference_step = 0.002;          // s, of the differences
 
 void expect_kept(const Use& use, double bound) {
     EXPECT_LE(use.velocity, bound);
@@ -111,11 +111,14 @@ MachineModel machine_of(const Kind& kind) {
     return test::with_jerk(MachineModel(std::move(description)), kind.jerk_rate);
 }
 
-Trajectory planned(const Kind& kind, const MachineModel& machine, unsigned seed) {
+Trajectory random_planned(const Kind& kind, const MachineModel& machine, unsigned seed) {
     PlannerSettings settings;
     settings.path = {kind.mode, kind.tolerance};
     return plan(test::random_program(machine, 150, seed), machine, settings, {});
 }
+
+// motion has AxisLimits, too.
+namespace kept_limits {
 
 class AxisLimits : public testing::TestWithParam<Kind> {};
 
@@ -124,11 +127,11 @@ TEST_P(AxisLimits, HoldAtEveryMoment) {
     Use seen;
     const MachineModel machine = machine_of(GetParam());
     for (unsigned seed = 1; seed <= 15; ++seed) {
-        const Trajectory trajectory = planned(GetParam(), machine, seed);
+        const Trajectory trajectory = random_planned(GetParam(), machine, seed);
         add_samples(said, trajectory, trajectory.duration(), machine, 10'000, seed);
-        add_differences(seen, trajectory, trajectory.duration(), machine, 2'000, step);
+        add_differences(seen, trajectory, trajectory.duration(), machine, 2'000, difference_step);
     }
-    expect_kept(said, most);
+    expect_kept(said, most_by_formula);
     expect_kept(seen, most_by_differences);
     expect_used(said, GetParam().jerk_rate);
 }
@@ -172,13 +175,13 @@ TEST_P(AxisLimits, HoldWhileFeedsAreChangedAndMotionsHeld) {
     Use seen;
     const MachineModel machine = machine_of(GetParam());
     for (unsigned seed = 1; seed <= 15; ++seed) {
-        const Trajectory trajectory = planned(GetParam(), machine, seed);
+        const Trajectory trajectory = random_planned(GetParam(), machine, seed);
         const Ride ride = random_ride(trajectory, seed);
         add_samples(said, ride, ride.end, machine, 10'000, seed);
-        add_differences(seen, ride, ride.end, machine, 2'000, step);
+        add_differences(seen, ride, ride.end, machine, 2'000, difference_step);
         EXPECT_EQ(ride.at(ride.end).position, trajectory.at(trajectory.duration()).position);
     }
-    expect_kept(said, most);
+    expect_kept(said, most_by_formula);
     expect_kept(seen, most_by_differences);
 }
 
@@ -197,6 +200,8 @@ INSTANTIATE_TEST_SUITE_P(Planner,
                                          Kind{"XYZABC", 20.0, PathMode::continuous, 0.1},
                                          Kind{"rotary-tilt-listing", 20.0, PathMode::exact_stop, 0.0}),
                          name_of);
+
+} // namespace kept_limits
 
 } // namespace
 } // namespace millwright::motion

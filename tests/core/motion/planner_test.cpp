@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/kinematics/forward.h"
 #include "core/motion/hold.h"
+#include "tests/core/motion/listing_machine.h"
 #include "tests/support/motions.h"
 #include "tests/support/samples.h"
 
@@ -21,57 +22,55 @@ using gcode::BlockKind;
 using gcode::Program;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
+using test::listing_machine;
 
-// The rotary-tilt machine: X 250 mm/s, 1500 mm/s^2; Y the same; Z 200 mm/s, 1200 mm/s^2.
-MachineModel machine() {
-    return test::machine("rotary-tilt-listing");
-}
-
-AxisPositions at(double x, double y = 0.0, double z = 0.0) {
+AxisPositions at_xyz(double x, double y = 0.0, double z = 0.0) {
     AxisPositions q = AxisPositions::Zero(5);
     q.head<3>() << x, y, z;
     return q;
 }
 
 Program moves(const std::vector<AxisPositions>& targets, double duration = 0.0) {
-    Program program = test::empty_program(machine());
+    Program program = test::empty_program(listing_machine());
     for (const AxisPositions& target : targets) {
         test::add_move(program, target, duration);
     }
     return program;
 }
 
-Trajectory planned(const Program& program, const PlannerSettings& settings = {}) {
-    return plan(program, machine(), settings, {});
+Trajectory planned_path(const Program& program, const PlannerSettings& settings = {}) {
+    return plan(program, listing_machine(), settings, {});
 }
 
-constexpr double rounding_s = 1e-12;
+constexpr double planner_rounding_s = 1e-12;
 
 TEST(Planner, DrivesALongRapidAsATrapezoid) {
-    EXPECT_NEAR(planned(moves({at(100.0)})).duration(), 100.0 / 250.0 + 250.0 / 1500.0, rounding_s);
+    EXPECT_NEAR(
+        planned_path(moves({at_xyz(100.0)})).duration(), 100.0 / 250.0 + 250.0 / 1500.0, planner_rounding_s);
 }
 
 TEST(Planner, DrivesAShortRapidAsATriangle) {
-    EXPECT_NEAR(planned(moves({at(10.0)})).duration(), 2.0 * std::sqrt(10.0 / 1500.0), rounding_s);
+    EXPECT_NEAR(
+        planned_path(moves({at_xyz(10.0)})).duration(), 2.0 * std::sqrt(10.0 / 1500.0), planner_rounding_s);
 }
 
 TEST(Planner, TakesAFeedAsTheTopSpeedAndAddsTheRamps) {
-    EXPECT_NEAR(planned(moves({at(50.0)}, 5.0)).duration(), 5.0 + 10.0 / 1500.0, rounding_s);
+    EXPECT_NEAR(planned_path(moves({at_xyz(50.0)}, 5.0)).duration(), 5.0 + 10.0 / 1500.0, planner_rounding_s);
 }
 
 TEST(Planner, KeepsToTheSlowestAxisOfADiagonal) {
     // Z is the slower one in both: 200 and 1200.
-    const Trajectory trajectory = planned(moves({at(100.0, 0.0, 100.0)}));
-    EXPECT_NEAR(trajectory.duration(), 100.0 / 200.0 + 200.0 / 1200.0, rounding_s);
+    const Trajectory trajectory = planned_path(moves({at_xyz(100.0, 0.0, 100.0)}));
+    EXPECT_NEAR(trajectory.duration(), 100.0 / 200.0 + 200.0 / 1200.0, planner_rounding_s);
     EXPECT_EQ(trajectory.limit_of(0).limit, Limit::axis_velocity);
     EXPECT_EQ(trajectory.limit_of(0).axis, 2);
 }
 
 TEST(Planner, SaysWhatKeepsABlockFromBeingFaster) {
-    Program program = moves({at(1.0)});
-    test::add_move(program, at(101.0), 5.0);
+    Program program = moves({at_xyz(1.0)});
+    test::add_move(program, at_xyz(101.0), 5.0);
     test::add_block(program, BlockKind::dwell);
-    const Trajectory trajectory = planned(program);
+    const Trajectory trajectory = planned_path(program);
     EXPECT_EQ(trajectory.limit_of(0).limit, Limit::axis_acceleration);
     EXPECT_EQ(trajectory.limit_of(0).axis, 0);
     EXPECT_EQ(trajectory.limit_of(1).limit, Limit::programmed_feed);
@@ -82,15 +81,15 @@ TEST(Planner, SaysWhatKeepsABlockFromBeingFaster) {
 TEST(Planner, DoesNotNoticeThatAStraightWayIsCutIntoBlocks) {
     std::vector<AxisPositions> steps;
     for (int n = 1; n <= 200; ++n) {
-        steps.push_back(at(0.5 * n, 0.25 * n, -0.125 * n));
+        steps.push_back(at_xyz(0.5 * n, 0.25 * n, -0.125 * n));
     }
-    EXPECT_NEAR(planned(moves(steps)).duration(), planned(moves({steps.back()})).duration(), 1e-9);
+    EXPECT_NEAR(planned_path(moves(steps)).duration(), planned_path(moves({steps.back()})).duration(), 1e-9);
 }
 
 TEST(Planner, TurnsACornerWithTheAllowedStepAndNoMore) {
     PlannerSettings settings;
     settings.corner_time = 0.004;
-    const Trajectory trajectory = planned(moves({at(50.0), at(50.0, 50.0)}), settings);
+    const Trajectory trajectory = planned_path(moves({at_xyz(50.0), at_xyz(50.0, 50.0)}), settings);
     const double corner = trajectory.end_of(0);
     const Sample before = trajectory.at(corner - 1e-9);
     const Sample after = trajectory.at(corner + 1e-9);
@@ -102,24 +101,25 @@ TEST(Planner, TurnsACornerWithTheAllowedStepAndNoMore) {
 TEST(Planner, StopsInEveryCornerIfAskedTo) {
     PlannerSettings exact;
     exact.path.mode = gcode::PathMode::exact_stop;
-    const double one = planned(moves({at(50.0)})).duration();
-    EXPECT_NEAR(
-        planned(moves({at(50.0), at(100.0), at(100.0, 50.0)}), exact).duration(), 3.0 * one, rounding_s);
+    const double one = planned_path(moves({at_xyz(50.0)})).duration();
+    EXPECT_NEAR(planned_path(moves({at_xyz(50.0), at_xyz(100.0), at_xyz(100.0, 50.0)}), exact).duration(),
+                3.0 * one,
+                planner_rounding_s);
 }
 
 TEST(Planner, ObeysThePathModeOfEachBlock) {
-    const double one = planned(moves({at(50.0)})).duration();
-    const double through = planned(moves({at(100.0)})).duration();
-    Program program = moves({at(50.0), at(100.0), at(150.0)});
+    const double one = planned_path(moves({at_xyz(50.0)})).duration();
+    const double through = planned_path(moves({at_xyz(100.0)})).duration();
+    Program program = moves({at_xyz(50.0), at_xyz(100.0), at_xyz(150.0)});
     program.blocks[0].path = gcode::PathControl{gcode::PathMode::exact_stop, 0.0};
-    EXPECT_NEAR(planned(program).duration(), one + through, rounding_s);
+    EXPECT_NEAR(planned_path(program).duration(), one + through, planner_rounding_s);
 }
 
 TEST(Planner, RoundsACornerWithoutAnyStepOfVelocity) {
-    Program program = moves({at(50.0), at(50.0, 50.0)}, 1.0);
-    const double exact = planned(program).duration();
+    Program program = moves({at_xyz(50.0), at_xyz(50.0, 50.0)}, 1.0);
+    const double exact = planned_path(program).duration();
     program.blocks[0].path = gcode::PathControl{gcode::PathMode::continuous, 0.1};
-    const Trajectory rounded = planned(program);
+    const Trajectory rounded = planned_path(program);
     EXPECT_LT(rounded.duration(), exact);
     const double corner = rounded.end_of(0);
     EXPECT_EQ(rounded.limit_at(corner).limit, Limit::corner);
@@ -128,19 +128,19 @@ TEST(Planner, RoundsACornerWithoutAnyStepOfVelocity) {
 }
 
 TEST(Planner, RestsBetweenRapidAndFeedOfAContinuousPath) {
-    Program program = moves({at(50.0)});
-    test::add_move(program, at(50.0, 50.0), 1.0);
+    Program program = moves({at_xyz(50.0)});
+    test::add_move(program, at_xyz(50.0, 50.0), 1.0);
     program.blocks[0].path = gcode::PathControl{gcode::PathMode::continuous, 1.0};
-    const Trajectory trajectory = planned(program);
+    const Trajectory trajectory = planned_path(program);
     EXPECT_EQ(trajectory.at(trajectory.end_of(0)).velocity.norm(), 0.0);
-    EXPECT_EQ(trajectory.at(trajectory.end_of(0)).position, at(50.0));
+    EXPECT_EQ(trajectory.at(trajectory.end_of(0)).position, at_xyz(50.0));
 }
 
 TEST(Planner, PassesACornerByJunctionDeviation) {
     PlannerSettings settings;
     settings.corner_rule = CornerRule::junction_deviation;
     settings.junction_deviation = 0.02;
-    const Trajectory trajectory = planned(moves({at(50.0), at(50.0, 50.0)}), settings);
+    const Trajectory trajectory = planned_path(moves({at_xyz(50.0), at_xyz(50.0, 50.0)}), settings);
     // A right angle: sin(45 deg); X and Y can do 1500 each, so 1500 * sqrt(2) in the direction of the change.
     const double sine = std::sqrt(0.5);
     const double speed = std::sqrt(1500.0 * std::sqrt(2.0) * 0.02 * sine / (1.0 - sine));
@@ -149,33 +149,36 @@ TEST(Planner, PassesACornerByJunctionDeviation) {
 
 /// With a jerk that takes 1 / rate seconds to reach the acceleration.
 Trajectory planned_with_jerk(const Program& program, double rate) {
-    return plan(program, test::with_jerk(machine(), rate), {}, {});
+    return plan(program, test::with_jerk(listing_machine(), rate), {}, {});
 }
 
 TEST(Planner, NeedsForALimitOfJerkTheTimeOfItsFilterAtEachRest) {
-    const Program once = moves({at(100.0)});
-    EXPECT_NEAR(planned_with_jerk(once, 20.0).duration(), planned(once).duration() + 0.1, rounding_s);
-    Program twice = moves({at(100.0)});
+    const Program once = moves({at_xyz(100.0)});
+    EXPECT_NEAR(
+        planned_with_jerk(once, 20.0).duration(), planned_path(once).duration() + 0.1, planner_rounding_s);
+    Program twice = moves({at_xyz(100.0)});
     test::add_block(twice, BlockKind::dwell);
     twice.blocks.back().duration = 1.5;
-    test::add_move(twice, at(200.0));
+    test::add_move(twice, at_xyz(200.0));
     const Trajectory trajectory = planned_with_jerk(twice, 20.0);
-    EXPECT_NEAR(trajectory.duration(), 2.0 * planned_with_jerk(once, 20.0).duration() + 1.5, rounding_s);
-    EXPECT_NEAR(trajectory.end_of(1) - trajectory.start_of(1), 1.5, rounding_s);
+    EXPECT_NEAR(
+        trajectory.duration(), 2.0 * planned_with_jerk(once, 20.0).duration() + 1.5, planner_rounding_s);
+    EXPECT_NEAR(trajectory.end_of(1) - trajectory.start_of(1), 1.5, planner_rounding_s);
     EXPECT_EQ(trajectory.at(trajectory.start_of(1)).velocity.norm(), 0.0);
-    EXPECT_EQ(trajectory.at(trajectory.end_of(1)).position, at(100.0));
+    EXPECT_EQ(trajectory.at(trajectory.end_of(1)).position, at_xyz(100.0));
 }
 
 TEST(Planner, LimitsTheJerkOnlyOfAxesThatMove) {
-    kinematics::MachineDescription description = machine().description();
+    kinematics::MachineDescription description = listing_machine().description();
     description.table.front().max_jerk = 1e-3; // a rotary axis
     const MachineModel slow_table(std::move(description));
-    const Program program = moves({at(100.0)});
-    EXPECT_NEAR(plan(program, slow_table, {}, {}).duration(), planned(program).duration(), rounding_s);
+    const Program program = moves({at_xyz(100.0)});
+    EXPECT_NEAR(
+        plan(program, slow_table, {}, {}).duration(), planned_path(program).duration(), planner_rounding_s);
 }
 
 TEST(Planner, SaysThatTheJerkKeepsAMoveFromBeingFaster) {
-    const Trajectory trajectory = planned_with_jerk(moves({at(100.0)}), 20.0);
+    const Trajectory trajectory = planned_with_jerk(moves({at_xyz(100.0)}), 20.0);
     EXPECT_EQ(trajectory.limit_at(0.05).limit, Limit::axis_jerk);
     EXPECT_EQ(trajectory.limit_at(0.05).axis, 0);
     EXPECT_EQ(trajectory.limit_at(0.13).limit, Limit::axis_acceleration);
@@ -196,7 +199,7 @@ void expect_rest_in_pauses(const Program& program, const Trajectory& trajectory,
 
 TEST(Planner, RestsInEveryPauseWhateverComesAfterIt) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        const MachineModel model = test::with_jerk(machine(), seed % 2 == 0 ? 30.0 : 1e9);
+        const MachineModel model = test::with_jerk(listing_machine(), seed % 2 == 0 ? 30.0 : 1e9);
         Program program = test::random_program(model, 200, seed);
         for (std::size_t n = 10; n < program.blocks.size(); n += 7) { // instead of nothing that stops
             gcode::Block& block = program.blocks[n];
@@ -216,7 +219,7 @@ TEST(Planner, RestsInEveryPauseWhateverComesAfterIt) {
 
 TEST(Planner, IsNeverSlowerThanWithALookAheadOf16Blocks) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        const MachineModel model = test::with_jerk(machine(), seed % 2 == 0 ? 30.0 : 1e9);
+        const MachineModel model = test::with_jerk(listing_machine(), seed % 2 == 0 ? 30.0 : 1e9);
         const Program program = test::random_program(model, 200, seed);
         PlannerSettings settings;
         settings.path = {seed % 3 == 0 ? gcode::PathMode::exact_path : gcode::PathMode::continuous, 0.01};
@@ -256,13 +259,15 @@ TEST(Planner, IsMuchFasterThanWithALookAheadOf16BlocksWhereBlocksAreShort) {
 TEST(Planner, StopsAfterEachMoveWithALookAheadOfOneBlock) {
     PlannerSettings settings;
     settings.look_ahead = 1;
-    const double one = planned(moves({at(50.0)})).duration();
-    EXPECT_NEAR(planned(moves({at(50.0), at(100.0), at(150.0)}), settings).duration(), 3.0 * one, rounding_s);
+    const double one = planned_path(moves({at_xyz(50.0)})).duration();
+    EXPECT_NEAR(planned_path(moves({at_xyz(50.0), at_xyz(100.0), at_xyz(150.0)}), settings).duration(),
+                3.0 * one,
+                planner_rounding_s);
 }
 
 /// A cut on a dome, each block with the feed of its tip.
 TEST(Planner, NeverTakesTheTipFasterOverThePartThanTheFeed) {
-    const MachineModel model = machine();
+    const MachineModel model = listing_machine();
     Program program = test::post_over("dome", model, 8, 8).program;
     PlannerSettings settings;
     settings.feed_rule = FeedRule::on_part;
@@ -285,7 +290,7 @@ TEST(Planner, RefusesSettingsWithoutSense) {
     const auto refused = [&](auto change) {
         PlannerSettings settings;
         change(settings);
-        EXPECT_THROW((void)planned(moves({at(1.0)}), settings), Defect);
+        EXPECT_THROW((void)planned_path(moves({at_xyz(1.0)}), settings), Defect);
     };
     refused([](PlannerSettings& s) { s.corner_time = -1.0; });
     refused([](PlannerSettings& s) { s.junction_deviation = -1.0; });
@@ -295,47 +300,48 @@ TEST(Planner, RefusesSettingsWithoutSense) {
 }
 
 TEST(Planner, StandsForADwellAndStopsForTheSpindleButNotForAComment) {
-    const double through = planned(moves({at(100.0)})).duration();
-    const double half = planned(moves({at(50.0)})).duration();
+    const double through = planned_path(moves({at_xyz(100.0)})).duration();
+    const double half = planned_path(moves({at_xyz(50.0)})).duration();
     const auto with = [&](BlockKind kind) {
-        Program program = moves({at(50.0)});
+        Program program = moves({at_xyz(50.0)});
         test::add_block(program, kind);
         program.blocks.back().duration = kind == BlockKind::dwell ? 1.5 : 0.0;
-        test::add_move(program, at(100.0));
-        return planned(program).duration();
+        test::add_move(program, at_xyz(100.0));
+        return planned_path(program).duration();
     };
-    EXPECT_NEAR(with(BlockKind::comment), through, rounding_s);
-    EXPECT_NEAR(with(BlockKind::spindle_on), 2.0 * half, rounding_s);
-    EXPECT_NEAR(with(BlockKind::dwell), 2.0 * half + 1.5, rounding_s);
+    EXPECT_NEAR(with(BlockKind::comment), through, planner_rounding_s);
+    EXPECT_NEAR(with(BlockKind::spindle_on), 2.0 * half, planner_rounding_s);
+    EXPECT_NEAR(with(BlockKind::dwell), 2.0 * half + 1.5, planner_rounding_s);
 }
 
 TEST(Planner, SpendsNoTimeOnMovesOfNoLength) {
-    const Trajectory trajectory = planned(moves({at(50.0), at(50.0), at(50.0), at(100.0)}));
-    EXPECT_NEAR(trajectory.duration(), planned(moves({at(100.0)})).duration(), rounding_s);
+    const Trajectory trajectory =
+        planned_path(moves({at_xyz(50.0), at_xyz(50.0), at_xyz(50.0), at_xyz(100.0)}));
+    EXPECT_NEAR(trajectory.duration(), planned_path(moves({at_xyz(100.0)})).duration(), planner_rounding_s);
     EXPECT_EQ(trajectory.end_of(1) - trajectory.start_of(1), 0.0);
 }
 
 TEST(Planner, LeavesAxesThatABlockDoesNotNameWhereTheyAre) {
-    Program program = moves({at(10.0, 20.0, 30.0)});
+    Program program = moves({at_xyz(10.0, 20.0, 30.0)});
     program.blocks[0].named = gcode::AxisSet::only(2);
-    const Trajectory trajectory = plan(program, machine(), {}, {}, at(1.0, 2.0, 3.0));
-    EXPECT_EQ(trajectory.at(0.0).position, at(1.0, 2.0, 3.0));
-    EXPECT_EQ(trajectory.at(trajectory.duration()).position, at(1.0, 2.0, 30.0));
+    const Trajectory trajectory = plan(program, listing_machine(), {}, {}, at_xyz(1.0, 2.0, 3.0));
+    EXPECT_EQ(trajectory.at(0.0).position, at_xyz(1.0, 2.0, 3.0));
+    EXPECT_EQ(trajectory.at(trajectory.duration()).position, at_xyz(1.0, 2.0, 30.0));
 }
 
 TEST(Planner, NeverExceedsALimitOnAnyProgram) {
     for (unsigned seed = 1; seed <= 20 && !HasFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const MachineModel model = machine();
-        const Trajectory trajectory = planned(test::random_program(model, 150, seed));
+        const MachineModel model = listing_machine();
+        const Trajectory trajectory = planned_path(test::random_program(model, 150, seed));
         test::expect_within_limits(trajectory, model, 0.002, 10'000);
     }
 }
 
 TEST(Planner, NeverExceedsALimitOnADome) {
-    const MachineModel model = machine();
+    const MachineModel model = listing_machine();
     const Program program = test::post_over("dome", model, 20, 20).program;
-    test::expect_within_limits(planned(program), model, 0.002, 50'000);
+    test::expect_within_limits(planned_path(program), model, 0.002, 50'000);
 }
 
 /// The greatest speeds on a chain of straight ways, cut into many small steps: relaxed until nothing changes.
@@ -399,31 +405,37 @@ double relaxed_duration(const std::vector<AxisPositions>& corners, double corner
 
 TEST(Planner, IsAsFastAsABruteForceSearch) {
     // X and Y are alike, so that a millimetre counts the same on every leg.
-    const std::vector<AxisPositions> corners{
-        at(0.0), at(30.0), at(30.5, 0.2), at(31.0, 0.4), at(31.0, 5.0), at(80.0, 6.0), at(81.0, 90.0)};
+    const std::vector<AxisPositions> corners{at_xyz(0.0),
+                                             at_xyz(30.0),
+                                             at_xyz(30.5, 0.2),
+                                             at_xyz(31.0, 0.4),
+                                             at_xyz(31.0, 5.0),
+                                             at_xyz(80.0, 6.0),
+                                             at_xyz(81.0, 90.0)};
     Program program = moves({corners.begin() + 1, corners.end()});
-    const double exact = planned(program).duration();
+    const double exact = planned_path(program).duration();
     EXPECT_NEAR(relaxed_duration(corners, 0.002), exact, 1e-3 * exact);
 }
 
 TEST(Planner, RefusesAProgramOfOtherAxes) {
-    Program program = moves({at(1.0)});
+    Program program = moves({at_xyz(1.0)});
     program.axes[3].letter = 'C';
-    EXPECT_THROW((void)planned(program), Error);
+    EXPECT_THROW((void)planned_path(program), Error);
     program.axes.pop_back();
-    EXPECT_THROW((void)planned(program), Error);
+    EXPECT_THROW((void)planned_path(program), Error);
 }
 
 TEST(Planner, RefusesTargetsThatAreNotFinite) {
-    Program program = moves({at(1.0)});
+    Program program = moves({at_xyz(1.0)});
     program.blocks[0].target[1] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW((void)planned(program), Defect);
+    EXPECT_THROW((void)planned_path(program), Defect);
 }
 
 TEST(Planner, CanBeCancelled) {
     std::stop_source source;
     source.request_stop();
-    EXPECT_THROW((void)plan(moves({at(1.0)}), machine(), {}, Progress({}, source.get_token())), Cancelled);
+    EXPECT_THROW((void)plan(moves({at_xyz(1.0)}), listing_machine(), {}, Progress({}, source.get_token())),
+                 Cancelled);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/motion/hold.h"
 #include "core/motion/planner.h"
+#include "tests/core/motion/listing_machine.h"
 #include "tests/support/motions.h"
 #include "tests/support/without_traps.h"
 
@@ -16,24 +17,16 @@ namespace millwright::motion {
 namespace {
 
 using kinematics::AxisPositions;
-
-kinematics::MachineModel machine() {
-    return test::machine("rotary-tilt-listing");
-}
-
-AxisPositions at(double x, double y = 0.0) {
-    AxisPositions q = AxisPositions::Zero(5);
-    q.head<2>() << x, y;
-    return q;
-}
+using test::at_xy;
+using test::listing_machine;
 
 /// Feeds through `targets`, 1 s each.
-Trajectory feeds(const std::vector<AxisPositions>& targets) {
-    gcode::Program program = test::empty_program(machine());
+Trajectory planned_feeds(const std::vector<AxisPositions>& targets) {
+    gcode::Program program = test::empty_program(listing_machine());
     for (const AxisPositions& target : targets) {
         test::add_move(program, target, 1.0);
     }
-    return plan(program, machine(), {}, {});
+    return plan(program, listing_machine(), {}, {});
 }
 
 StepSettings hundred_a_mm() {
@@ -57,7 +50,7 @@ Pulsed pulsed(const Trajectory& trajectory, const StepSettings& settings) {
 }
 
 TEST(StepPulses, AreAsManyAsTheWayHasSteps) {
-    const Pulsed found = pulsed(feeds({at(10.0, -5.0), at(4.0, -5.0)}), hundred_a_mm());
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0, -5.0), at_xy(4.0, -5.0)}), hundred_a_mm());
     EXPECT_EQ(found.axes[0].pulses, 1600);
     EXPECT_EQ(found.axes[0].reversals, 1);
     EXPECT_EQ(found.axes[1].pulses, 500);
@@ -84,12 +77,12 @@ void expect_half_a_step(const Trajectory& trajectory) {
 }
 
 TEST(StepPulses, KeepTheMotorWithinHalfAStepOfThePlanAtEveryMoment) {
-    const auto model = machine();
+    const auto model = listing_machine();
     expect_half_a_step(plan(test::random_program(model, 60, 7), model, {}, {}));
 }
 
 TEST(StepPulses, FollowRoundedCornersWhereAnAxisTurnsBackWithinABlock) {
-    const auto model = test::with_jerk(machine(), 20.0);
+    const auto model = test::with_jerk(listing_machine(), 20.0);
     PlannerSettings rounded;
     rounded.path = {gcode::PathMode::continuous, 5.0};
     rounded.rounding_angle = 0.1;
@@ -103,7 +96,7 @@ TEST(StepPulses, AreInOrderAndApart) {
     StepSettings settings = hundred_a_mm();
     settings.timer_frequency = 20'000.0;
     settings.min_interval = 3;
-    const Pulsed found = pulsed(feeds({at(50.0, 20.0), at(0.0, 0.0)}), settings);
+    const Pulsed found = pulsed(planned_feeds({at_xy(50.0, 20.0), at_xy(0.0, 0.0)}), settings);
     std::vector<std::int64_t> last(5, -3);
     for (const StepPulse& pulse : found.pulses) {
         std::int64_t& before = last[static_cast<std::size_t>(pulse.axis)];
@@ -113,7 +106,7 @@ TEST(StepPulses, AreInOrderAndApart) {
 }
 
 TEST(StepPulses, AreOffByHalfATickAtMostWhereTheTimerIsFastEnough) {
-    const Pulsed found = pulsed(feeds({at(10.0)}), hundred_a_mm());
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), hundred_a_mm());
     EXPECT_EQ(found.axes[0].late, 0);
     EXPECT_LE(found.axes[0].max_jitter, 0.5e-6 + 1e-15);
     EXPECT_GT(found.axes[0].rms_jitter, 0.2e-6);
@@ -121,12 +114,12 @@ TEST(StepPulses, AreOffByHalfATickAtMostWhereTheTimerIsFastEnough) {
 }
 
 TEST(StepPulses, SayHowFastTheyCome) {
-    const Pulsed found = pulsed(feeds({at(10.0)}), hundred_a_mm()); // 10 mm/s
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), hundred_a_mm()); // 10 mm/s
     EXPECT_NEAR(found.axes[0].max_frequency, 1000.0, 1e-3);
     StepSettings slow = hundred_a_mm();
     slow.timer_frequency = 2500.0; // a pulse in 2 or in 3 ticks
     slow.min_interval = 1;
-    EXPECT_NEAR(pulsed(feeds({at(10.0)}), slow).axes[0].given_frequency, 1250.0, 1e-9);
+    EXPECT_NEAR(pulsed(planned_feeds({at_xy(10.0)}), slow).axes[0].given_frequency, 1250.0, 1e-9);
 }
 
 TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
@@ -134,7 +127,7 @@ TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
     settings.timer_frequency = 1000.0; // 1000 pulses a second need one every tick
     settings.min_interval = 2;
     settings.jitter_limit = 1e-3;
-    const Pulsed found = pulsed(feeds({at(10.0)}), settings);
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), settings);
     EXPECT_GT(found.axes[0].late, 900);
     EXPECT_GT(found.axes[0].over_limit, 900);
     EXPECT_NEAR(found.axes[0].max_jitter, 1.0, 0.05);
@@ -146,15 +139,16 @@ TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
 TEST(StepPulses, TellTheBlockFromWhichTheTimerDoesNotKeepUp) {
     StepSettings settings = hundred_a_mm();
     settings.timer_frequency = 1000.0;
-    EXPECT_EQ(pulsed(feeds({at(3.0), at(6.0), at(16.0)}), settings).axes[0].overrun_block, 2);
-    EXPECT_EQ(pulsed(feeds({at(3.0), at(0.0), at(3.0)}), settings).axes[0].overrun_block, -1)
+    EXPECT_EQ(pulsed(planned_feeds({at_xy(3.0), at_xy(6.0), at_xy(16.0)}), settings).axes[0].overrun_block,
+              2);
+    EXPECT_EQ(pulsed(planned_feeds({at_xy(3.0), at_xy(0.0), at_xy(3.0)}), settings).axes[0].overrun_block, -1)
         << "back over the same step at once is one pulse that waits";
 }
 
 TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
-    gcode::Program program = test::empty_program(machine());
-    test::add_move(program, at(0.019), 1.0);
-    const Trajectory trajectory = plan(program, machine(), {}, {}, at(0.004));
+    gcode::Program program = test::empty_program(listing_machine());
+    test::add_move(program, at_xy(0.019), 1.0);
+    const Trajectory trajectory = plan(program, listing_machine(), {}, {}, at_xy(0.004));
     const Pulsed found = pulsed(trajectory, hundred_a_mm());
     ASSERT_EQ(found.pulses.size(), 2U); // over 0.005 and 0.015
     EXPECT_EQ(found.pulses[1].position, 2);
@@ -162,7 +156,7 @@ TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
 }
 
 TEST(StepPulses, OfAHoldEndWhereItComesToRestAndGoOnFromThere) {
-    const Trajectory whole = feeds({at(10.0), at(20.0, 10.0)});
+    const Trajectory whole = planned_feeds({at_xy(10.0), at_xy(20.0, 10.0)});
     const StepSettings settings = hundred_a_mm();
     const Trajectory braking = brake(whole, 0.7 * whole.duration());
     const Trajectory rest = go_on(braking, braking.duration(), {});
@@ -188,7 +182,7 @@ TEST(StepPulses, OfALongBlockComeInOrderAndInSmallParts) {
             ++count;
         }
     };
-    (void)step_pulses(feeds({at(8.0, -6.0)}), settings, look, {});
+    (void)step_pulses(planned_feeds({at_xy(8.0, -6.0)}), settings, look, {});
     EXPECT_EQ(count, 80'000 + 42'000);
     EXPECT_TRUE(ascends);
     EXPECT_LE(most, 4096U);
@@ -196,7 +190,7 @@ TEST(StepPulses, OfALongBlockComeInOrderAndInSmallParts) {
 
 TEST(StepPulses, RefuseSettingsWithoutSense) {
     const test::WithoutTraps numbers_that_are_none;
-    const Trajectory trajectory = feeds({at(1.0)});
+    const Trajectory trajectory = planned_feeds({at_xy(1.0)});
     const auto refused = [&](auto change) {
         StepSettings settings = hundred_a_mm();
         change(settings);

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/narrow_parts.h"
+#include "tests/core/plot/circle_ring.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
@@ -14,19 +15,13 @@
 namespace millwright::plot {
 namespace {
 
-Ring square(double lower, double upper) {
+using test::circle_ring;
+
+Ring square_ring(double lower, double upper) {
     return {{lower, lower}, {upper, lower}, {upper, upper}, {lower, upper}};
 }
 
-Ring circle(double radius, int count) {
-    Ring ring;
-    for (int n = 0; n < count; ++n) {
-        ring.push_back(radius * Vec2(std::cos(2.0 * pi * n / count), std::sin(2.0 * pi * n / count)));
-    }
-    return ring;
-}
-
-double distance_to(const Region& region, const Vec2& p) {
+double distance_to_region(const Region& region, const Vec2& p) {
     double least = std::numeric_limits<double>::max();
     for (const Ring& ring : region) {
         for (std::size_t n = 0; n < ring.size(); ++n) {
@@ -40,18 +35,20 @@ double distance_to(const Region& region, const Vec2& p) {
 
 // The two jobs of the KMITL thesis of 2006: 412 mm around the square, 323.58 mm around the circle.
 TEST(Compensation, PathsOfTheThesisHaveTheirLengths) {
-    const Strokes around = compensated({square(0.0, 100.0)}, {.tool_diameter = 3.0});
+    const Strokes around = compensated({square_ring(0.0, 100.0)}, {.tool_diameter = 3.0});
     ASSERT_EQ(around.size(), 1U);
     EXPECT_NEAR(draw_length(around), 412.0, 1e-5);
-    const Strokes ring = compensated({circle(50.0, 3600)}, {.tool_diameter = 3.0});
+    const Strokes ring = compensated({circle_ring(50.0, 3600)}, {.tool_diameter = 3.0});
     EXPECT_NEAR(draw_length(ring), 323.58, 0.01);
     for (const Vec2& p : ring.at(0).points) {
         EXPECT_NEAR(p.norm(), 51.5, 1e-4);
     }
-    EXPECT_NEAR(draw_length(compensated({square(0.0, 100.0)}, {.side = CutterSide::inside})), 388.0, 1e-5);
-    EXPECT_NEAR(draw_length(compensated({square(0.0, 100.0)}, {.side = CutterSide::on_line})), 400.0, 1e-12);
+    EXPECT_NEAR(
+        draw_length(compensated({square_ring(0.0, 100.0)}, {.side = CutterSide::inside})), 388.0, 1e-5);
+    EXPECT_NEAR(
+        draw_length(compensated({square_ring(0.0, 100.0)}, {.side = CutterSide::on_line})), 400.0, 1e-12);
     const Strokes rounded =
-        compensated({square(0.0, 100.0)}, {.tool_diameter = 3.0, .corners = Corners::round});
+        compensated({square_ring(0.0, 100.0)}, {.tool_diameter = 3.0, .corners = Corners::round});
     EXPECT_NEAR(draw_length(rounded), 400.0 + 2.0 * pi * 1.5, 0.02);
 }
 
@@ -70,7 +67,7 @@ TEST(Compensation, BeginsWhereTheDrawingDoesAndKeepsItsOrder) {
 }
 
 TEST(Compensation, HolesAreKeptAndThoseTooSmallHaveNoPath) {
-    const Region plate = {square(0.0, 100.0), square(30.0, 70.0), square(10.0, 12.0)};
+    const Region plate = {square_ring(0.0, 100.0), square_ring(30.0, 70.0), square_ring(10.0, 12.0)};
     const Strokes paths = compensated(plate, {.tool_diameter = 3.0});
     ASSERT_EQ(paths.size(), 2U);
     EXPECT_NEAR(draw_length(paths), 412.0 + 4.0 * 37.0, 1e-5);
@@ -78,8 +75,11 @@ TEST(Compensation, HolesAreKeptAndThoseTooSmallHaveNoPath) {
 
 // A frame of 2 mm with a square of 10 mm in it, and a square of 20 mm with a hole of 2 mm.
 TEST(Compensation, PartsThatTheToolDoesNotFitIntoAreCounted) {
-    const Region drawing = {
-        square(0.0, 40.0), square(2.0, 38.0), square(10.0, 20.0), square(50.0, 70.0), square(55.0, 57.0)};
+    const Region drawing = {square_ring(0.0, 40.0),
+                            square_ring(2.0, 38.0),
+                            square_ring(10.0, 20.0),
+                            square_ring(50.0, 70.0),
+                            square_ring(55.0, 57.0)};
     const auto too_narrow = [&](CutterSide side, double diameter) {
         return count_narrow_parts(drawing, {.tool_diameter = diameter, .side = side});
     };
@@ -108,8 +108,8 @@ TEST(Compensation, NothingIsCutTooFar) {
                 EXPECT_EQ(path.points.front(), path.points.back());
                 for (std::size_t n = 1; n < path.points.size(); ++n) {
                     const Vec2 middle = (path.points[n] + path.points[n - 1]) / 2.0;
-                    EXPECT_GT(distance_to(region, path.points[n]), 2.0 - 1e-4) << trial;
-                    EXPECT_GT(distance_to(region, middle), 2.0 - 1e-4) << trial;
+                    EXPECT_GT(distance_to_region(region, path.points[n]), 2.0 - 1e-4) << trial;
+                    EXPECT_GT(distance_to_region(region, middle), 2.0 - 1e-4) << trial;
                     EXPECT_EQ(contains(region, middle), side == CutterSide::inside) << trial;
                 }
             }
@@ -118,7 +118,7 @@ TEST(Compensation, NothingIsCutTooFar) {
 }
 
 TEST(Compensation, ContoursFillAPocket) {
-    const Strokes contours = contour_hatch({square(0.0, 20.0)}, 1.0, 2.0);
+    const Strokes contours = contour_hatch({square_ring(0.0, 20.0)}, 1.0, 2.0);
     ASSERT_EQ(contours.size(), 5U); // sides of 18, 14, 10, 6, 2
     EXPECT_NEAR(draw_length(contours), 4.0 * (18.0 + 14.0 + 10.0 + 6.0 + 2.0), 1e-5);
     EXPECT_NEAR(length(contours.front()), 72.0, 1e-5);
@@ -126,9 +126,9 @@ TEST(Compensation, ContoursFillAPocket) {
 
 TEST(Compensation, RefusesWhatHasNoPath) {
     const millwright::test::WithoutTraps no_traps;
-    const Region region = {square(0.0, 10.0)};
+    const Region region = {square_ring(0.0, 10.0)};
     EXPECT_THROW(static_cast<void>(compensated(region, {.tool_diameter = 0.0})), Error);
-    EXPECT_THROW(static_cast<void>(compensated({square(0.0, 1e7)}, {})), Error);
+    EXPECT_THROW(static_cast<void>(compensated({square_ring(0.0, 1e7)}, {})), Error);
     EXPECT_THROW(static_cast<void>(compensated({{{0.0, 0.0}, {std::nan(""), 0.0}, {1.0, 1.0}}}, {})), Error);
     EXPECT_THROW(static_cast<void>(contour_hatch(region, 1.0, 0.0)), Error);
     EXPECT_THROW(static_cast<void>(contour_hatch(region, 0.0, 1e-7)), Error);

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "tests/core/plot/circle_ring.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
@@ -13,13 +14,7 @@
 namespace millwright::plot {
 namespace {
 
-Ring circle(double radius, int count) {
-    Ring ring;
-    for (int n = 0; n < count; ++n) {
-        ring.push_back(radius * Vec2(std::cos(2.0 * pi * n / count), std::sin(2.0 * pi * n / count)));
-    }
-    return ring;
-}
+using test::circle_ring;
 
 // The hatch levels printed in the KMITL thesis of 2006: floor(63.5 k) plotter units.
 TEST(Hatching, LevelsAreThoseOfTheThesis) {
@@ -34,7 +29,7 @@ TEST(Hatching, LevelsAreThoseOfTheThesis) {
 }
 
 TEST(Hatching, LengthTimesPitchIsTheAreaAtAnyAngle) {
-    const Region ring = {circle(30.0, 720), circle(12.0, 360)};
+    const Region ring = {circle_ring(30.0, 720), circle_ring(12.0, 360)};
     const double area = pi * (30.0 * 30.0 - 12.0 * 12.0);
     for (double deg = 0.0; deg < 180.0; deg += 15.0) {
         const Strokes strokes = hatch(ring, {.pitch = 0.05, .angle = from_degrees(deg)});

@@ -15,7 +15,7 @@
 namespace millwright::plot {
 namespace {
 
-Strokes strokes_of(const std::string& hpgl) {
+Strokes strokes_of_hpgl(const std::string& hpgl) {
     return read_hpgl(hpgl, "thesis.plt").strokes;
 }
 
@@ -24,12 +24,12 @@ Linked linked(const Strokes& strokes, double distance) {
 }
 
 TEST(GapLinking, HatchesOfTheThesisJoinAsComputed) {
-    const Linked fb = linked(strokes_of(test::hatch_fb()), 3.0);
+    const Linked fb = linked(strokes_of_hpgl(test::hatch_fb()), 3.0);
     EXPECT_EQ(fb.strokes.size(), 1U);
     EXPECT_EQ(fb.links, 5);
     EXPECT_NEAR(fb.link_length, 1.6 + 1.575 + 1.6 + 1.575 + 1.6, 1e-9);
 
-    const Strokes fcd = strokes_of(test::hatch_fc_fd());
+    const Strokes fcd = strokes_of_hpgl(test::hatch_fc_fd());
     EXPECT_EQ(linked(fcd, 3.0).links, 8);
     EXPECT_EQ(linked(fcd, 3.0).strokes.size(), 5U);
     EXPECT_EQ(linked(fcd, 3.02).links, 9);
@@ -37,7 +37,7 @@ TEST(GapLinking, HatchesOfTheThesisJoinAsComputed) {
 }
 
 TEST(GapLinking, PenUpStepOfTheListingJoinsAtThreeAndStaysAtLess) {
-    const Strokes strokes = strokes_of(test::listing_later_part());
+    const Strokes strokes = strokes_of_hpgl(test::listing_later_part());
     EXPECT_EQ(linked(strokes, 3.0).strokes.size(), 1U);
     EXPECT_EQ(linked(strokes, 2.7).strokes.size(), 2U);
 }
@@ -50,7 +50,7 @@ TEST(GapLinking, IsStrict) {
 }
 
 TEST(GapLinking, KeepsTheWholeLength) {
-    const Strokes strokes = strokes_of(test::hatch_fc_fd());
+    const Strokes strokes = strokes_of_hpgl(test::hatch_fc_fd());
     const Vec2 origin = Vec2::Zero();
     const double before = draw_length(strokes) + air_length(strokes, origin, origin);
     const Strokes joined = linked(strokes, 3.0).strokes;
@@ -116,7 +116,7 @@ TEST(GapLinking, SafeModeKnowsAHoleFromTheFaceAroundIt) {
 }
 
 TEST(GapLinking, ClosedStrokesAreOutlines) {
-    const Strokes strokes = strokes_of("SP1;PU0,0;PD400,0,400,400,0,400,0,0;PU100,100;PD200,100;");
+    const Strokes strokes = strokes_of_hpgl("SP1;PU0,0;PD400,0,400,400,0,400,0,0;PU100,100;PD200,100;");
     const std::vector<Ring> outlines = closed_outlines(strokes);
     ASSERT_EQ(outlines.size(), 1U);
     EXPECT_EQ(outlines[0].size(), 4U);
@@ -217,7 +217,7 @@ constexpr const char* holed_star = "IN;SP1;PU7575,6000;PD9153,7519,6982,7231,677
                                    "5845,5595,5706,5706,5595,5845,5524,"
                                    "6000,5500,6155,5524,6294,5595,6405,5706,6476,5845,6500,6000;PU;SP0;";
 
-double distance_to(const Vec2& a, const Vec2& b, const Vec2& p) {
+double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
     const Vec2 way = b - a;
     const double t = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
     return (a + t * way - p).norm();
@@ -232,7 +232,8 @@ double least_distance(const Strokes& cut, const Strokes& drawn) {
                 const Vec2 p = stroke.points[n - 1] + k / 16.0 * (stroke.points[n] - stroke.points[n - 1]);
                 for (const Stroke& outline : drawn) {
                     for (std::size_t m = 1; m < outline.points.size(); ++m) {
-                        least = std::min(least, distance_to(outline.points[m - 1], outline.points[m], p));
+                        least =
+                            std::min(least, distance_to_segment(outline.points[m - 1], outline.points[m], p));
                     }
                 }
             }
@@ -242,7 +243,7 @@ double least_distance(const Strokes& cut, const Strokes& drawn) {
 }
 
 TEST(GapLinking, LinksOfACompensatedToolStayItsRadiusFromTheOutline) {
-    const Strokes drawn = strokes_of(holed_star);
+    const Strokes drawn = strokes_of_hpgl(holed_star);
     for (const bool order : {false, true}) {
         for (const double link : {3.0, 6.0}) {
             SCOPED_TRACE(link);

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace millwright::plot::test {
+namespace millwright::test {
 
 struct At {
     int x = 0;
@@ -75,4 +75,4 @@ inline std::string listing_later_part() {
                                                                                 {3638, 3758}});
 }
 
-} // namespace millwright::plot::test
+} // namespace millwright::test

@@ -32,6 +32,13 @@ TEST(Assets, AreFoundAboveTheExecutable) {
     EXPECT_EQ(assets_folder({{}, scratch / "share/build/release/millwright", {}}), scratch / "share/assets");
 }
 
+TEST(Assets, AreFoundWhereTheProgramIsInstalled) {
+    const test::ScratchFolder scratch;
+    fs::create_directories(scratch / "usr/share/millwright/assets/machines");
+    EXPECT_EQ(assets_folder({{}, scratch / "usr/bin/millwright", {}}),
+              scratch / "usr/share/millwright/assets");
+}
+
 TEST(Assets, TheUsersFolderComesBeforeAllOthers) {
     const test::ScratchFolder scratch;
     fs::create_directories(scratch / "mine/machines");

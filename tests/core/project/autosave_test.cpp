@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::hours for_ever{24};
 
-UnsavedWork work(int nodes) {
+UnsavedWork unsaved_dome(int nodes) {
     UnsavedWork result{project_from_preset("dome"), "/part.json", 7};
     result.project.grid.nu = nodes;
     return result;
@@ -39,7 +39,7 @@ TEST(Autosave, TheLastStateIsFoundAfterTheProgramWasKilled) {
     if (child == 0) {
         Autosave autosave(scratch.path(), for_ever);
         for (int nodes = 10; nodes <= 30; ++nodes) {
-            autosave.keep(work(nodes));
+            autosave.keep(unsaved_dome(nodes));
         }
         autosave.wait_idle();
         (void)::raise(SIGKILL);
@@ -50,16 +50,16 @@ TEST(Autosave, TheLastStateIsFoundAfterTheProgramWasKilled) {
     ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
     const auto found = left_behind(scratch.path());
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found.front().work(), work(30));
+    EXPECT_EQ(found.front().work(), unsaved_dome(30));
 }
 
 TEST(Autosave, NothingStaysBehindWhenNothingIsUnsaved) {
     const test::ScratchFolder scratch;
     Autosave autosave(scratch.path(), for_ever);
-    autosave.keep(work(10));
+    autosave.keep(unsaved_dome(10));
     autosave.wait_idle();
     EXPECT_EQ(copies_in(scratch.path()), 1);
-    autosave.keep(work(11));
+    autosave.keep(unsaved_dome(11));
     autosave.drop();
     autosave.wait_idle();
     EXPECT_EQ(copies_in(scratch.path()), 0);
@@ -69,20 +69,20 @@ TEST(Autosave, WritesWhatIsStillToBeWrittenWhenItEnds) {
     const test::ScratchFolder scratch;
     {
         Autosave autosave(scratch.path(), for_ever);
-        autosave.keep(work(10));
+        autosave.keep(unsaved_dome(10));
         autosave.wait_idle();
-        autosave.keep(work(11));
+        autosave.keep(unsaved_dome(11));
     }
     const auto found = left_behind(scratch.path());
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found.front().work(), work(11));
+    EXPECT_EQ(found.front().work(), unsaved_dome(11));
 }
 
 TEST(Autosave, TellsOnceWhyItCannotWrite) {
     const test::ScratchFolder scratch;
     Autosave autosave(scratch / "recovery", for_ever);
     fs::remove_all(scratch / "recovery");
-    autosave.keep(work(10));
+    autosave.keep(unsaved_dome(10));
     autosave.wait_idle();
     const auto failure = autosave.take_failure();
     ASSERT_TRUE(failure.has_value());

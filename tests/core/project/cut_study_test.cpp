@@ -41,17 +41,17 @@ Project plane(int nu, int nv) {
     return project;
 }
 
-Plan studied(Project project, const ToolInput& tool) {
+Plan studied_cut(Project project, const ToolInput& tool) {
     project.tool = tool;
     Plan plan = make_plan(project, {{}, assets_folder()}, {}, Scope::program);
     add_cut_study(plan, project, {});
     return plan;
 }
 
-const ToolInput ball{.cutter = CutterKind::ball, .diameter_mm = 8.0};
+const ToolInput ball_tool{.cutter = CutterKind::ball, .diameter_mm = 8.0};
 
 TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
-    const Plan plan = studied(plane(5, 11), ball); // tracks 4 mm apart
+    const Plan plan = studied_cut(plane(5, 11), ball_tool); // tracks 4 mm apart
     const CutStudy& found = *plan.cut;
     const double exact = 4.0 - std::sqrt(16.0 - 4.0);
     EXPECT_NEAR(found.scallops.max, exact, 2e-3);
@@ -74,10 +74,10 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
     project.grid.nu = 6;
     project.grid.nv = 30;
     project.grid.method = GridMethod::uniform;
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.diameter_mm = 60.0;
     tool.length_mm = 100.0;
-    const Plan plan = studied(project, tool);
+    const Plan plan = studied_cut(project, tool);
     const CutStudy& thick = *plan.cut;
     ASSERT_FALSE(thick.bites.empty());
     EXPECT_FALSE(thick.local_gouges.empty());
@@ -94,16 +94,16 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
 
     tool.diameter_mm = 1.0;
     tool.gouge_limit_mm = 0.5;
-    const Plan with_thin = studied(project, tool);
+    const Plan with_thin = studied_cut(project, tool);
     const CutStudy& thin = *with_thin.cut;
     EXPECT_LT(thin.local_gouges.size(), thick.local_gouges.size());
     EXPECT_LT(thin.deepest, 0.2 * thick.deepest);
 }
 
 TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
-    ToolInput narrow = ball;
+    ToolInput narrow = ball_tool;
     narrow.diameter_mm = 1.0; // tracks 20 mm apart leave most of the plane as it is
-    const Plan plan = studied(plane(5, 3), narrow);
+    const Plan plan = studied_cut(plane(5, 3), narrow);
     const CutStudy& found = *plan.cut;
     EXPECT_GT(found.scallops.not_cut, 0.5);
     std::istringstream lines(surface_csv(*plan.workpiece, found.swept));
@@ -125,7 +125,7 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
 TEST(CutStudy, TheMapHasNoPointOutsideOfTheOutline) {
     Project project = plane(5, 11);
     project.surface.trims = {{{{{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}}}}};
-    const Plan plan = studied(project, ball);
+    const Plan plan = studied_cut(project, ball_tool);
     std::istringstream lines(surface_csv(*plan.workpiece, plan.cut->swept));
     std::string line;
     std::getline(lines, line);
@@ -140,9 +140,9 @@ TEST(CutStudy, TheMapHasNoPointOutsideOfTheOutline) {
 TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
     Project project = plane(5, 11);
     project.toolpath.strategy = StrategyInput::constant_scallop;
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.scallop_mm = 0.1;
-    const Plan flat = studied(project, tool);
+    const Plan flat = studied_cut(project, tool);
     project.tool = tool;
     EXPECT_LT(flat.cut->scallops.max, 1.01 * tool.scallop_mm);
     EXPECT_EQ(why_higher(project, flat), "");
@@ -150,7 +150,7 @@ TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
         nlohmann::json::parse(cut_report_text(project, flat)).at("scallop_mm").at("why_higher").is_null());
 
     project.surface = project_from_preset("two-bell").surface;
-    const Plan bent = studied(project, tool); // moves of 20 mm over the bells
+    const Plan bent = studied_cut(project, tool); // moves of 20 mm over the bells
     EXPECT_THAT(why_higher(project, bent), testing::HasSubstr("5 points a track are too few, about "));
     const auto report = nlohmann::json::parse(cut_report_text(project, bent));
     EXPECT_EQ(report.at("scallop_mm").at("wanted"), 0.1);
@@ -173,9 +173,9 @@ std::set<std::string> members_of(const nlohmann::json& json) {
 TEST(CutStudy, EveryMemberOfItsFileIsInTheReference) {
     Project project = plane(5, 11);
     project.surface = project_from_preset("two-bell").surface; // where the ball gouges
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.diameter_mm = 60.0;
-    const Plan plan = studied(project, tool);
+    const Plan plan = studied_cut(project, tool);
     project.tool = tool;
     const auto report = nlohmann::json::parse(cut_report_text(project, plan));
     ASSERT_FALSE(report.at("bites").empty() || report.at("local_gouges").empty());
@@ -190,9 +190,9 @@ TEST(CutStudy, AsksForNoMorePointsThanAGridMayHave) {
     project.toolpath.strategy = StrategyInput::constant_scallop;
     project.surface = project_from_preset("two-bell").surface;
     project.machine.file = "ac-table"; // its moves swing
-    ToolInput tool = ball;
+    ToolInput tool = ball_tool;
     tool.scallop_mm = 1.0;
-    Plan plan = studied(project, tool);
+    Plan plan = studied_cut(project, tool);
     tool.scallop_mm = project.tool.scallop_mm = 1e-3; // the tracks for it would take minutes
     project.tool = tool;
     EXPECT_THAT(why_higher(project, plan),
@@ -207,9 +207,9 @@ TEST(CutStudy, FormulaKnowsPartedTracks) {
     project.toolpath.strategy = StrategyInput::constant_scallop;
     for (const auto direction : {grid::TrackDirection::along_u, grid::TrackDirection::along_v}) {
         project.grid.direction = direction;
-        ToolInput tool = ball;
+        ToolInput tool = ball_tool;
         tool.scallop_mm = 0.1;
-        const Plan plan = studied(project, tool);
+        const Plan plan = studied_cut(project, tool);
         const toolpath::Toolpath& path = plan.path->toolpath;
         std::map<int, int> points; // by track
         for (const toolpath::PathPoint& point : path.points) {
@@ -226,24 +226,24 @@ TEST(CutStudy, FormulaKnowsPartedTracks) {
 TEST(CutStudy, FormulaKnowsTheRoundsOfASpiral) {
     Project project = plane(5, 11);
     project.toolpath.strategy = StrategyInput::spiral;
-    const CutStudy& found = *studied(project, ball).cut;
+    const CutStudy& found = *studied_cut(project, ball_tool).cut;
     EXPECT_NEAR(found.scallops.by_formula, 100.0 / (8.0 * 4.0), 1e-9);
     EXPECT_GT(found.scallops.max, 1.0) << "what is left between them is no surface that was never cut";
 }
 
 TEST(CutStudy, OfAPointIsNone) {
     const Project project = plane(3, 3);
-    const Plan plan = studied(project, {});
+    const Plan plan = studied_cut(project, {});
     EXPECT_EQ(plan.cut, nullptr);
     EXPECT_THROW((void)study_cut(plan, project, {}), Error);
 }
 
 /// The formula says 100 mm of tracks 40 mm apart, where nothing was cut: no ridge is higher than the ball.
 TEST(CutStudy, WhatTracksFarApartLeaveIsNotCutAndNotHigherThanTheCutterIsWide) {
-    ToolInput narrow = ball;
+    ToolInput narrow = ball_tool;
     narrow.diameter_mm = 4.0;
     Project project = plane(5, 2);
-    const Plan plan = studied(project, narrow);
+    const Plan plan = studied_cut(project, narrow);
     project.tool = narrow;
     const CutStudy& found = *plan.cut;
     EXPECT_NEAR(found.scallops.by_formula, 1600.0 / (8.0 * 2.0), 1e-9);
@@ -259,7 +259,7 @@ TEST(CutStudy, WhatTracksFarApartLeaveIsNotCutAndNotHigherThanTheCutterIsWide) {
 
 TEST(CutStudy, WhereAllIsCutTheHighestThatIsLeftIsTold) {
     const Project project = plane(5, 11);
-    const Plan plan = studied(project, ball);
+    const Plan plan = studied_cut(project, ball_tool);
     ASSERT_EQ(plan.cut->scallops.not_cut, 0.0);
     EXPECT_FALSE(left_at_least(plan));
     EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("at most "));
@@ -272,7 +272,7 @@ TEST(CutStudy, MeasuresTheGapBetweenTracksOfDifferentPoints) {
     project.surface = project_from_preset("two-bell").surface;
     project.machine.file = "ac-table";
     project.grid.nu = 20;
-    project.tool = ball;
+    project.tool = ball_tool;
     project.tool.diameter_mm = 2.0;
     const auto highest = [&](double largest_step_deg) {
         project.sequencing.largest_step_deg = largest_step_deg;

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,14 +12,13 @@
 namespace millwright::project {
 namespace {
 
+using test::asset_folders;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const Folders folders{{}, "assets"};
-
 TEST(FewestPointsStudy, TheTwoBellsNeedNotOnePointMoreThanAPrototype) {
     constexpr std::array tolerances{0.5};
-    const auto rows = fewest_points({}, tolerances, folders, Progress());
+    const auto rows = fewest_points({}, tolerances, asset_folders, Progress());
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_LE(rows[0].fewest.value(), 138);
     EXPECT_GE(rows[0].uniform.value(), 5 * rows[0].fewest.value());
@@ -32,7 +32,7 @@ TEST(FewestPointsStudy, IsTheSameOnAnyNumberOfThreads) {
     std::vector<std::string> texts;
     for (const int threads : {1, 3}) {
         set_thread_count(threads);
-        texts.push_back(fewest_points_csv(of, fewest_points(of, tolerances, folders, Progress())));
+        texts.push_back(fewest_points_csv(of, fewest_points(of, tolerances, asset_folders, Progress())));
     }
     set_thread_count(0);
     EXPECT_EQ(texts[0], texts[1]);
@@ -42,13 +42,14 @@ TEST(FewestPointsStudy, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(FewestPointsStudy, RefusesWhatItDoesNotKnowAndCanBeCancelled) {
     constexpr std::array tolerances{0.5};
-    EXPECT_THROW((void)fewest_points({"dune"}, tolerances, folders, Progress()), Error);
-    EXPECT_THROW((void)fewest_points({"dome", "no-machine"}, tolerances, folders, Progress()), Error);
+    EXPECT_THROW((void)fewest_points({"dune"}, tolerances, asset_folders, Progress()), Error);
+    EXPECT_THROW((void)fewest_points({"dome", "no-machine"}, tolerances, asset_folders, Progress()), Error);
     constexpr std::array none{0.0};
-    EXPECT_THROW((void)fewest_points({}, none, folders, Progress()), Defect);
+    EXPECT_THROW((void)fewest_points({}, none, asset_folders, Progress()), Defect);
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW((void)fewest_points({}, tolerances, folders, Progress({}, stop.get_token())), Cancelled);
+    EXPECT_THROW((void)fewest_points({}, tolerances, asset_folders, Progress({}, stop.get_token())),
+                 Cancelled);
 }
 
 } // namespace

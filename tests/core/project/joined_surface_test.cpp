@@ -19,7 +19,7 @@ geometry::ControlNet flat(const Vec2& a, const Vec2& b, const Vec2& c, const Vec
 }
 
 /// Squares of 10 mm beside each other with gaps.
-SurfaceInput row_of(int count, double gap) {
+SurfaceInput row_of_squares(int count, double gap) {
     SurfaceInput surface;
     for (int n = 0; n < count; ++n) {
         const double x = n * (10.0 + gap);
@@ -30,7 +30,7 @@ SurfaceInput row_of(int count, double gap) {
 
 /// Its neighbours above and below pull the corners of the first patch towards the second one.
 TEST(JoinedSurface, WhatIsSaidOfAnOpenSeamIsWhyItWasLeftOpen) {
-    SurfaceInput surface = row_of(2, 2.05);
+    SurfaceInput surface = row_of_squares(2, 2.05);
     surface.patches.push_back(flat({0.0, 10.0}, {11.2, 10.0}, {0.0, 21.0}, {10.0, 21.0}));
     surface.patches.push_back(flat({0.0, -11.0}, {10.0, -11.0}, {0.0, 0.0}, {11.2, 0.0}));
     const JoinedSurface joined = joined_surface(surface, geometry::Continuity::position, 2.0);
@@ -45,7 +45,7 @@ TEST(JoinedSurface, WhatIsSaidOfAnOpenSeamIsWhyItWasLeftOpen) {
 
 TEST(JoinedSurface, NamesEightOpenSeamsAndCountsTheRest) {
     try {
-        (void)joined_surface(row_of(12, 1.0), geometry::Continuity::position, 0.5);
+        (void)joined_surface(row_of_squares(12, 1.0), geometry::Continuity::position, 0.5);
         FAIL() << "nothing is within the gap";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(),

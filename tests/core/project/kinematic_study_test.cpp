@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,45 +15,45 @@
 namespace millwright::project {
 namespace {
 
+using test::asset_folders;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const Folders folders{{}, "assets"};
 constexpr double rounded_up = 1.0 + 1e-9; // of sums whose order differs
 
-const StudyRow& row_of(const std::vector<StudyRow>& rows, StudyMethod method) {
+const StudyRow& row_of_method(const std::vector<StudyRow>& rows, StudyMethod method) {
     return *std::ranges::find(rows, method, &StudyRow::method);
 }
 
 TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
     for (const char* machine : {"rotary-tilt-listing", "bc-table-head", "ca-head"}) {
-        const auto rows = studied({"two-bell", machine, 8, 6}, folders, Progress());
+        const auto rows = studied({"two-bell", machine, 8, 6}, asset_folders, Progress());
         ASSERT_EQ(rows.size(), every_study_method.size());
         for (std::size_t n = 0; n < rows.size(); ++n) {
             EXPECT_EQ(rows[n].method, every_study_method[n]);
             ASSERT_TRUE(rows[n].figures) << machine << ": " << rows[n].note;
         }
-        const auto mean = [&](StudyMethod method) { return row_of(rows, method).figures->error.mean; };
+        const auto mean = [&](StudyMethod method) { return row_of_method(rows, method).figures->error.mean; };
         EXPECT_LE(mean(StudyMethod::elliptic), mean(StudyMethod::uniform)) << machine;
         EXPECT_LE(mean(StudyMethod::redistribution), mean(StudyMethod::uniform)) << machine;
         EXPECT_LE(mean(StudyMethod::harmonic), mean(StudyMethod::uniform)) << machine;
         EXPECT_LT(mean(StudyMethod::tracks), mean(StudyMethod::uniform)) << machine;
         EXPECT_LT(mean(StudyMethod::chain), mean(StudyMethod::uniform)) << machine;
         EXPECT_LE(mean(StudyMethod::sequencing), rounded_up * mean(StudyMethod::chain)) << machine;
-        EXPECT_FALSE(row_of(rows, StudyMethod::chain).no_gain) << machine;
+        EXPECT_FALSE(row_of_method(rows, StudyMethod::chain).no_gain) << machine;
         for (const StudyMethod method : {StudyMethod::elliptic, StudyMethod::harmonic, StudyMethod::tracks}) {
             const bool same = exactly_equal(mean(method), mean(StudyMethod::uniform));
-            EXPECT_EQ(row_of(rows, method).no_gain, same) << machine << ", " << label(method);
+            EXPECT_EQ(row_of_method(rows, method).no_gain, same) << machine << ", " << label(method);
         }
         const bool nearest = exactly_equal(mean(StudyMethod::sequencing), mean(StudyMethod::chain));
-        EXPECT_EQ(row_of(rows, StudyMethod::sequencing).no_gain, nearest) << machine;
+        EXPECT_EQ(row_of_method(rows, StudyMethod::sequencing).no_gain, nearest) << machine;
         EXPECT_LT(mean(StudyMethod::set_up_chain), mean(StudyMethod::set_up)) << machine;
         EXPECT_LE(mean(StudyMethod::everything), rounded_up * mean(StudyMethod::set_up_chain)) << machine;
-        const auto offset = [&](StudyMethod method) { return row_of(rows, method).figures->offset; };
+        const auto offset = [&](StudyMethod method) { return row_of_method(rows, method).figures->offset; };
         for (const auto& [moved, unmoved] : {std::pair{StudyMethod::set_up, StudyMethod::uniform},
                                              std::pair{StudyMethod::set_up_chain, StudyMethod::chain}}) {
             EXPECT_LE(mean(moved), mean(unmoved)) << machine;
-            EXPECT_EQ(offset(moved) == offset(unmoved), row_of(rows, moved).no_gain) << machine;
+            EXPECT_EQ(offset(moved) == offset(unmoved), row_of_method(rows, moved).no_gain) << machine;
             if (std::string_view(machine) == "ca-head") { // its rotary axes do not feel where the part is
                 EXPECT_TRUE(exactly_equal(mean(moved), mean(unmoved)));
             }
@@ -62,28 +63,28 @@ TEST(KinematicStudy, NoMethodIsWorseThanTheUniformGridOfItsSetUp) {
 
 /// By the surface curve the chain's own grid is the best there, on the finished part it is not.
 TEST(KinematicStudy, TheChainEndsWithTheBestGridOfAll) {
-    const auto rows = studied({"saddle", "bc-table-head", 12, 8}, folders, Progress());
-    const StudyFigures& chain = *row_of(rows, StudyMethod::chain).figures;
-    const StudyFigures& uniform = *row_of(rows, StudyMethod::uniform).figures;
+    const auto rows = studied({"saddle", "bc-table-head", 12, 8}, asset_folders, Progress());
+    const StudyFigures& chain = *row_of_method(rows, StudyMethod::chain).figures;
+    const StudyFigures& uniform = *row_of_method(rows, StudyMethod::uniform).figures;
     EXPECT_LE(chain.error.lmean, uniform.error.lmean);
     int compared = 0;
     for (const StudyMethod other :
          {StudyMethod::redistribution, StudyMethod::elliptic, StudyMethod::harmonic, StudyMethod::tracks}) {
-        const StudyFigures& found = *row_of(rows, other).figures;
+        const StudyFigures& found = *row_of_method(rows, other).figures;
         if (found.track_gap <= 1.15 * uniform.track_gap && found.error.lmean <= uniform.error.lmean) {
             EXPECT_LE(chain.error.max * chain.error.mean, found.error.max * found.error.mean) << label(other);
             ++compared;
         }
     }
     EXPECT_GE(compared, 2);
-    EXPECT_THAT(row_of(rows, StudyMethod::chain).note,
+    EXPECT_THAT(row_of_method(rows, StudyMethod::chain).note,
                 HasSubstr("On the finished part no link of the chain"));
 }
 
 TEST(KinematicStudy, TheDomeFarFromTheAxisGainsByItsSetUp) {
-    const auto rows = studied({"dome", "rotary-tilt-listing", 10, 6}, folders, Progress());
-    EXPECT_LT(row_of(rows, StudyMethod::set_up).figures->error.mean,
-              0.7 * row_of(rows, StudyMethod::uniform).figures->error.mean);
+    const auto rows = studied({"dome", "rotary-tilt-listing", 10, 6}, asset_folders, Progress());
+    EXPECT_LT(row_of_method(rows, StudyMethod::set_up).figures->error.mean,
+              0.7 * row_of_method(rows, StudyMethod::uniform).figures->error.mean);
 }
 
 TEST(KinematicStudy, CoversFourSurfacesOnThreeMachines) {
@@ -101,14 +102,14 @@ TEST(KinematicStudy, ItsProgressGoesWithItsWork) {
             }
         },
         {});
-    (void)studied({"dome", "ca-head", 6, 4}, folders, progress);
+    (void)studied({"dome", "ca-head", 6, 4}, asset_folders, progress);
     ASSERT_TRUE(at_the_chain.has_value());
     EXPECT_LT(*at_the_chain, 0.3);
 }
 
 TEST(KinematicStudy, RefusesWhatItDoesNotKnow) {
-    EXPECT_THROW((void)studied({"dune", "ca-head", 8, 6}, folders, Progress()), Error);
-    EXPECT_THROW((void)studied({"dome", "no-machine", 8, 6}, folders, Progress()), Error);
+    EXPECT_THROW((void)studied({"dune", "ca-head", 8, 6}, asset_folders, Progress()), Error);
+    EXPECT_THROW((void)studied({"dome", "no-machine", 8, 6}, asset_folders, Progress()), Error);
 }
 
 std::vector<StudyRow> two_rows() {

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/project/cut_study.h"
 #include "core/project/project_file.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,24 +17,15 @@
 namespace millwright::project {
 namespace {
 
+using test::sample_folders;
+using test::small_sample;
 using testing::HasSubstr;
-
-const Folders folders{"assets/projects", "assets"};
-
-Project sample(const std::string& name, int nodes) {
-    Project project = read_project("assets/projects/" + name + ".json");
-    project.grid.nu = nodes;
-    project.grid.nv = nodes;
-    project.grid.tracks.lattice = 40; // enough for a test
-    project.grid.tracks.polish_sweeps = 3;
-    return project;
-}
 
 /// A pipeline whose owner sleeps until it is woken, as the window does.
 class PipelineTest : public testing::Test {
 protected:
     std::atomic<int> woken{0};
-    Pipeline pipeline{folders, [this] { ++woken; }};
+    Pipeline pipeline{sample_folders, [this] { ++woken; }};
 
     /// Waits for a publication that `fits`, without any other clock than the test's time limit.
     template <class Fits> std::shared_ptr<const PublishedPlan> wait_for(Fits fits) const {
@@ -48,11 +40,11 @@ protected:
 };
 
 TEST_F(PipelineTest, EndsWithTheSameAsThePlanOfTheCommandLine) {
-    const Project project = sample("dome", 7);
+    const Project project = small_sample("dome", 7);
     pipeline.request(project);
     pipeline.wait_idle();
     const auto published = pipeline.latest();
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     ASSERT_TRUE(published->exact);
     EXPECT_FALSE(published->failure);
     EXPECT_EQ(published->project, project);
@@ -64,7 +56,7 @@ TEST_F(PipelineTest, EndsWithTheSameAsThePlanOfTheCommandLine) {
 }
 
 TEST_F(PipelineTest, ShowsTheNewSurfaceBeforeTheFiguresAreExact) {
-    Project project = sample("dome", 7);
+    Project project = small_sample("dome", 7);
     pipeline.request(project);
     pipeline.wait_idle();
     project.surface.patches[0].point(1, 1).z() += 5.0;
@@ -77,7 +69,7 @@ TEST_F(PipelineTest, ShowsTheNewSurfaceBeforeTheFiguresAreExact) {
 }
 
 TEST_F(PipelineTest, KeepsTheWholeChainOfTheSameSettingsOnly) {
-    Project project = sample("dome", 6);
+    Project project = small_sample("dome", 6);
     project.grid.method = GridMethod::chain;
     project.grid.chain.later_iterations = 10;
     pipeline.request(project);
@@ -96,7 +88,7 @@ TEST_F(PipelineTest, KeepsTheWholeChainOfTheSameSettingsOnly) {
 }
 
 TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
-    Project project = sample("dome", 6);
+    Project project = small_sample("dome", 6);
     pipeline.request(project);
     pipeline.wait_idle();
     const auto before = pipeline.latest();
@@ -124,7 +116,7 @@ TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
 }
 
 TEST_F(PipelineTest, TheLastOfManyRequestsWins) {
-    Project project = sample("sine", 6);
+    Project project = small_sample("sine", 6);
     for (int n = 0; n < 20; ++n) {
         project.surface.patches[0].point(2, 2).z() += 0.5;
         pipeline.request(project);
@@ -135,7 +127,7 @@ TEST_F(PipelineTest, TheLastOfManyRequestsWins) {
 }
 
 TEST_F(PipelineTest, TheSameProjectIsNotDerivedTwice) {
-    const Project project = sample("dome", 5);
+    const Project project = small_sample("dome", 5);
     pipeline.request(project);
     pipeline.wait_idle();
     const auto revision = pipeline.latest()->revision;
@@ -145,13 +137,13 @@ TEST_F(PipelineTest, TheSameProjectIsNotDerivedTwice) {
 }
 
 TEST_F(PipelineTest, ACancelledRequestCanBeMadeAgain) {
-    const Project project = sample("two-bell", 60);
+    const Project project = small_sample("two-bell", 60);
     pipeline.request(project);
     (void)wait_for([](const PublishedPlan&) { return true; });
     pipeline.cancel();
     pipeline.wait_idle();
     EXPECT_FALSE(pipeline.latest()->exact);
-    pipeline.request(sample("two-bell", 5));
+    pipeline.request(small_sample("two-bell", 5));
     pipeline.wait_idle();
     EXPECT_TRUE(pipeline.latest()->exact);
 }
@@ -160,7 +152,7 @@ TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
     std::mutex mutex;
     std::vector<grid::ImproverStatus> uniform;
     Pipeline* told = nullptr;
-    Pipeline pipeline(folders, [&] {
+    Pipeline pipeline(sample_folders, [&] {
         const std::scoped_lock lock(mutex);
         const auto plan = told->latest();
         if (plan && plan->plan.uniform) {
@@ -168,7 +160,7 @@ TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
         }
     });
     told = &pipeline;
-    pipeline.request(sample("dome", 6));
+    pipeline.request(small_sample("dome", 6));
     pipeline.wait_idle();
     const std::scoped_lock lock(mutex);
     ASSERT_GE(uniform.size(), 2U);
@@ -182,7 +174,7 @@ TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
 }
 
 TEST_F(PipelineTest, AFaultIsPublishedWithWhatCouldBeMade) {
-    Project project = sample("dome", 5);
+    Project project = small_sample("dome", 5);
     project.machine.workpiece_offset = Vec3(0, 0, 4000);
     pipeline.request(project);
     pipeline.wait_idle();
@@ -199,7 +191,7 @@ TEST_F(PipelineTest, AFaultIsPublishedWithWhatCouldBeMade) {
 }
 
 TEST_F(PipelineTest, AFaultOfAGridThatIsOnlyComparedLeavesTheProgram) {
-    Project project = sample("dome", 5);
+    Project project = small_sample("dome", 5);
     project.grid.method = GridMethod::tracks;
     project.grid.elliptic.weight = WeightSource::expression;
     project.grid.elliptic.expression = "1/(u-u)";
@@ -220,7 +212,7 @@ TEST_F(PipelineTest, AFaultOfAGridThatIsOnlyComparedLeavesTheProgram) {
 
 // What a comparison marks on another grid is what the cutter would do if that were the program's.
 TEST_F(PipelineTest, TheCutterIsSweptAlongTheGridsBesideTheProgramToo) {
-    Project project = sample("dome", 6);
+    Project project = small_sample("dome", 6);
     project.grid.method = GridMethod::tracks;
     project.tool.cutter = toolpath::CutterKind::ball;
     project.tool.diameter_mm = 40.0;
@@ -234,7 +226,7 @@ TEST_F(PipelineTest, TheCutterIsSweptAlongTheGridsBesideTheProgramToo) {
     ASSERT_NE(beside, nullptr);
     EXPECT_NE(plan.cut_of(project, plan.elliptic.get()), nullptr);
     project.grid.method = GridMethod::uniform;
-    Plan uniform = make_plan(project, folders, Progress(), Scope::program);
+    Plan uniform = make_plan(project, sample_folders, Progress(), Scope::program);
     add_cut_study(uniform, project, Progress());
     EXPECT_EQ(beside->deepest, uniform.cut->deepest);
     ASSERT_EQ(beside->bites.size(), uniform.cut->bites.size());
@@ -246,7 +238,7 @@ TEST_F(PipelineTest, TheCutterIsSweptAlongTheGridsBesideTheProgramToo) {
 }
 
 TEST_F(PipelineTest, AFaultyFieldStillShowsTheSurface) {
-    Project project = sample("dome", 5);
+    Project project = small_sample("dome", 5);
     project.grid.nu = 1;
     pipeline.request(project);
     pipeline.wait_idle();
@@ -257,7 +249,7 @@ TEST_F(PipelineTest, AFaultyFieldStillShowsTheSurface) {
 
 // T18.
 TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
-    pipeline.request(sample("dome", 8));
+    pipeline.request(small_sample("dome", 8));
     pipeline.wait_idle();
     EXPECT_EQ(pipeline.adaptation(), nullptr);
     pipeline.start_adaptation(GridMethod::tracks);
@@ -283,7 +275,7 @@ TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
 }
 
 TEST_F(PipelineTest, APausedAdaptationGoesOnWhereItStood) {
-    pipeline.request(sample("dome", 10));
+    pipeline.request(small_sample("dome", 10));
     pipeline.wait_idle();
     pipeline.start_adaptation(GridMethod::tracks);
     pipeline.play_adaptation();
@@ -296,7 +288,7 @@ TEST_F(PipelineTest, APausedAdaptationGoesOnWhereItStood) {
 }
 
 TEST_F(PipelineTest, AnAdaptationEndsWhenItsGridIsNoLongerAskedFor) {
-    Project project = sample("dome", 8);
+    Project project = small_sample("dome", 8);
     pipeline.request(project);
     pipeline.start_adaptation(GridMethod::tracks);
     pipeline.play_adaptation();
@@ -312,7 +304,7 @@ TEST_F(PipelineTest, AnAdaptationEndsWhenItsGridIsNoLongerAskedFor) {
 }
 
 TEST_F(PipelineTest, WhatKeepsAnAdaptationFromStartingIsTold) {
-    Project project = sample("dome", 8);
+    Project project = small_sample("dome", 8);
     project.machine.file = "none";
     pipeline.request(project);
     pipeline.start_adaptation(GridMethod::tracks);
@@ -324,8 +316,8 @@ TEST_F(PipelineTest, WhatKeepsAnAdaptationFromStartingIsTold) {
 
 TEST(PipelineEnd, AWorkingPipelineCanBeDestroyed) {
     for (int n = 0; n < 3; ++n) {
-        Pipeline pipeline(folders, [] {});
-        pipeline.request(sample("two-bell", 40));
+        Pipeline pipeline(sample_folders, [] {});
+        pipeline.request(small_sample("two-bell", 40));
         pipeline.start_adaptation(GridMethod::tracks);
         pipeline.play_adaptation();
         std::this_thread::sleep_for(std::chrono::milliseconds(20 * n));

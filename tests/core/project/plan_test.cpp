@@ -6,6 +6,7 @@
 #include "core/project/left_out.h"
 #include "core/project/project_file.h"
 #include "core/project/report.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,23 +18,14 @@
 namespace millwright::project {
 namespace {
 
+using test::sample_folders;
+using test::small_sample;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const Folders folders{"assets/projects", "assets"};
-
-Project sample(const std::string& name, int nodes) {
-    Project project = read_project("assets/projects/" + name + ".json");
-    project.grid.nu = nodes;
-    project.grid.nv = nodes;
-    project.grid.tracks.lattice = 40; // enough for a test
-    project.grid.tracks.polish_sweeps = 3;
-    return project;
-}
-
 std::string failure_of(const Project& project) {
     try {
-        (void)make_plan(project, folders, Progress());
+        (void)make_plan(project, sample_folders, Progress());
     } catch (const Error& error) {
         return error.what();
     }
@@ -42,7 +34,7 @@ std::string failure_of(const Project& project) {
 
 TEST(Plan, NoGridIsWorseThanTheUniformOne) {
     for (const char* name : {"dome", "two-bell", "sine"}) {
-        const Plan plan = make_plan(sample(name, 10), folders, Progress());
+        const Plan plan = make_plan(small_sample(name, 10), sample_folders, Progress());
         for (const auto& better : {plan.elliptic, plan.optimised}) {
             EXPECT_LE(better->closest.mean, plan.uniform->closest.mean) << name;
             EXPECT_LE(better->closest.axis_max, plan.uniform->closest.axis_max + 1e-12) << name;
@@ -54,11 +46,11 @@ TEST(Plan, NoGridIsWorseThanTheUniformOne) {
 
 // T11.
 TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
-    Project project = sample("dome", 6);
-    const Plan by_tracks = make_plan(project, folders, Progress());
+    Project project = small_sample("dome", 6);
+    const Plan by_tracks = make_plan(project, sample_folders, Progress());
     EXPECT_THAT(by_tracks.listing->text, HasSubstr("6 x 6, Track optimiser"));
     project.grid.method = GridMethod::uniform;
-    const Plan by_uniform = make_plan(project, folders, Progress());
+    const Plan by_uniform = make_plan(project, sample_folders, Progress());
     EXPECT_NE(by_tracks.listing->text, by_uniform.listing->text);
     EXPECT_EQ(by_uniform.evaluation(GridMethod::uniform), by_uniform.uniform);
     int points = 0;
@@ -71,11 +63,11 @@ TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
 
 // The same weight everywhere makes no other grid than the uniform one: nothing was placed, nothing is told.
 TEST(Plan, TheNoteOfAKeptGridTellsOfNoAddedPoints) {
-    Project project = sample("two-bell", 8);
+    Project project = small_sample("two-bell", 8);
     project.sequencing.largest_step_deg = 15.0;
     project.grid.elliptic.weight = WeightSource::expression;
     project.grid.elliptic.expression = "1";
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     ASSERT_TRUE(keeps_grid(*plan.elliptic, *plan.uniform));
     EXPECT_GT(std::ssize(plan.elliptic->toolpath.points), 64);
     EXPECT_THAT(plan.elliptic->outcome.note, testing::Not(HasSubstr("sequencing added")));
@@ -83,11 +75,11 @@ TEST(Plan, TheNoteOfAKeptGridTellsOfNoAddedPoints) {
 }
 
 TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
-    Project project = sample("two-bell", 8);
-    EXPECT_EQ(make_plan(project, folders, Progress()).chain, nullptr);
+    Project project = small_sample("two-bell", 8);
+    EXPECT_EQ(make_plan(project, sample_folders, Progress()).chain, nullptr);
     project.grid.method = GridMethod::chain;
     project.grid.chain.later_iterations = 30;
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     ASSERT_NE(plan.chain, nullptr);
     EXPECT_LT(plan.chain->closest.mean, plan.optimised->closest.mean);
     EXPECT_LE(plan.chain->track_gap.value(), 1.15 * plan.uniform->track_gap.value());
@@ -102,11 +94,11 @@ TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
 
 // What is wrong with a grid that is only compared is its own.
 TEST(Plan, AComparedGridThatFailsLeavesTheProgram) {
-    Project project = sample("dome", 6);
+    Project project = small_sample("dome", 6);
     project.grid.method = GridMethod::tracks;
     project.grid.elliptic.weight = WeightSource::expression;
     project.grid.elliptic.expression = "1/(u-u)";
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     EXPECT_NE(plan.program, nullptr);
     EXPECT_EQ(plan.elliptic, nullptr);
     EXPECT_EQ(plan.weight, nullptr);
@@ -121,11 +113,11 @@ TEST(Plan, AComparedGridThatFailsLeavesTheProgram) {
 
 // Said wherever the grid is, also where the uniform one was kept.
 TEST(Plan, AWeightThatIsNotPositiveIsToldWithTheGrid) {
-    Project project = sample("dome", 8);
+    Project project = small_sample("dome", 8);
     for (const char* formula : {"u - 0.5", "0*err - 1"}) {
         project.grid.elliptic.weight = WeightSource::expression;
         project.grid.elliptic.expression = formula;
-        const Plan plan = make_plan(project, folders, Progress());
+        const Plan plan = make_plan(project, sample_folders, Progress());
         ASSERT_NE(plan.elliptic, nullptr) << formula;
         EXPECT_THAT(plan.elliptic->outcome.warning, HasSubstr("not positive at")) << formula;
         EXPECT_EQ(plan.optimised->outcome.warning, "");
@@ -135,7 +127,7 @@ TEST(Plan, AWeightThatIsNotPositiveIsToldWithTheGrid) {
 }
 
 TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
-    GridInput input = sample("dome", 1000).grid;
+    GridInput input = small_sample("dome", 1000).grid;
     constexpr std::size_t plenty = 64'000'000'000;
     constexpr std::size_t little = 100'000'000;
     EXPECT_FALSE(memory_fault(GridMethod::elliptic, input, plenty));
@@ -153,7 +145,7 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
 }
 
 TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
-    Project project = sample("dome", 500);
+    Project project = small_sample("dome", 500);
     project.grid.method = GridMethod::uniform;
     EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
     EXPECT_EQ(left_out_sentence(project), "");
@@ -164,7 +156,7 @@ TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
         "Not made to compare with, since 501 x 500 nodes are more than 250,000: Elliptic, Track optimiser.");
     EXPECT_THAT(memory_sentences(project, Scope::everything),
                 testing::ElementsAre("Path, program and motion of 250500 points take about 1.0 GB."));
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     EXPECT_FALSE(plan.elliptic || plan.optimised);
     EXPECT_TRUE(plan.trajectory);
     const auto report = nlohmann::json::parse(report_text(project, plan));
@@ -176,7 +168,7 @@ TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
 }
 
 TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
-    Project project = sample("dome", 500);
+    Project project = small_sample("dome", 500);
     project.grid.method = GridMethod::harmonic;
     EXPECT_THAT(
         memory_sentences(project, Scope::program),
@@ -185,36 +177,36 @@ TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
     EXPECT_EQ(memory_sentences(project, Scope::everything).size(), 2U);
     project.grid.method = GridMethod::tracks;
     EXPECT_TRUE(memory_sentences(project, Scope::program).empty());
-    EXPECT_TRUE(memory_sentences(sample("dome", 99), Scope::everything).empty());
+    EXPECT_TRUE(memory_sentences(small_sample("dome", 99), Scope::everything).empty());
 }
 
 TEST(Plan, OfTheProgramAloneLeavesOtherGridsOut) {
-    const Project project = sample("dome", 6);
-    const Plan whole = make_plan(project, folders, Progress());
-    const Plan part = make_plan(project, folders, Progress(), Scope::program);
+    const Project project = small_sample("dome", 6);
+    const Plan whole = make_plan(project, sample_folders, Progress());
+    const Plan part = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(part.elliptic, nullptr);
     EXPECT_EQ(part.listing->text, whole.listing->text);
 }
 
 TEST(Plan, IsTheSameBytesOnAnyNumberOfThreads) {
-    const Project project = sample("two-bell", 8);
+    const Project project = small_sample("two-bell", 8);
     set_thread_count(1);
-    const Plan alone = make_plan(project, folders, Progress());
+    const Plan alone = make_plan(project, sample_folders, Progress());
     set_thread_count(3);
-    const Plan together = make_plan(project, folders, Progress());
+    const Plan together = make_plan(project, sample_folders, Progress());
     set_thread_count(0);
     EXPECT_EQ(alone.listing->text, together.listing->text);
     EXPECT_EQ(report_text(project, alone), report_text(project, together));
 }
 
 TEST(Plan, BadInputIsNamed) {
-    Project project = sample("dome", 6);
+    Project project = small_sample("dome", 6);
     project.machine.file = "no-such-machine";
     EXPECT_THAT(failure_of(project), HasSubstr("unknown machine 'no-such-machine'"));
-    project = sample("dome", 6);
+    project = small_sample("dome", 6);
     project.grid.nu = -1;
     EXPECT_THAT(failure_of(project), StartsWith("grid/nu: -1 is not between"));
-    project = sample("dome", 6);
+    project = small_sample("dome", 6);
     for (Vec3& point : project.surface.patches[0].points) {
         point = Vec3(1, 2, 3);
     }
@@ -234,13 +226,13 @@ TEST(Plan, BadInputIsNamed) {
         }
     }
     EXPECT_THAT(failure_of(project), HasSubstr("the surface turns over on itself"));
-    project = sample("dome", 6);
+    project = small_sample("dome", 6);
     project.machine.workpiece_offset = Vec3(0, 0, 4000);
     EXPECT_THAT(failure_of(project), HasSubstr("cannot be reached"));
 }
 
 TEST(Plan, StopsWhenCancelledAnywhere) {
-    const Project project = sample("dome", 6);
+    const Project project = small_sample("dome", 6);
     for (const double stop_at : {0.0, 0.2, 0.6, 0.9}) {
         std::stop_source stop;
         const auto listen = [&](const Progress::Report& report) {
@@ -248,14 +240,14 @@ TEST(Plan, StopsWhenCancelledAnywhere) {
                 stop.request_stop();
             }
         };
-        EXPECT_THROW((void)make_plan(project, folders, Progress(listen, stop.get_token())), Cancelled)
+        EXPECT_THROW((void)make_plan(project, sample_folders, Progress(listen, stop.get_token())), Cancelled)
             << stop_at;
     }
 }
 
 TEST(Report, HasTheFieldsThatProgramsReadAndTheirFigures) {
-    const Project project = sample("dome", 8);
-    const Plan plan = make_plan(project, folders, Progress());
+    const Project project = small_sample("dome", 8);
+    const Plan plan = make_plan(project, sample_folders, Progress());
     const auto report = nlohmann::json::parse(report_text(project, plan));
     for (const char* which : {"uniform", "adapted", "optimised"}) {
         const auto& error = report.at("error").at(which);
@@ -293,12 +285,12 @@ TEST(Report, HasTheFieldsThatProgramsReadAndTheirFigures) {
 /// The way that is the fastest without accelerations was slower here than the nearest angles.
 TEST(Plan, OfLeastTimeIsNoSlowerByThePlannerThanTheOtherWays) {
     using toolpath::SequencingGoal;
-    Project project = sample("two-bell", 12);
+    Project project = small_sample("two-bell", 12);
     project.machine.file = "tilted-c-table";
     project.grid.method = GridMethod::uniform;
     const auto plan_for = [&](SequencingGoal goal) {
         project.sequencing.goal = goal;
-        return make_plan(project, folders, Progress(), Scope::program);
+        return make_plan(project, sample_folders, Progress(), Scope::program);
     };
     const Plan nearest = plan_for(SequencingGoal::nearest);
     const Plan fastest = plan_for(SequencingGoal::time);
@@ -311,7 +303,7 @@ TEST(Plan, OfLeastTimeIsNoSlowerByThePlannerThanTheOtherWays) {
 }
 
 TEST(Report, OfAPlanThatIsNotCompleteIsRefused) {
-    const Project project = sample("dome", 4);
+    const Project project = small_sample("dome", 4);
     EXPECT_THROW((void)report_text(project, Plan{}), Defect);
 }
 

@@ -37,7 +37,7 @@ std::string fault_in(const std::string& text) {
 }
 
 /// What reading says of the dome's project with `from` replaced by `to`.
-std::string fault(const std::string& from, const std::string& to) {
+std::string project_fault(const std::string& from, const std::string& to) {
     return fault_in(replaced(project_text(project_from_preset("dome")), from, to));
 }
 
@@ -157,31 +157,37 @@ TEST(ProjectFile, APresetAloneIsEnoughOfASurface) {
 
 TEST(ProjectFile, FaultsComeWithLineColumnAndField) {
     EXPECT_EQ(fault_in("{\n  \"format\": 3\n}"), "part.json:2:13: format: expected a text, found a number");
-    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": \"20\""), HasSubstr("grid/nu: expected a number, found a text"));
-    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 1"), HasSubstr("grid/nu: 1 is not between 2 and 1000"));
-    EXPECT_THAT(fault("\"nu\": 20", "\"nu\": 20.5"), HasSubstr("grid/nu: expected a whole number"));
-    EXPECT_THAT(fault("\"nu\": 20", "\"nx\": 20"), HasSubstr("grid/nx: the field \"nx\" is not known here"));
-    EXPECT_THAT(fault("\"flipped\": false", "\"flipped\": 0"),
+    EXPECT_THAT(project_fault("\"nu\": 20", "\"nu\": \"20\""),
+                HasSubstr("grid/nu: expected a number, found a text"));
+    EXPECT_THAT(project_fault("\"nu\": 20", "\"nu\": 1"), HasSubstr("grid/nu: 1 is not between 2 and 1000"));
+    EXPECT_THAT(project_fault("\"nu\": 20", "\"nu\": 20.5"), HasSubstr("grid/nu: expected a whole number"));
+    EXPECT_THAT(project_fault("\"nu\": 20", "\"nx\": 20"),
+                HasSubstr("grid/nx: the field \"nx\" is not known here"));
+    EXPECT_THAT(project_fault("\"flipped\": false", "\"flipped\": 0"),
                 HasSubstr("surface/flipped: expected true or"));
-    EXPECT_THAT(fault("\"along-v\"", "\"along-w\""),
+    EXPECT_THAT(project_fault("\"along-v\"", "\"along-w\""),
                 AllOf(HasSubstr("grid/direction: 'along-w'"), HasSubstr("known: along-u, along-v")));
-    EXPECT_THAT(fault("\"preset\": \"dome\"", "\"preset\": \"doom\""),
+    EXPECT_THAT(project_fault("\"preset\": \"dome\"", "\"preset\": \"doom\""),
                 AllOf(HasSubstr("surface/preset: unknown surface preset 'doom'"), HasSubstr("known: dome")));
-    EXPECT_THAT(fault("\"version\": 1", "\"version\": 2"), HasSubstr("version: 2 is not between 1 and 1"));
-    EXPECT_THAT(fault("millwright-project", "millwright-machine"), HasSubstr("format: not a project file"));
-    EXPECT_THAT(fault("\"rotary-tilt-listing\"", "\"\""), HasSubstr("machine/file: no machine is named"));
-    EXPECT_THAT(fault("\"machined_patch\": 0", "\"machined_patch\": 1"),
+    EXPECT_THAT(project_fault("\"version\": 1", "\"version\": 2"),
+                HasSubstr("version: 2 is not between 1 and 1"));
+    EXPECT_THAT(project_fault("millwright-project", "millwright-machine"),
+                HasSubstr("format: not a project file"));
+    EXPECT_THAT(project_fault("\"rotary-tilt-listing\"", "\"\""),
+                HasSubstr("machine/file: no machine is named"));
+    EXPECT_THAT(project_fault("\"machined_patch\": 0", "\"machined_patch\": 1"),
                 HasSubstr("surface/machined_patch: 1"));
 }
 
 TEST(ProjectFile, NetsMustBeRectangularAndFinite) {
     const test::WithoutTraps numbers_that_are_none;
-    EXPECT_THAT(fault("[10, 10, 1]", "[10, 10]"),
+    EXPECT_THAT(project_fault("[10, 10, 1]", "[10, 10]"),
                 HasSubstr("surface/patches[0]/points[0][0]: expected a list of 3, found 2"));
-    EXPECT_THAT(fault("[10, 10, 1], ", ""), HasSubstr("expected a list of 3, found 4"));
-    EXPECT_THAT(fault("[10, 10, 1]", "[1e300, 10, 1]"), HasSubstr("is not between -100000 and 100000"));
-    EXPECT_THAT(fault("[10, 10, 1]", "[1e400, 10, 1]"), HasSubstr("the number 1e400 is too large"));
-    EXPECT_THAT(fault("[10, 10, 1]", "[NaN, 10, 1]"), HasSubstr("not valid JSON near"));
+    EXPECT_THAT(project_fault("[10, 10, 1], ", ""), HasSubstr("expected a list of 3, found 4"));
+    EXPECT_THAT(project_fault("[10, 10, 1]", "[1e300, 10, 1]"),
+                HasSubstr("is not between -100000 and 100000"));
+    EXPECT_THAT(project_fault("[10, 10, 1]", "[1e400, 10, 1]"), HasSubstr("the number 1e400 is too large"));
+    EXPECT_THAT(project_fault("[10, 10, 1]", "[NaN, 10, 1]"), HasSubstr("not valid JSON near"));
     EXPECT_THAT(
         fault_in(R"({"format": "millwright-project", "version": 1, "name": "", "machine": {"file": "m"},
         "surface": {"patches": [{"points": [[[0,0,0],[1,0,0]],[[0,1,0],[1,1,0]]], "weights": [[1,1,1],[1,1,1]]}]}})"),

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-UnsavedWork work(std::string name, std::int64_t time_s = 1'000'000) {
+UnsavedWork unsaved_two_bell(std::string name, std::int64_t time_s = 1'000'000) {
     UnsavedWork result{project_from_preset("two-bell"), "/home/a \"b\"/part.json", time_s};
     result.project.name = std::move(name);
     result.project.grid.nu = 33;
@@ -21,13 +21,13 @@ UnsavedWork work(std::string name, std::int64_t time_s = 1'000'000) {
 
 TEST(Recovery, ACopyReadsBackAsItWas) {
     const test::ScratchFolder scratch;
-    write_file(scratch / "1.json", recovery_text(work("mine")));
-    EXPECT_EQ(read_recovery(scratch / "1.json"), work("mine"));
+    write_file(scratch / "1.json", recovery_text(unsaved_two_bell("mine")));
+    EXPECT_EQ(read_recovery(scratch / "1.json"), unsaved_two_bell("mine"));
 }
 
 TEST(Recovery, ACopyThatIsCutShortIsAnErrorWithItsPlace) {
     const test::ScratchFolder scratch;
-    const std::string whole = recovery_text(work("mine"));
+    const std::string whole = recovery_text(unsaved_two_bell("mine"));
     for (const std::size_t size : {std::size_t{0}, whole.size() / 2, whole.size() - 3}) {
         write_file(scratch / "1.json", whole.substr(0, size));
         try {
@@ -42,20 +42,20 @@ TEST(Recovery, ACopyThatIsCutShortIsAnErrorWithItsPlace) {
 TEST(Recovery, TheCopyOfARunningProgramIsNotOffered) {
     const test::ScratchFolder scratch;
     std::optional<RecoveryCopy> running(scratch.path());
-    running->write(work("mine"));
+    running->write(unsaved_two_bell("mine"));
     EXPECT_TRUE(left_behind(scratch.path()).empty());
     running.reset(); // the system takes the lock back, the copy stays
     const auto found = left_behind(scratch.path());
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found.front().work(), work("mine"));
+    EXPECT_EQ(found.front().work(), unsaved_two_bell("mine"));
 }
 
 TEST(Recovery, TwoProgramsKeepACopyEach) {
     const test::ScratchFolder scratch;
     const RecoveryCopy one(scratch.path());
     const RecoveryCopy two(scratch.path());
-    one.write(work("one"));
-    two.write(work("two"));
+    one.write(unsaved_two_bell("one"));
+    two.write(unsaved_two_bell("two"));
     EXPECT_EQ(read_recovery(one.file()).project.name, "one");
     EXPECT_EQ(read_recovery(two.file()).project.name, "two");
 }
@@ -64,17 +64,17 @@ TEST(Recovery, ANewProgramDoesNotWriteOverWhatWasLeftBehind) {
     const test::ScratchFolder scratch;
     const fs::path left = [&] {
         const RecoveryCopy crashed(scratch.path());
-        crashed.write(work("left"));
+        crashed.write(unsaved_two_bell("left"));
         return crashed.file();
     }();
     const RecoveryCopy next(scratch.path());
-    next.write(work("next"));
+    next.write(unsaved_two_bell("next"));
     EXPECT_EQ(read_recovery(left).project.name, "left");
 }
 
 TEST(Recovery, IsOfferedToOneProgramAtATime) {
     const test::ScratchFolder scratch;
-    write_file(scratch / "1.json", recovery_text(work("mine")));
+    write_file(scratch / "1.json", recovery_text(unsaved_two_bell("mine")));
     const auto first = left_behind(scratch.path());
     EXPECT_EQ(first.size(), 1U);
     EXPECT_TRUE(left_behind(scratch.path()).empty());
@@ -83,8 +83,8 @@ TEST(Recovery, IsOfferedToOneProgramAtATime) {
 TEST(Recovery, TheNewestComesFirstAndABrokenOneLastWithItsFault) {
     const test::ScratchFolder scratch;
     write_file(scratch / "1.json", "{ \"format\": ");
-    write_file(scratch / "2.json", recovery_text(work("old", 10)));
-    write_file(scratch / "3.json", recovery_text(work("new", 20)));
+    write_file(scratch / "2.json", recovery_text(unsaved_two_bell("old", 10)));
+    write_file(scratch / "3.json", recovery_text(unsaved_two_bell("new", 20)));
     const auto found = left_behind(scratch.path());
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].work()->project.name, "new");
@@ -96,7 +96,7 @@ TEST(Recovery, TheNewestComesFirstAndABrokenOneLastWithItsFault) {
 
 TEST(Recovery, WhatIsDiscardedDoesNotComeBack) {
     const test::ScratchFolder scratch;
-    write_file(scratch / "1.json", recovery_text(work("mine")));
+    write_file(scratch / "1.json", recovery_text(unsaved_two_bell("mine")));
     left_behind(scratch.path()).front().discard();
     EXPECT_TRUE(left_behind(scratch.path()).empty());
 }

@@ -91,7 +91,7 @@ TEST(ReshapedSurface, HigherDegreesKeepTheShape) {
     EXPECT_NEAR(apart.norm(), 0.0, 1e-12);
 }
 
-template <class Change> std::string refusal(const Change& change) {
+template <class Change> std::string reshape_refusal(const Change& change) {
     try {
         (void)change();
     } catch (const Error& error) {
@@ -102,14 +102,15 @@ template <class Change> std::string refusal(const Change& change) {
 
 TEST(ReshapedSurface, WhatWouldChangeTheShapeIsRefused) {
     const SurfaceInput surface = two_patches();
-    EXPECT_THAT(refusal([&] { return with_degrees(surface, 0, 1, 3); }),
+    EXPECT_THAT(reshape_refusal([&] { return with_degrees(surface, 0, 1, 3); }),
                 testing::HasSubstr("change its shape"));
-    EXPECT_THAT(refusal([&] { return with_degrees(surface, 0, 4, 99); }),
+    EXPECT_THAT(reshape_refusal([&] { return with_degrees(surface, 0, 4, 99); }),
                 testing::HasSubstr("63 is the highest"));
-    EXPECT_THAT(refusal([&] { return with_degrees(surface, 2, 3, 3); }), testing::HasSubstr("no patch 2"));
-    EXPECT_THAT(refusal([&] { return with_split(surface, 0, Parameter::u, 1.0); }),
+    EXPECT_THAT(reshape_refusal([&] { return with_degrees(surface, 2, 3, 3); }),
+                testing::HasSubstr("no patch 2"));
+    EXPECT_THAT(reshape_refusal([&] { return with_split(surface, 0, Parameter::u, 1.0); }),
                 testing::HasSubstr("between 0.01 and 0.99, not at 1"));
-    EXPECT_THAT(refusal([&] { return with_split(surface, -1, Parameter::u, 0.5); }),
+    EXPECT_THAT(reshape_refusal([&] { return with_split(surface, -1, Parameter::u, 0.5); }),
                 testing::HasSubstr("no patch -1"));
 }
 

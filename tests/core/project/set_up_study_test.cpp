@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/project/set_up_reach.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,11 +14,10 @@
 namespace millwright::project {
 namespace {
 
+using test::asset_folders;
 using testing::AllOf;
 using testing::HasSubstr;
 using toolpath::SetUpParameter;
-
-const Folders folders{{}, "assets"};
 
 SetUpStudySettings small_settings() {
     SetUpStudySettings settings;
@@ -28,7 +28,7 @@ SetUpStudySettings small_settings() {
 
 TEST(SetUpStudy, TheBestIsNotWorseThanAnyPlaceOfTheMap) {
     Project project = project_from_preset("dome");
-    const Workpiece workpiece = workpiece_of(project, folders);
+    const Workpiece workpiece = workpiece_of(project, asset_folders);
     const SetUpStudy study = set_up_study(workpiece, small_settings(), Progress());
     EXPECT_LT(study.search.best.cost, 0.7 * study.search.start.cost);
     ASSERT_EQ(study.map.costs.size(), 25U);
@@ -41,14 +41,14 @@ TEST(SetUpStudy, AProjectWithThePartThereCostsWhatWasFound) {
     SetUpStudySettings settings = small_settings();
     settings.turn_reach = 1.0;
     settings.across = SetUpParameter::turn;
-    const Workpiece workpiece = workpiece_of(project, folders);
+    const Workpiece workpiece = workpiece_of(project, asset_folders);
     toolpath::SetUpPlace place = set_up_cost(workpiece, settings).start();
     place += toolpath::SetUpPlace(5.0, -3.0, 2.0, 0.6);
     const Project there = with_set_up(project, place);
     EXPECT_EQ(there.machine.workpiece_offset.value(), toolpath::offset_of(place));
     EXPECT_NE(there.surface.patches, project.surface.patches);
     EXPECT_TRUE(faults_of(there).empty());
-    const toolpath::SetUpCost cost = set_up_cost(workpiece_of(there, folders), settings);
+    const toolpath::SetUpCost cost = set_up_cost(workpiece_of(there, asset_folders), settings);
     EXPECT_NEAR(
         cost.at(cost.start(), Progress()), set_up_cost(workpiece, settings).at(place, Progress()), 1e-9);
 }
@@ -66,7 +66,7 @@ Project large_dome() {
 
 TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
     try {
-        (void)set_up_study(workpiece_of(large_dome(), folders), small_settings(), Progress());
+        (void)set_up_study(workpiece_of(large_dome(), asset_folders), small_settings(), Progress());
         FAIL() << "nothing thrown";
     } catch (const Error& error) {
         EXPECT_THAT(error.diagnostic().message,
@@ -81,7 +81,7 @@ TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
 TEST(SetUpStudy, AStartOutOfReachHasItsReasonAndTheBestHasNone) {
     Project project = project_from_preset("dome");
     project.machine.workpiece_offset = Vec3(900.0, 0.0, 175.0);
-    const Workpiece workpiece = workpiece_of(project, folders);
+    const Workpiece workpiece = workpiece_of(project, asset_folders);
     const SetUpStudy study = set_up_study(workpiece, small_settings(), Progress());
     const auto why = [&](const toolpath::SetUpPlace& place) {
         return why_out_of_reach(workpiece, small_settings(), place).value_or("in reach");
@@ -102,7 +102,7 @@ TEST(SetUpStudy, TheMapForSpreadsheetsIsInPeoplesUnits) {
 }
 
 TEST(SetUpStudy, RefusesWhatMakesNoSenseAndCanBeCancelled) {
-    const Workpiece workpiece = workpiece_of(project_from_preset("dome"), folders);
+    const Workpiece workpiece = workpiece_of(project_from_preset("dome"), asset_folders);
     SetUpStudySettings same = small_settings();
     same.up = same.across;
     EXPECT_THROW((void)set_up_study(workpiece, same, Progress()), Defect);

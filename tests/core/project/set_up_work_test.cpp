@@ -16,7 +16,7 @@ SetUpStudySettings quick() {
     return settings;
 }
 
-Project dome() {
+Project dome_on_ac_table() {
     Project project = project_from_preset("dome");
     project.machine.file = "ac-table";
     project.machine.workpiece_offset = Vec3(30.0, 20.0, 10.0);
@@ -27,7 +27,7 @@ TEST(SetUpWorker, FindsABetterPlaceInTheBackground) {
     std::atomic<int> woken = 0;
     SetUpWorker worker([&] { ++woken; });
     EXPECT_EQ(worker.latest(), nullptr);
-    const Project project = dome();
+    const Project project = dome_on_ac_table();
     const Folders folders{{}, assets_folder()};
     worker.request(project, folders, quick());
     worker.wait_idle();
@@ -48,7 +48,7 @@ TEST(SetUpWorker, FindsABetterPlaceInTheBackground) {
 
 TEST(SetUpWorker, TellsWhyThereIsNone) {
     SetUpWorker worker([] {});
-    Project project = dome();
+    Project project = dome_on_ac_table();
     project.machine.file = "no-such-machine";
     worker.request(project, {{}, assets_folder()}, quick());
     worker.wait_idle();
@@ -60,7 +60,7 @@ TEST(SetUpWorker, TellsWhyThereIsNone) {
 
 TEST(SetUpWorker, TheLastOneAskedForIsTheOneThatIsFound) {
     SetUpWorker worker([] {});
-    const Project project = dome();
+    const Project project = dome_on_ac_table();
     SetUpStudySettings other = quick();
     other.goal = toolpath::SetUpGoal::travel;
     worker.request(project, {{}, assets_folder()}, quick());
@@ -71,7 +71,7 @@ TEST(SetUpWorker, TheLastOneAskedForIsTheOneThatIsFound) {
 }
 
 TEST(SetUpWorker, APlaceIsNotForAnotherPartOrMachine) {
-    const Project project = dome();
+    const Project project = dome_on_ac_table();
     Project other = project;
     other.machine.workpiece_offset = Vec3(1.0, 2.0, 3.0);
     other.grid.nu = 33;

@@ -7,6 +7,7 @@
 #include "core/project/project_file.h"
 #include "core/project/report.h"
 #include "core/project/settings.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,11 +18,10 @@
 namespace millwright::project {
 namespace {
 
+using test::sample_folders;
 using testing::HasSubstr;
 
-const Folders folders{"assets/projects", "assets"};
-
-Project sample(StrategyInput strategy, int nodes = 7) {
+Project dome_with_strategy(StrategyInput strategy, int nodes = 7) {
     Project project = read_project("assets/projects/dome.json");
     project.grid.nu = nodes;
     project.grid.nv = nodes;
@@ -63,8 +63,8 @@ std::vector<Vec3> contacts_of(const Evaluation& evaluation) {
 class StrategyOfAProject : public testing::TestWithParam<StrategyInput> {};
 
 TEST_P(StrategyOfAProject, IsThePathOfTheCoresFunctionOnTheCommandLineAndInTheBackground) {
-    const Project project = sample(GetParam());
-    const Plan plan = make_plan(project, folders, Progress());
+    const Project project = dome_with_strategy(GetParam());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     ASSERT_EQ(plan.program_path(project), plan.path);
     EXPECT_EQ(contacts_of(*plan.path), contacts_by(strategy_settings(project), *plan.workpiece, *plan.path));
     EXPECT_GT(plan.program_notes.cut_moves, 0);
@@ -76,7 +76,7 @@ TEST_P(StrategyOfAProject, IsThePathOfTheCoresFunctionOnTheCommandLineAndInTheBa
     EXPECT_EQ(report.at("points"), std::ssize(plan.path->toolpath.points));
     EXPECT_EQ(path.at("track_gap_mm").is_null(), !plan.path->track_gap);
 
-    Pipeline pipeline(folders, [] {});
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     const auto published = pipeline.latest();
@@ -86,7 +86,7 @@ TEST_P(StrategyOfAProject, IsThePathOfTheCoresFunctionOnTheCommandLineAndInTheBa
 }
 
 TEST_P(StrategyOfAProject, ComesBackFromItsFile) {
-    const Project project = sample(GetParam());
+    const Project project = dome_with_strategy(GetParam());
     EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
 }
 
@@ -102,21 +102,21 @@ INSTANTIATE_TEST_SUITE_P(Each,
                          });
 
 TEST(StrategyPath, IsoParametricIsTheZigzagOverTheUniformGrid) {
-    Project project = sample(StrategyInput::iso_parametric);
-    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    Project project = dome_with_strategy(StrategyInput::iso_parametric);
+    const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(plan.program_path(project), plan.uniform);
     EXPECT_EQ(plan.optimised, nullptr) << "its nodes are of no use";
     project.toolpath.strategy = StrategyInput::zigzag;
     project.grid.method = GridMethod::uniform;
-    const Plan uniform = make_plan(project, folders, Progress(), Scope::program);
+    const Plan uniform = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(plan.program->block_count(), uniform.program->block_count());
     EXPECT_EQ(plan.trajectory->duration(), uniform.trajectory->duration());
 }
 
 TEST(StrategyPath, ConstantScallopOfAPointIsToldAndTheGridsStay) {
-    Project project = sample(StrategyInput::constant_scallop);
+    Project project = dome_with_strategy(StrategyInput::constant_scallop);
     project.tool = {};
-    Pipeline pipeline(folders, [] {});
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     const auto published = pipeline.latest();
@@ -128,8 +128,8 @@ TEST(StrategyPath, ConstantScallopOfAPointIsToldAndTheGridsStay) {
 }
 
 TEST(StrategyPath, TheBackgroundKeepsAPathWhoseChoicesStand) {
-    Project project = sample(StrategyInput::fewest_points);
-    Pipeline pipeline(folders, [] {});
+    Project project = dome_with_strategy(StrategyInput::fewest_points);
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     const auto before = pipeline.latest();
@@ -154,8 +154,8 @@ TEST(StrategyPath, TheBackgroundKeepsAPathWhoseChoicesStand) {
 }
 
 TEST(StrategyPath, ASpiralFollowsTheGridThatIsMadeAnew) {
-    Project project = sample(StrategyInput::spiral);
-    Pipeline pipeline(folders, [] {});
+    Project project = dome_with_strategy(StrategyInput::spiral);
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     const auto before = pipeline.latest();
@@ -173,7 +173,7 @@ TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
     project.grid.nu = project.grid.nv = 8;
     project.grid.method = GridMethod::tracks;
     project.toolpath.strategy = StrategyInput::spiral;
-    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     const Evaluation even =
         evaluate(*plan.workpiece, plan.uniform->outcome, strategy_settings(project), report_sampling, {});
     ASSERT_FALSE(keeps_grid(*plan.optimised, *plan.uniform)) << "else there is nothing to refuse";
@@ -183,7 +183,7 @@ TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
     EXPECT_THAT(crossing_remark(project, plan), HasSubstr("than over the uniform grid"));
     EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Uniform"));
     project.grid.method = GridMethod::uniform;
-    const Plan plain = make_plan(project, folders, Progress(), Scope::program);
+    const Plan plain = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(plain.path->closest.max, plan.path->closest.max);
     EXPECT_EQ(crossing_remark(project, plain), "");
 }
@@ -192,10 +192,10 @@ TEST(StrategyPath, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
     Project project = project_from_preset("two-bell");
     project.grid.nu = project.grid.nv = 8;
     project.grid.method = GridMethod::tracks;
-    const Plan plain = make_plan(project, folders, Progress(), Scope::program);
+    const Plan plain = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(sequencing_remark(project, plain), "");
     project.sequencing.largest_step_deg = 20.0;
-    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     ASSERT_GT(plan.optimised->closest.axis_max, plan.uniform->closest.axis_max);
     EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("axis "));
     EXPECT_THAT(path_remarks(project, plan), testing::ElementsAre(HasSubstr("use the uniform grid.")));
@@ -207,7 +207,7 @@ TEST(StrategyPath, ASequencingThatMakesNoFigureOfThePromiseWorseIsNotBlamed) {
     project.grid.nu = project.grid.nv = 8;
     project.grid.method = GridMethod::tracks;
     project.sequencing.goal = toolpath::SequencingGoal::travel;
-    Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     ASSERT_NEAR(plan.unsequenced->axes.rotary_travel, plan.optimised->axes.rotary_travel, 1e-9);
     Evaluation longer = *plan.optimised;
     longer.closest.lmean = 1.1 * plan.uniform->closest.lmean;
@@ -219,9 +219,9 @@ TEST(StrategyPath, ASequencingThatMakesNoFigureOfThePromiseWorseIsNotBlamed) {
 }
 
 TEST(StrategyPath, CancelStopsItAtOnce) {
-    Project project = sample(StrategyInput::fewest_points, 60);
+    Project project = dome_with_strategy(StrategyInput::fewest_points, 60);
     project.toolpath.tolerance_mm = 0.002;
-    Pipeline pipeline(folders, [] {});
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     while (pipeline.activity().text.find(title_of_path) == std::string::npos) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -234,12 +234,12 @@ TEST(StrategyPath, CancelStopsItAtOnce) {
 class GridMethodOfAProject : public testing::TestWithParam<GridMethod> {};
 
 TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFile) {
-    Project project = sample(StrategyInput::zigzag);
+    Project project = dome_with_strategy(StrategyInput::zigzag);
     project.tool = {};
     project.grid.method = GetParam();
     project.grid.redistribution = {.floor = 0.2, .smoothing_passes = 3};
     EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     const toolpath::KinematicError error = plan.workpiece->error_model();
     const auto improver = make_improver(GetParam(), project.grid, error);
     const GridOutcome outcome = improved_outcome(*improver, Progress());
@@ -248,7 +248,7 @@ TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFi
     const auto report = nlohmann::json::parse(report_text(project, plan));
     EXPECT_TRUE(report.at("error").contains(row_of(grid_methods(), GetParam()).id));
 
-    Pipeline pipeline(folders, [] {});
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     EXPECT_EQ(pipeline.latest()->plan.listing->text, plan.listing->text);
@@ -262,9 +262,9 @@ INSTANTIATE_TEST_SUITE_P(Each,
                          });
 
 TEST(GridMethods, TheHarmonicMapIsNotMadeAnewForWhatItDoesNotHave) {
-    Project project = sample(StrategyInput::zigzag);
+    Project project = dome_with_strategy(StrategyInput::zigzag);
     project.grid.method = GridMethod::harmonic;
-    Pipeline pipeline(folders, [] {});
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     const auto before = pipeline.latest();

@@ -21,7 +21,7 @@ std::vector<TaughtPoint> three() {
             {"At \"it\"", {10.25, -75.0, 70.0, 5.0, -360.0}, true, 0.1}};
 }
 
-std::string refusal(const std::string& text) {
+std::string taught_points_refusal(const std::string& text) {
     try {
         (void)taught_points_from_text(text, "points.json");
     } catch (const Error& error) {
@@ -51,17 +51,19 @@ TEST(TaughtPointsC6, WhatIsWrongIsToldWithItsPlace) {
         return "\n{\"name\": \"" + name + "\", " + rest + "}";
     };
     const std::string sound = "\"joints_deg\": [1, 2], \"straight\": false, \"speed_percent\": 50";
-    EXPECT_EQ(refusal(head + point("A", sound) + "]}"), "");
-    EXPECT_THAT(refusal(head + point("A", sound) + "," + point("A", sound) + "]}"),
+    EXPECT_EQ(taught_points_refusal(head + point("A", sound) + "]}"), "");
+    EXPECT_THAT(taught_points_refusal(head + point("A", sound) + "," + point("A", sound) + "]}"),
                 HasSubstr("points.json:4:"));
-    EXPECT_THAT(refusal(head + point("", sound) + "]}"), HasSubstr("has no name"));
+    EXPECT_THAT(taught_points_refusal(head + point("", sound) + "]}"), HasSubstr("has no name"));
     EXPECT_THAT(
-        refusal(head + point("A", "\"joints_deg\": [], \"straight\": false, \"speed_percent\": 50") + "]}"),
+        taught_points_refusal(
+            head + point("A", "\"joints_deg\": [], \"straight\": false, \"speed_percent\": 50") + "]}"),
         HasSubstr("no sound joints"));
     EXPECT_THAT(
-        refusal(head + point("A", "\"joints_deg\": [1], \"straight\": false, \"speed_percent\": 500") + "]}"),
+        taught_points_refusal(
+            head + point("A", "\"joints_deg\": [1], \"straight\": false, \"speed_percent\": 500") + "]}"),
         HasSubstr("points.json:3:"));
-    EXPECT_THAT(refusal("{\"format\": \"millwright\", \"version\": 1, \"points\": []}"),
+    EXPECT_THAT(taught_points_refusal("{\"format\": \"millwright\", \"version\": 1, \"points\": []}"),
                 HasSubstr("not a file of taught points"));
 }
 

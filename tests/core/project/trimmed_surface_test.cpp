@@ -7,6 +7,7 @@
 #include "core/project/plan.h"
 #include "core/project/project_file.h"
 #include "core/project/report.h"
+#include "tests/core/project/sample_projects.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@
 namespace millwright::project {
 namespace {
 
-const Folders folders{"assets/projects", "assets"};
+using test::sample_folders;
 
 /// A rectangle of the dome with a hole.
 Project trimmed_dome(StrategyInput strategy) {
@@ -50,7 +51,7 @@ class TrimmedSurface : public testing::TestWithParam<StrategyInput> {};
 
 TEST_P(TrimmedSurface, IsCutInsideItsOutlineOnly) {
     const Project project = trimmed_dome(GetParam());
-    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     const Workpiece& workpiece = *plan.workpiece;
     const geometry::ClosestPointSearch search(workpiece.patch);
     ASSERT_TRUE(plan.program);
@@ -82,13 +83,13 @@ TEST_P(TrimmedSurface, IsCutInsideItsOutlineOnly) {
 
 TEST_P(TrimmedSurface, IsThePathOfTheWindowToo) {
     const Project project = trimmed_dome(GetParam());
-    Pipeline pipeline(folders, [] {});
+    Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
     const auto shown = pipeline.latest();
     ASSERT_TRUE(shown && shown->plan.program);
     EXPECT_EQ(*shown->plan.trims, project.surface.trims);
-    const Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(shown->plan.listing->text, plan.listing->text);
     Project whole = project;
     whole.surface.trims.clear();
@@ -109,7 +110,7 @@ TEST(TrimmedSurfaceScallops, CountWhatIsCutOnly) {
     Project project = trimmed_dome(StrategyInput::zigzag);
     project.grid.nu = 30;
     project.tool = {.cutter = toolpath::CutterKind::ball, .diameter_mm = 12.0};
-    Plan plan = make_plan(project, folders, Progress(), Scope::program);
+    Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
     if (!plan.cut) {
         add_cut_study(plan, project, Progress());
     }
@@ -138,7 +139,7 @@ TEST(TrimmedSurfaceWaist, NodesThatAreNeverCutNeedNoNormal) {
     Project project = hourglass();
     const geometry::BezierPatch patch(project.surface.patches.front());
     ASSERT_FALSE(patch.unit_normal(0.5, 0.5));
-    const Plan plan = make_plan(project, folders, Progress());
+    const Plan plan = make_plan(project, sample_folders, Progress());
     for (const toolpath::PathPoint& point : plan.uniform->toolpath.points) {
         EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12);
         EXPECT_TRUE(point.origin.uv.x() < 0.3 + 1e-9 || point.origin.uv.x() > 0.7 - 1e-9);
@@ -147,7 +148,7 @@ TEST(TrimmedSurfaceWaist, NodesThatAreNeverCutNeedNoNormal) {
     const std::string report = report_text(project, plan);
     EXPECT_NE(report.find("\"curve\": null"), std::string::npos) << "no grid was measured there";
     project.surface.trims.clear();
-    EXPECT_THROW((void)make_plan(project, folders, Progress()), Error);
+    EXPECT_THROW((void)make_plan(project, sample_folders, Progress()), Error);
 }
 
 } // namespace

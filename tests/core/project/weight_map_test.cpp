@@ -14,7 +14,7 @@
 namespace millwright::project {
 namespace {
 
-Workpiece dome() {
+Workpiece dome_workpiece() {
     return {geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
             test::machine("rotary-tilt-listing")};
 }
@@ -27,7 +27,7 @@ GridInput input(WeightSource source) {
 }
 
 WeightMap map_of(const GridInput& chosen) {
-    return weight_map(chosen, dome(), Progress());
+    return weight_map(chosen, dome_workpiece(), Progress());
 }
 
 // T16.
@@ -105,7 +105,7 @@ TEST(WeightMap, OfAFormulaWithAPoleBetweenTheNodesShowsTheNodes) {
 TEST(WeightMap, OfTheErrorIsLargestWhereAMoveOfTheUniformGridIsWorst) {
     const GridInput chosen = input(WeightSource::error);
     const WeightMap map = map_of(chosen);
-    const Workpiece workpiece = dome();
+    const Workpiece workpiece = dome_workpiece();
     const toolpath::KinematicError model = workpiece.error_model();
     double worst = 0.0;
     Vec2 there = Vec2::Zero();

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/closest_point.h"
+#include "tests/core/toolpath/leans.h"
 #include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
@@ -15,9 +16,10 @@ namespace millwright::toolpath {
 namespace {
 
 using geometry::ToolPose;
+using test::leaning;
 
 /// A square of 80 mm at height 0.
-geometry::BezierPatch plane() {
+geometry::BezierPatch plane_of_80_mm() {
     geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
     for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 2; ++j) {
@@ -27,14 +29,9 @@ geometry::BezierPatch plane() {
     return geometry::BezierPatch(net);
 }
 
-Vec3 leaning(std::mt19937& random, const Vec3& normal, double angle) {
-    const Vec3 side = normal.cross(test::random_upward(random)).normalized();
-    return std::cos(angle) * normal + std::sin(angle) * side;
-}
-
 TEST(BodyClearance, OverAPlaneIsTheHeightOfTheLowestPointOfTheBody) {
     std::mt19937 random(8);
-    const geometry::BezierPatch patch = plane();
+    const geometry::BezierPatch patch = plane_of_80_mm();
     for (const CutterShape& shape : test::every_cutter) {
         for (const double angle : {0.05, 0.3, 0.8}) {
             const ToolPose pose{Vec3(3.0, -2.0, 5.0), leaning(random, Vec3::UnitZ(), angle)};
@@ -50,7 +47,7 @@ TEST(BodyClearance, OverAPlaneIsTheHeightOfTheLowestPointOfTheBody) {
 
 TEST(BodyClearance, BelowAPlaneIsTheDepthOfTheLowestPointOfTheRim) {
     std::mt19937 random(12);
-    const geometry::BezierPatch patch = plane();
+    const geometry::BezierPatch patch = plane_of_80_mm();
     for (const CutterShape& shape : {test::flat_end, test::bull_nose}) {
         for (const double angle : {0.02, 0.1, 0.4}) {
             const ToolPose pose{Vec3(3.0, -2.0, 0.5 * std::sin(angle)),
@@ -91,7 +88,7 @@ TEST(BodyClearance, OfARimBeyondTheEdgeIsNoBite) {
     const Profile flat = test::body(test::flat_end);
     const double lean = 0.1;
     const ToolPose at_edge{Vec3(40.0 + 5.0, 0.0, 0.3), Vec3(std::sin(lean), 0.0, std::cos(lean))};
-    EXPECT_GT(clearance_near(plane(), flat, at_edge, {1.0, 0.5}).distance, 0.0);
+    EXPECT_GT(clearance_near(plane_of_80_mm(), flat, at_edge, {1.0, 0.5}).distance, 0.0);
 }
 
 TEST(BodyClearance, OfABallIsThatOfItsCentre) {
@@ -148,13 +145,13 @@ TEST(BodyClearance, OfEveryCutterIsTheLeastOfARaster) {
 
 TEST(BodyClearance, StaysOnThePatchAndRefusesWhatIsNotFinite) {
     const ToolPose beside{Vec3(45.0, 0.0, 1.0), Vec3::UnitZ()};
-    const BodyClearance found = clearance_near(plane(), test::body(test::ball), beside, {0.5, 0.5});
+    const BodyClearance found = clearance_near(plane_of_80_mm(), test::body(test::ball), beside, {0.5, 0.5});
     EXPECT_EQ(found.parameters.x(), 1.0);
     EXPECT_NEAR(found.distance, std::hypot(5.0, 5.0) - 4.0, 1e-9);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(
-        (void)clearance_near(plane(), test::body(test::ball), {Vec3(nan, 0, 0), Vec3::UnitZ()}, {0, 0}),
-        Defect);
+    EXPECT_THROW((void)clearance_near(
+                     plane_of_80_mm(), test::body(test::ball), {Vec3(nan, 0, 0), Vec3::UnitZ()}, {0, 0}),
+                 Defect);
 }
 
 } // namespace

@@ -13,14 +13,14 @@ namespace {
 
 using grid::TrackDirection;
 
-struct Row {
+struct ChainGainRow {
     int nodes;
     double uniform_max, uniform_mean, max, mean;
 
-    friend std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.nodes; }
+    friend std::ostream& operator<<(std::ostream& out, const ChainGainRow& row) { return out << row.nodes; }
 };
 
-class ChainGain : public ::testing::TestWithParam<Row> {};
+class ChainGain : public ::testing::TestWithParam<ChainGainRow> {};
 
 // T17.
 TEST_P(ChainGain, ReachesThePrototypeOnTheTwoBells) {
@@ -40,9 +40,9 @@ TEST_P(ChainGain, ReachesThePrototypeOnTheTwoBells) {
 
 INSTANTIATE_TEST_SUITE_P(OfTwoBells,
                          ChainGain,
-                         ::testing::Values(Row{15, 12.37, 1.302, 1.01, 0.441},
-                                           Row{20, 11.13, 0.827, 0.548, 0.269},
-                                           Row{40, 7.046, 0.232, 0.155, 0.078}));
+                         ::testing::Values(ChainGainRow{15, 12.37, 1.302, 1.01, 0.441},
+                                           ChainGainRow{20, 11.13, 0.827, 0.548, 0.269},
+                                           ChainGainRow{40, 7.046, 0.232, 0.155, 0.078}));
 
 /// Few nodes: the tracks that are best for the tip turn the axis further than the uniform grid does.
 TEST(ChainGainOfTheDome, PaysTheAxisAtTenNodesWithNextToNothingOfTheMean) {

@@ -22,7 +22,7 @@ namespace {
 using grid::Grid;
 using grid::TrackDirection;
 
-geometry::BezierPatch plane(double width) {
+geometry::BezierPatch plane_of_width(double width) {
     geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
     for (int i = 0; i < 2; ++i) {
         for (int j = 0; j < 2; ++j) {
@@ -44,7 +44,7 @@ Toolpath tracks(const geometry::BezierPatch& patch,
 /// Over a plane two grooves that are g apart meet at R - sqrt(R^2 - g^2 / 4).
 TEST(ConstantScallop, OverAPlaneHasTracksOfEqualDistanceThatLeaveTheHeight) {
     constexpr double wanted = 0.05;
-    const Toolpath path = tracks(plane(20.0), test::machine("router-xyz"), wanted);
+    const Toolpath path = tracks(plane_of_width(20.0), test::machine("router-xyz"), wanted);
     const double gap = path.points[12].contact.x();
     const double left = 4.0 - std::sqrt(16.0 - 0.25 * gap * gap);
     EXPECT_LE(left, wanted);
@@ -165,12 +165,12 @@ TEST(ConstantScallop, LeavesTheHeightThatWasWantedOnACurvedSurface) {
 }
 
 TEST(ConstantScallop, RefusesAPointAndTracksWithoutEnd) {
-    const auto patch = plane(20.0);
+    const auto patch = plane_of_width(20.0);
     const auto machine = test::machine("router-xyz");
     const Tool point;
     EXPECT_THROW((void)ConstantScallop(0.05).contacts({patch, machine, point, Grid::uniform(3, 3)}, {}),
                  Error);
-    EXPECT_THROW((void)tracks(plane(2e4), machine, 1e-4), Error);
+    EXPECT_THROW((void)tracks(plane_of_width(2e4), machine, 1e-4), Error);
     EXPECT_THROW(ConstantScallop(0.0), Defect);
     std::stop_source stop;
     stop.request_stop();

@@ -1,6 +1,7 @@
 #include "core/toolpath/contact_shape.h"
 
 #include "core/toolpath/body_clearance.h"
+#include "tests/core/toolpath/leans.h"
 #include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
@@ -14,10 +15,7 @@
 namespace millwright::toolpath {
 namespace {
 
-Vec3 leaning(std::mt19937& random, const Vec3& normal, double angle) {
-    const Vec3 side = normal.cross(test::random_upward(random)).normalized();
-    return std::cos(angle) * normal + std::sin(angle) * side;
-}
+using test::leaning;
 
 /// A valley along x, or with `bend_x` a bowl or a saddle: z = (bend_x x^2 + bend_y y^2) / 2, as a biquadratic
 /// patch.

@@ -3,6 +3,7 @@
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
+#include "tests/core/toolpath/leans.h"
 #include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
@@ -16,14 +17,13 @@ namespace {
 
 using grid::Grid;
 using grid::TrackDirection;
-
-const Lean ten_degrees{.lead = from_degrees(10.0)};
+using test::ten_degrees;
 
 /// Of the path of `tool` over `contacts`.
-ErrorField field_of(const geometry::BezierPatch& patch,
-                    const kinematics::MachineModel& machine,
-                    const Tool& tool,
-                    const Toolpath& contacts) {
+ErrorField cutter_field(const geometry::BezierPatch& patch,
+                        const kinematics::MachineModel& machine,
+                        const Tool& tool,
+                        const Toolpath& contacts) {
     const Toolpath path = with_tool(patch, machine, tool, contacts);
     return error_field(patch, machine, path, sequence(machine, path), {9}, {});
 }
@@ -44,7 +44,7 @@ TEST(CutterError, OfABallOverACylinderIsTheSagittaOfItsCentresWay) {
     const geometry::BezierPatch patch(net);
     const auto machine = test::machine("router-xyz");
     const Toolpath contacts = zigzag(patch, Grid::uniform(2, 9), TrackDirection::along_v, false);
-    const ErrorField field = field_of(patch, machine, {.cutter = test::body(test::ball)}, contacts);
+    const ErrorField field = cutter_field(patch, machine, {.cutter = test::body(test::ball)}, contacts);
     for (std::size_t n = 0; n < field.moves.size(); ++n) {
         if (field.moves[n].kind == MoveKind::track) {
             const double angle = angle_between(contacts.points[n].normal, contacts.points[n + 1].normal);
@@ -63,7 +63,7 @@ TEST(CutterError, OfABallIsThatOfItsCentre) {
     for (const Lean& lean : {Lean{}, ten_degrees}) {
         const Tool tool{.cutter = test::body(test::ball), .lean = lean};
         const AxisPath axes = sequence(machine, with_tool(patch, machine, tool, contacts));
-        const ErrorField field = field_of(patch, machine, tool, contacts);
+        const ErrorField field = cutter_field(patch, machine, tool, contacts);
         int compared = 0;
         for (std::size_t n = 0; n < field.moves.size(); ++n) {
             double most = 0.0;
@@ -91,7 +91,8 @@ TEST(CutterError, TheAxisIsThatOfThePointWhereTheTipTouches) {
     const auto machine = test::machine("ac-table");
     const Toolpath contacts = zigzag(patch, Grid::uniform(12, 12), TrackDirection::along_u, false);
     const auto axis_of = [&](const Tool& tool) {
-        return summary(field_of(patch, machine, tool, contacts), Distance::closest, MoveKind::track).axis_max;
+        return summary(cutter_field(patch, machine, tool, contacts), Distance::closest, MoveKind::track)
+            .axis_max;
     };
     const double of_a_point = axis_of({});
     EXPECT_GT(of_a_point, from_degrees(10.0));
@@ -107,7 +108,7 @@ TEST(CutterError, AToolThatLeansAsItShouldHasNoDeviationAtItsNodes) {
     const Tool tool{.cutter = test::body(test::bull_nose), .lean = ten_degrees};
     const auto axis_mean = [&](int nodes) {
         const Toolpath contacts = zigzag(patch, Grid::uniform(4, nodes), TrackDirection::along_v, false);
-        return summary(field_of(patch, machine, tool, contacts), Distance::closest, MoveKind::track)
+        return summary(cutter_field(patch, machine, tool, contacts), Distance::closest, MoveKind::track)
             .axis_mean;
     };
     EXPECT_LT(axis_mean(160), 0.25 * axis_mean(20));

@@ -1,6 +1,7 @@
 #include "core/toolpath/cutter.h"
 
 #include "core/base/error.h"
+#include "tests/core/toolpath/leans.h"
 #include "tests/support/cutters.h"
 #include "tests/support/machines.h"
 
@@ -12,11 +13,7 @@
 namespace millwright::toolpath {
 namespace {
 
-/// An axis that leans by `angle` against `normal`, to any side.
-Vec3 leaning(std::mt19937& random, const Vec3& normal, double angle) {
-    const Vec3 side = normal.cross(test::random_upward(random)).normalized();
-    return std::cos(angle) * normal + std::sin(angle) * side;
-}
+using test::leaning;
 
 TEST(Cutter, BallFollowsTheFormulaOfItsCentre) {
     std::mt19937 random(4);

@@ -19,13 +19,13 @@ namespace {
 using grid::Grid;
 using grid::TrackDirection;
 
-struct Case {
+struct PathCase {
     geometry::BezierPatch patch;
     kinematics::MachineModel machine;
     Toolpath path;
     AxisPath axes;
 
-    Case(const char* surface, const char* machine_name, int n, const Tool& tool = {})
+    PathCase(const char* surface, const char* machine_name, int n, const Tool& tool = {})
         : patch(test::patch(surface)), machine(test::machine(machine_name)),
           path(with_tool(
               patch, machine, tool, zigzag(patch, Grid::uniform(n, n), TrackDirection::along_v, false))),
@@ -39,7 +39,7 @@ struct Case {
 
 // T9.
 TEST(ErrorField, ClosestIsNeverLargerThanParametricAndBothAreFinite) {
-    const Case dome("dome", "rotary-tilt-listing", 20);
+    const PathCase dome("dome", "rotary-tilt-listing", 20);
     for (const MoveDeviation& move : dome.field(10).moves) {
         EXPECT_LE(move.closest, move.param + 1e-12);
         EXPECT_TRUE(std::isfinite(move.param) && std::isfinite(move.axis));
@@ -48,7 +48,7 @@ TEST(ErrorField, ClosestIsNeverLargerThanParametricAndBothAreFinite) {
 }
 
 TEST(ErrorField, GrowsWithTheNumberOfSamplesOnNestedTimes) {
-    const Case dome("dome", "rotary-tilt-listing", 12);
+    const PathCase dome("dome", "rotary-tilt-listing", 12);
     const auto few = dome.field(1).moves, many = dome.field(3).moves; // 1/2 is among 1/4, 1/2, 3/4
     for (std::size_t n = 0; n < few.size(); ++n) {
         EXPECT_GE(many[n].closest, few[n].closest);
@@ -57,14 +57,14 @@ TEST(ErrorField, GrowsWithTheNumberOfSamplesOnNestedTimes) {
 
 // T9.
 TEST(ErrorField, OfTheDomeIsLargerThanOfTheSineSheet) {
-    const Case dome("dome", "rotary-tilt-listing", 20), sine("sine", "rotary-tilt-listing", 20);
+    const PathCase dome("dome", "rotary-tilt-listing", 20), sine("sine", "rotary-tilt-listing", 20);
     const auto d = summary(dome.field(10), Distance::closest, MoveKind::track);
     const auto s = summary(sine.field(10), Distance::closest, MoveKind::track);
     EXPECT_GT(d.mean, s.mean);
     EXPECT_GT(d.max, s.max);
 }
 
-void expect_what_brute_force_finds(const Case& made) {
+void expect_what_brute_force_finds(const PathCase& made) {
     const auto known = made.field(until_known).moves;
     const auto brute = made.field(4095).moves;
     for (std::size_t n = 0; n < known.size(); ++n) {
@@ -110,8 +110,8 @@ TEST(ErrorField, FindsTheParametricErrorWhereNoOtherIs) {
 
 TEST(ErrorField, IsKnownOfABallToo) {
     const Tool tool{.cutter = test::body(test::ball)};
-    for (const Case& made :
-         {Case("two-bell", "ac-table", 20, tool), Case("saddle", "bc-table-head", 12, tool)}) {
+    for (const PathCase& made :
+         {PathCase("two-bell", "ac-table", 20, tool), PathCase("saddle", "bc-table-head", 12, tool)}) {
         const auto known = made.field(until_known).moves;
         const auto brute = made.field(1023).moves;
         for (std::size_t n = 0; n < known.size(); ++n) {
@@ -123,7 +123,7 @@ TEST(ErrorField, IsKnownOfABallToo) {
 /// What bites with its rim does so all at once: between any two looks there may be more, but not less.
 TEST(ErrorField, MissesNothingOfACutterWithAFlatBottom) {
     for (const CutterShape& shape : {test::flat_end, test::bull_nose}) {
-        const Case made("two-bell", "ac-table", 20, {.cutter = test::body(shape)});
+        const PathCase made("two-bell", "ac-table", 20, {.cutter = test::body(shape)});
         const auto known = made.field(until_known).moves;
         const auto brute = made.field(255).moves;
         for (std::size_t n = 0; n < known.size(); ++n) {
@@ -133,7 +133,7 @@ TEST(ErrorField, MissesNothingOfACutterWithAFlatBottom) {
 }
 
 TEST(ErrorField, IsTheSameBytesOnAnyNumberOfThreads) {
-    const Case dome("dome", "rotary-tilt-listing", 10);
+    const PathCase dome("dome", "rotary-tilt-listing", 10);
     set_thread_count(1);
     const auto one = dome.field(5).moves;
     for (const int threads : {2, 7}) {
@@ -148,7 +148,7 @@ TEST(ErrorField, IsTheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(ErrorField, CountsTrackAndCrossMovesApart) {
-    const Case dome("dome", "rotary-tilt-listing", 6);
+    const PathCase dome("dome", "rotary-tilt-listing", 6);
     const ErrorField field = dome.field(4);
     int cross = 0;
     for (const MoveDeviation& move : field.moves) {
@@ -159,7 +159,7 @@ TEST(ErrorField, CountsTrackAndCrossMovesApart) {
 }
 
 TEST(ErrorField, StopsWhenCancelled) {
-    const Case dome("dome", "rotary-tilt-listing", 6);
+    const PathCase dome("dome", "rotary-tilt-listing", 6);
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THROW(

@@ -20,7 +20,7 @@ struct Found {
     double farthest = 0.0; ///< from the surface, inside tracks
 };
 
-Found covered(const char* preset, double tolerance, const Tool& tool = {}) {
+Found cover_with_fewest_points(const char* preset, double tolerance, const Tool& tool = {}) {
     const auto patch = test::patch(preset);
     const auto machine = test::machine("ac-table");
     Found found{with_tool(patch,
@@ -37,7 +37,7 @@ Found covered(const char* preset, double tolerance, const Tool& tool = {}) {
 TEST(FewestPoints, StayWithinTheToleranceOnTheWholePath) {
     std::size_t before = 0;
     for (const double tolerance : {0.5, 0.1, 0.02}) {
-        const Found found = covered("saddle", tolerance);
+        const Found found = cover_with_fewest_points("saddle", tolerance);
         EXPECT_LE(found.farthest, tolerance * 1.001);
         EXPECT_GT(found.farthest, 0.3 * tolerance); // no more points than are needed
         EXPECT_GT(found.path.points.size(), before);
@@ -51,7 +51,7 @@ TEST(FewestPoints, StayWithinTheToleranceOfTheToolAndItsLean) {
     const std::array tools{Tool{.lean = leaning}, Tool{.cutter = test::body(test::ball), .lean = leaning}};
     for (const Tool& tool : tools) {
         for (const double tolerance : {0.5, 0.1}) {
-            const Found found = covered("dome", tolerance, tool);
+            const Found found = cover_with_fewest_points("dome", tolerance, tool);
             EXPECT_LE(found.farthest, tolerance * 1.1) << "cutter " << tool.cutter.has_value();
             EXPECT_GT(found.farthest, 0.3 * tolerance);
         }
@@ -61,9 +61,9 @@ TEST(FewestPoints, StayWithinTheToleranceOfTheToolAndItsLean) {
 /// A flat end bites into the hollows of the dome at the points themselves.
 TEST(FewestPoints, OfACutterThatDoesNotFitAreThoseOfItsTip) {
     const Tool flat{.cutter = test::body(test::flat_end)};
-    const Found found = covered("dome", 0.5, flat);
+    const Found found = cover_with_fewest_points("dome", 0.5, flat);
     EXPECT_GT(found.farthest, 0.5);
-    EXPECT_LT(found.path.points.size(), 2 * covered("dome", 0.5).path.points.size());
+    EXPECT_LT(found.path.points.size(), 2 * cover_with_fewest_points("dome", 0.5).path.points.size());
 }
 
 TEST(FewestPoints, OfAPlaneAreTheEndsOfItsTracks) {

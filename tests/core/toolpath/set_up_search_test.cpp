@@ -19,7 +19,7 @@ namespace {
 using grid::Grid;
 using grid::TrackDirection;
 
-SetUpCost cost_of(const char* preset, const char* machine, int nodes, SetUpGoal goal = SetUpGoal::error) {
+SetUpCost set_up_cost(const char* preset, const char* machine, int nodes, SetUpGoal goal = SetUpGoal::error) {
     return {test::patch(preset),
             test::machine(machine),
             false,
@@ -32,7 +32,7 @@ SetUpCost cost_of(const char* preset, const char* machine, int nodes, SetUpGoal 
 const SetUpSearchSettings on_the_table{{-100.0, -100.0, 150.0, 0.0}, {50.0, 50.0, 260.0, 0.0}, 3, 4, 100};
 
 TEST(SetUpSearch, HalvesTheErrorOfADomeThatStoodFarFromTheAxis) {
-    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 20);
+    const SetUpCost cost = set_up_cost("dome", "rotary-tilt-listing", 20);
     const SetUpSearch found = search_set_up(cost, on_the_table, {});
     EXPECT_EQ(found.start.place, SetUpPlace(-15.0, 0.0, 175.0, 0.0));
     EXPECT_LE(found.best.cost, 0.55 * found.start.cost);
@@ -59,18 +59,18 @@ TEST(SetUpSearch, HalvesTheErrorOfADomeThatStoodFarFromTheAxis) {
 }
 
 TEST(SetUpSearch, NoAxisDeviationWhereNoneIsMeasuredOrTheToolCannotTurn) {
-    const SetUpCost travel = cost_of("dome", "rotary-tilt-listing", 5, SetUpGoal::travel);
+    const SetUpCost travel = set_up_cost("dome", "rotary-tilt-listing", 5, SetUpGoal::travel);
     EXPECT_EQ(travel.figures_at(travel.start(), {}).axis_max, std::nullopt);
-    const SetUpCost upright = cost_of("dome", "router-xyz", 5);
+    const SetUpCost upright = set_up_cost("dome", "router-xyz", 5);
     const PlaceFigures there = upright.figures_at(upright.start(), {});
     ASSERT_TRUE(std::isfinite(there.cost));
     EXPECT_EQ(there.axis_max, std::nullopt);
-    const SetUpCost far = cost_of("dome", "rotary-tilt-listing", 5);
+    const SetUpCost far = set_up_cost("dome", "rotary-tilt-listing", 5);
     EXPECT_EQ(far.figures_at({1e5, 0.0, 0.0, 0.0}, {}), PlaceFigures{});
 }
 
 TEST(SetUpSearch, IsNeverWorseThanTheStart) {
-    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 6);
+    const SetUpCost cost = set_up_cost("dome", "rotary-tilt-listing", 6);
     SetUpSearchSettings far = on_the_table; // the start lies outside, and everything inside is worse
     far.least = {400.0, 400.0, 175.0, 0.0};
     far.most = {500.0, 500.0, 180.0, 0.0};
@@ -82,7 +82,7 @@ TEST(SetUpSearch, IsNeverWorseThanTheStart) {
 }
 
 TEST(SetUpSearch, APartStaysWhereNoPlaceIsBetterByMoreThanRounding) {
-    const SetUpCost cost = cost_of("dome", "ca-head", 6); // both rotary axes move the tool
+    const SetUpCost cost = set_up_cost("dome", "ca-head", 6); // both rotary axes move the tool
     SetUpSearchSettings box;
     box.least = cost.start() - SetUpPlace(60.0, 60.0, 80.0, 0.0);
     box.most = cost.start() + SetUpPlace(60.0, 60.0, 80.0, 0.0);
@@ -92,13 +92,13 @@ TEST(SetUpSearch, APartStaysWhereNoPlaceIsBetterByMoreThanRounding) {
 }
 
 TEST(SetUpSearch, LessTravelOfTheLinearAxesNearTheTurningAxis) {
-    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 8, SetUpGoal::travel);
+    const SetUpCost cost = set_up_cost("dome", "rotary-tilt-listing", 8, SetUpGoal::travel);
     const SetUpSearch found = search_set_up(cost, on_the_table, {});
     EXPECT_LT(found.best.cost, 0.8 * found.start.cost);
 }
 
 TEST(SetUpSearch, AMapTellsWhatTheCostTells) {
-    const SetUpCost cost = cost_of("two-bell", "ac-table", 5);
+    const SetUpCost cost = set_up_cost("two-bell", "ac-table", 5);
     SetUpSearchSettings box;
     box.least = {-20.0, -30.0, -10.0, 0.0};
     box.most = {20.0, 30.0, 10.0, 0.0};
@@ -116,7 +116,7 @@ TEST(SetUpSearch, ATurnOnATurntableIsAShiftRoundItsAxis) {
     // The table turns about the vertical itself: turned part and offset together change nothing but its
     // angle.
     for (const char* machine : {"ac-table", "bc-table-head", "rotary-tilt-listing"}) {
-        const SetUpCost cost = cost_of("dome", machine, 7);
+        const SetUpCost cost = set_up_cost("dome", machine, 7);
         const double turn = 0.7;
         const SetUpPlace here = cost.start() + SetUpPlace(20.0, -10.0, 0.0, 0.0);
         SetUpPlace there = here;
@@ -127,7 +127,7 @@ TEST(SetUpSearch, ATurnOnATurntableIsAShiftRoundItsAxis) {
 }
 
 TEST(SetUpSearch, FindsATurnThatTravelsLess) {
-    const SetUpCost cost = cost_of("sine", "ca-head", 6, SetUpGoal::travel);
+    const SetUpCost cost = set_up_cost("sine", "ca-head", 6, SetUpGoal::travel);
     SetUpSearchSettings box;
     box.least << offset_of(cost.start()) - Vec3::Constant(1.0), -1.5;
     box.most << offset_of(cost.start()) + Vec3::Constant(1.0), 1.5;
@@ -149,12 +149,12 @@ TEST(SetUpSearch, FindsATurnThatTravelsLess) {
 }
 
 TEST(SetUpSearch, OutOfReachIsInfinite) {
-    const SetUpCost cost = cost_of("dome", "ac-table", 5);
+    const SetUpCost cost = set_up_cost("dome", "ac-table", 5);
     EXPECT_TRUE(std::isinf(cost.at({1e5, 0.0, 0.0, 0.0}, {})));
 }
 
 TEST(SetUpSearch, CanBeCancelledInTheDescent) {
-    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 6);
+    const SetUpCost cost = set_up_cost("dome", "rotary-tilt-listing", 6);
     SetUpSearchSettings settings = on_the_table;
     settings.places = 1;
     settings.descent = 1000;
@@ -170,7 +170,7 @@ TEST(SetUpSearch, CanBeCancelledInTheDescent) {
 }
 
 TEST(SetUpSearch, RefusesABoxWithoutAVolume) {
-    const SetUpCost cost = cost_of("dome", "rotary-tilt-listing", 4);
+    const SetUpCost cost = set_up_cost("dome", "rotary-tilt-listing", 4);
     SetUpSearchSettings flat;
     flat.most.z() = flat.least.z();
     EXPECT_THROW((void)search_set_up(cost, flat, {}), Defect);

@@ -22,7 +22,7 @@ using grid::TrackDirection;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
-constexpr double feed = 10.0;
+constexpr double sequence_feed = 10.0;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Toolpath path_on(const char* preset, int nu, int nv) {
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(EachMachine, ReachesEveryPoseInsideTheLimits) {
     const MachineModel machine = test::machine(GetParam());
     const Toolpath path = path_on("two-bell", 9, 8);
-    for (const StepCosts& costs : {travel_costs(machine), time_costs(machine, path, feed)}) {
+    for (const StepCosts& costs : {travel_costs(machine), time_costs(machine, path, sequence_feed)}) {
         const AxisPath axes = shortest_sequence(machine, path, costs, 1.0, {});
         ASSERT_EQ(axes.positions.size(), path.points.size());
         for (std::size_t n = 0; n < path.points.size(); ++n) {
@@ -139,8 +139,9 @@ TEST_P(EachMachine, IsTheBestOfEveryWay) {
     const std::vector weights{0.01, 0.02, 0.03, 0.4, 1.0};
     for (unsigned seed = 1; seed <= 6; ++seed) {
         const Toolpath path = random_path(seed, 4);
-        for (const StepCosts& costs :
-             {travel_costs(machine), travel_costs(machine, weights), time_costs(machine, path, feed)}) {
+        for (const StepCosts& costs : {travel_costs(machine),
+                                       travel_costs(machine, weights),
+                                       time_costs(machine, path, sequence_feed)}) {
             for (const double share : {1.0, 0.0}) {
                 const AxisPath axes = shortest_sequence(machine, path, costs, share, {});
                 EXPECT_NEAR(cost_of(machine, path, axes, costs, share),
@@ -183,7 +184,7 @@ TEST_P(EachMachine, IsNeverWorseThanOnePointAfterAnother) {
         const AxisPath greedy = sequence(machine, path);
         const double share = 0.5;
         for (const StepCosts& costs : {travel_costs(machine),
-                                       time_costs(machine, path, feed),
+                                       time_costs(machine, path, sequence_feed),
                                        error_costs(test::patch(preset), machine, path, {}, grid::coarse)}) {
             const AxisPath best = shortest_sequence(machine, path, costs, share, {});
             EXPECT_LE(cost_of(machine, path, best, costs, share),
@@ -217,7 +218,7 @@ TEST(ShortestSequence, WindsAnEndlessAxisOnAndOn) {
 TEST(ShortestSequence, TurnsTheFreeAxisOnTheWayToATrackThatBeginsOnAPole) {
     const MachineModel machine = test::machine("ac-table");
     const Toolpath path = path_on("two-bell", 12, 6); // the corners are poles
-    for (const StepCosts& costs : {travel_costs(machine), time_costs(machine, path, feed)}) {
+    for (const StepCosts& costs : {travel_costs(machine), time_costs(machine, path, sequence_feed)}) {
         const AxisPath axes = shortest_sequence(machine, path, costs, 1.0, {});
         const int C = machine.axis_index('C');
         EXPECT_NEAR(axes.positions[0][C], axes.positions[1][C], 1e-9) << "the first point is one";

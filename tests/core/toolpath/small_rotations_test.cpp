@@ -17,7 +17,7 @@ using grid::Grid;
 using grid::TrackDirection;
 using kinematics::MachineModel;
 
-Toolpath path_on(const char* preset, int nodes, int tracks) {
+Toolpath path_over_tracks(const char* preset, int nodes, int tracks) {
     return zigzag(test::patch(preset), Grid::uniform(nodes, tracks), TrackDirection::along_u, false);
 }
 
@@ -30,7 +30,7 @@ worst_tip(const char* preset, const MachineModel& machine, const Toolpath& path,
 TEST(SmallRotations, KeepTheLimitAndCutTheWorstMoves) {
     for (const char* name : {"ac-table", "rotary-tilt-listing", "bc-table-head"}) {
         const MachineModel machine = test::machine(name);
-        const Toolpath path = path_on("two-bell", 20, 8); // no track meets a singular point exactly
+        const Toolpath path = path_over_tracks("two-bell", 20, 8); // no track meets a singular point exactly
         const AxisPath axes = sequence(machine, path);
         const double before = largest_rotary_step(machine, path, axes, MoveKind::track);
         ASSERT_GT(before, from_degrees(60.0)) << name;
@@ -54,7 +54,7 @@ TEST(SmallRotations, HoldOnATableWhoseBranchesTurnDifferently) {
     for (const SequencingGoal goal : {SequencingGoal::nearest, SequencingGoal::travel}) {
         const SequencingSettings settings{.goal = goal, .largest_step = from_degrees(15.0)};
         const SequencedPath found =
-            sequenced(test::patch("two-bell"), machine, path_on("two-bell", 20, 8), settings, {});
+            sequenced(test::patch("two-bell"), machine, path_over_tracks("two-bell", 20, 8), settings, {});
         EXPECT_LE(largest_rotary_step(machine, found.toolpath, found.axes, MoveKind::track),
                   settings.largest_step);
     }
@@ -62,7 +62,7 @@ TEST(SmallRotations, HoldOnATableWhoseBranchesTurnDifferently) {
 
 TEST(SmallRotations, ShareTheTurnOfAMoveEqually) {
     const MachineModel machine = test::machine("ac-table");
-    const Toolpath path = path_on("two-bell", 20, 8);
+    const Toolpath path = path_over_tracks("two-bell", 20, 8);
     const AxisPath axes = sequence(machine, path);
     const double limit = from_degrees(10.0);
     const Toolpath finer = with_small_rotations(test::patch("two-bell"), machine, path, axes, limit, {});
@@ -90,7 +90,7 @@ TEST(SmallRotations, ShareTheTurnOfAMoveEqually) {
 
 TEST(SmallRotations, KeepThePointsThatThereWere) {
     const MachineModel machine = test::machine("ac-table");
-    const Toolpath path = path_on("two-bell", 15, 6);
+    const Toolpath path = path_over_tracks("two-bell", 15, 6);
     const AxisPath axes = sequence(machine, path);
     const Toolpath same = with_small_rotations(test::patch("two-bell"), machine, path, axes, pi, {});
     EXPECT_EQ(same.points.size(), path.points.size()) << "nothing turns by half a turn";
@@ -112,7 +112,7 @@ TEST(SmallRotations, KeepThePointsThatThereWere) {
 
 TEST(SmallRotations, LeaveAMachineWithoutRotaryAxesAlone) {
     const MachineModel machine = test::machine("router-xyz");
-    Toolpath path = path_on("dome", 5, 4);
+    Toolpath path = path_over_tracks("dome", 5, 4);
     for (PathPoint& point : path.points) {
         point.pose.axis = Vec3::UnitZ();
     }
@@ -123,7 +123,7 @@ TEST(SmallRotations, LeaveAMachineWithoutRotaryAxesAlone) {
 
 TEST(SmallRotations, CanBeCancelledAndRefuseAStepOutOfRange) {
     const MachineModel machine = test::machine("ac-table");
-    const Toolpath path = path_on("dome", 4, 4);
+    const Toolpath path = path_over_tracks("dome", 4, 4);
     const AxisPath axes = sequence(machine, path);
     std::stop_source stop;
     stop.request_stop();

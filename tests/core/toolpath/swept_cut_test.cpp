@@ -75,11 +75,11 @@ int looks_at(const kinematics::MachineModel& machine, const SweptMove& move, dou
     return static_cast<int>(std::max({std::ceil(way / step), std::ceil(turn / from_degrees(1.0)), 1.0}));
 }
 
-void look(PlainSweep& found,
-          const Tool& tool,
-          const geometry::ToolPose& pose,
-          const geometry::BezierPatch& patch,
-          const SweepSettings& raster) {
+void sweep_rays(PlainSweep& found,
+                const Tool& tool,
+                const geometry::ToolPose& pose,
+                const geometry::BezierPatch& patch,
+                const SweepSettings& raster) {
     for (int i = 0; i < raster.nu; ++i) {
         for (int j = 0; j < raster.nv; ++j) {
             const Vec2 uv(static_cast<double>(i) / (raster.nu - 1), static_cast<double>(j) / (raster.nv - 1));
@@ -107,7 +107,7 @@ PlainSweep plain_sweep(const geometry::BezierPatch& patch,
     const int looks = looks_at(machine, move, settings.step);
     for (int k = 0; k <= looks; ++k) {
         const auto pose = actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks);
-        look(found, tool, pose, patch, settings);
+        sweep_rays(found, tool, pose, patch, settings);
     }
     return found;
 }

@@ -17,7 +17,7 @@ using kinematics::AxisPositions;
 
 enum class Mode { chord, kin };
 
-struct Row {
+struct ThesisRow {
     const char* surface;
     Mode mode;
     int n;
@@ -54,11 +54,11 @@ Vec3 mid_point(const kinematics::MachineModel& machine,
     return actual_pose(machine, position(from.pose, A1), position(to.pose, A2), 0.5).tip;
 }
 
-class ThesisErrorTable : public ::testing::TestWithParam<Row> {};
+class ThesisErrorTable : public ::testing::TestWithParam<ThesisRow> {};
 
 // T3, T9.
 TEST_P(ThesisErrorTable, IsReproduced) {
-    const Row& row = GetParam();
+    const ThesisRow& row = GetParam();
     const auto patch = test::patch(row.surface);
     const auto machine = test::machine("rotary-tilt-listing");
     const geometry::ClosestPointSearch search(patch);
@@ -85,16 +85,17 @@ TEST_P(ThesisErrorTable, IsReproduced) {
 INSTANTIATE_TEST_SUITE_P(
     Rows,
     ThesisErrorTable,
-    ::testing::Values(Row{"dome", Mode::chord, 10, 0.34812, 0.41172, 0.61666, 0.21305, 0.26988, 0.58942},
-                      Row{"dome", Mode::chord, 20, 0.08570, 0.09708, 0.13976, 0.05340, 0.06378, 0.13719},
-                      Row{"dome", Mode::chord, 40, 0.02127, 0.02362, 0.03325, 0.01335, 0.01553, 0.03290},
-                      Row{"dome", Mode::kin, 10, 1.85582, 3.80828, 23.10754, 0.86047, 2.10443, 15.33263},
-                      Row{"dome", Mode::kin, 20, 0.48936, 1.55003, 18.45429, 0.22112, 0.73485, 9.89038},
-                      Row{"dome", Mode::kin, 40, 0.13804, 0.73782, 17.10045, 0.05665, 0.29158, 7.76001},
-                      Row{"sine", Mode::chord, 10, 0.09266, 0.19950, 0.99152, 0.04235, 0.15961, 0.73217},
-                      Row{"sine", Mode::chord, 20, 0.01587, 0.03358, 0.23705, 0.00500, 0.02596, 0.16887},
-                      Row{"sine", Mode::kin, 10, 0.21451, 0.72519, 4.68947, 0.12241, 0.55585, 4.00676},
-                      Row{"sine", Mode::kin, 20, 0.03070, 0.12222, 1.08195, 0.01504, 0.09461, 1.03134}));
+    ::testing::Values(
+        ThesisRow{"dome", Mode::chord, 10, 0.34812, 0.41172, 0.61666, 0.21305, 0.26988, 0.58942},
+        ThesisRow{"dome", Mode::chord, 20, 0.08570, 0.09708, 0.13976, 0.05340, 0.06378, 0.13719},
+        ThesisRow{"dome", Mode::chord, 40, 0.02127, 0.02362, 0.03325, 0.01335, 0.01553, 0.03290},
+        ThesisRow{"dome", Mode::kin, 10, 1.85582, 3.80828, 23.10754, 0.86047, 2.10443, 15.33263},
+        ThesisRow{"dome", Mode::kin, 20, 0.48936, 1.55003, 18.45429, 0.22112, 0.73485, 9.89038},
+        ThesisRow{"dome", Mode::kin, 40, 0.13804, 0.73782, 17.10045, 0.05665, 0.29158, 7.76001},
+        ThesisRow{"sine", Mode::chord, 10, 0.09266, 0.19950, 0.99152, 0.04235, 0.15961, 0.73217},
+        ThesisRow{"sine", Mode::chord, 20, 0.01587, 0.03358, 0.23705, 0.00500, 0.02596, 0.16887},
+        ThesisRow{"sine", Mode::kin, 10, 0.21451, 0.72519, 4.68947, 0.12241, 0.55585, 4.00676},
+        ThesisRow{"sine", Mode::kin, 20, 0.03070, 0.12222, 1.08195, 0.01504, 0.09461, 1.03134}));
 
 // T8.
 TEST(ThesisSingleMove, HasTheReferenceMidPoint) {

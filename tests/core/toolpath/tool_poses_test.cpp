@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/toolpath/zigzag.h"
+#include "tests/core/toolpath/leans.h"
 #include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
@@ -15,8 +16,7 @@ namespace {
 
 using grid::Grid;
 using grid::TrackDirection;
-
-const Lean ten_degrees{.lead = from_degrees(10.0)};
+using test::ten_degrees;
 
 /// On a path both angles are those asked for, against the normal and the direction in which the tool goes.
 TEST(ToolPoses, HoldTheirAnglesOnEveryTrackOfAZigzag) {

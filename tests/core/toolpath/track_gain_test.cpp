@@ -18,35 +18,35 @@ using grid::Grid;
 using grid::ImproverState;
 using grid::TrackDirection;
 
-struct Case {
+struct GainCase {
     std::string preset;
     std::string machine;
     TrackDirection direction = TrackDirection::along_v;
 
-    friend std::ostream& operator<<(std::ostream& out, const Case& c) {
+    friend std::ostream& operator<<(std::ostream& out, const GainCase& c) {
         return out << c.preset << (c.direction == TrackDirection::along_v ? " along v" : " along u");
     }
 };
 
-const Case dome_along_v{"dome", "rotary-tilt-listing", TrackDirection::along_v};
-const Case dome_along_u{"dome", "rotary-tilt-listing", TrackDirection::along_u};
-const Case two_bell_along_u{"two-bell", "ac-table", TrackDirection::along_u};
-const Case two_bell_along_v{"two-bell", "ac-table", TrackDirection::along_v};
-const Case sine_along_u{"sine", "rotary-tilt-listing", TrackDirection::along_u};
-const Case sine_along_v{"sine", "rotary-tilt-listing", TrackDirection::along_v};
+const GainCase dome_along_v{"dome", "rotary-tilt-listing", TrackDirection::along_v};
+const GainCase dome_along_u{"dome", "rotary-tilt-listing", TrackDirection::along_u};
+const GainCase two_bell_along_u{"two-bell", "ac-table", TrackDirection::along_u};
+const GainCase two_bell_along_v{"two-bell", "ac-table", TrackDirection::along_v};
+const GainCase sine_along_u{"sine", "rotary-tilt-listing", TrackDirection::along_u};
+const GainCase sine_along_v{"sine", "rotary-tilt-listing", TrackDirection::along_v};
 
-KinematicError error_of(const Case& c) {
+KinematicError error_of(const GainCase& c) {
     return {test::patch(c.preset), test::machine(c.machine), false};
 }
 
-ImproverState optimised(const Case& c, int n, const grid::TrackSettings& settings = {}) {
+ImproverState optimised(const GainCase& c, int n, const grid::TrackSettings& settings = {}) {
     const KinematicError error = error_of(c);
     grid::TrackOptimiser optimiser(error, Grid::uniform(n, n), c.direction, settings);
     return run(optimiser, {});
 }
 
 /// The error of the whole zigzag path, as people are shown it.
-ErrorField field_of(const Case& c, const Grid& grid) {
+ErrorField zigzag_field(const GainCase& c, const Grid& grid) {
     const auto patch = test::patch(c.preset);
     const auto machine = test::machine(c.machine);
     const Toolpath path = zigzag(patch, grid, c.direction, false);
@@ -58,7 +58,7 @@ double cut(double before, double after) {
     return 1.0 - after / before;
 }
 
-class TrackGain : public ::testing::TestWithParam<Case> {};
+class TrackGain : public ::testing::TestWithParam<GainCase> {};
 
 // T17.
 TEST_P(TrackGain, CutsTheMeanByFortyFiveAndTheMaxByEightyFivePerCent) {
@@ -72,12 +72,12 @@ INSTANTIATE_TEST_SUITE_P(OfTheTip,
                          TrackGain,
                          ::testing::Values(dome_along_v, dome_along_u, two_bell_along_u));
 
-class TrackGainOnThePath : public ::testing::TestWithParam<Case> {};
+class TrackGainOnThePath : public ::testing::TestWithParam<GainCase> {};
 
 TEST_P(TrackGainOnThePath, CutsTheDistanceFromTheSurfaceByAsMuch) {
     const ImproverState state = optimised(GetParam(), 20);
-    const ErrorField before = field_of(GetParam(), Grid::uniform(20, 20));
-    const ErrorField after = field_of(GetParam(), state.best);
+    const ErrorField before = zigzag_field(GetParam(), Grid::uniform(20, 20));
+    const ErrorField after = zigzag_field(GetParam(), state.best);
     const ErrorSummary was = summary(before, Distance::closest, MoveKind::track);
     const ErrorSummary is = summary(after, Distance::closest, MoveKind::track);
     EXPECT_GE(cut(was.mean, is.mean), 0.45);
@@ -89,14 +89,14 @@ INSTANTIATE_TEST_SUITE_P(OfShippedProjects,
                          TrackGainOnThePath,
                          ::testing::Values(dome_along_v, two_bell_along_u));
 
-class NeverWorseOnThePath : public ::testing::TestWithParam<Case> {};
+class NeverWorseOnThePath : public ::testing::TestWithParam<GainCase> {};
 
 TEST_P(NeverWorseOnThePath, InAnyDistanceOrTheAxisOrTheTrackGap) {
     for (const grid::TrackSettings& settings : {grid::TrackSettings{}, grid::quick_track_settings()}) {
         const Grid start = Grid::uniform(20, 20);
         const Grid best = optimised(GetParam(), 20, settings).best;
-        const ErrorField before = field_of(GetParam(), start);
-        const ErrorField after = field_of(GetParam(), best);
+        const ErrorField before = zigzag_field(GetParam(), start);
+        const ErrorField after = zigzag_field(GetParam(), best);
         constexpr double rounding_mm = 1e-6;
         for (const Distance distance : {Distance::closest, Distance::param}) {
             const ErrorSummary was = summary(before, distance, MoveKind::track);
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(OfAllSurfaces,
                                            sine_along_v));
 
 TEST(TrackGainQuick, KeepsNearlyAllOfTheGainForLiveEditing) {
-    for (const Case& c : {dome_along_v, two_bell_along_u}) {
+    for (const GainCase& c : {dome_along_v, two_bell_along_u}) {
         const ImproverState state = optimised(c, 20, grid::quick_track_settings());
         EXPECT_GE(cut(state.start.mean, state.of_best.mean), 0.43) << c;
         EXPECT_GE(cut(state.start.max, state.of_best.max), 0.85) << c;
@@ -133,9 +133,9 @@ TEST(TrackGainSmall, IsNoLossOnGridsWithHardlyAnyNodes) {
     for (const int n : {2, 3, 4, 6}) {
         const ImproverState state = optimised(dome_along_v, n);
         const ErrorSummary was =
-            summary(field_of(dome_along_v, Grid::uniform(n, n)), Distance::closest, MoveKind::track);
+            summary(zigzag_field(dome_along_v, Grid::uniform(n, n)), Distance::closest, MoveKind::track);
         const ErrorSummary is =
-            summary(field_of(dome_along_v, state.best), Distance::closest, MoveKind::track);
+            summary(zigzag_field(dome_along_v, state.best), Distance::closest, MoveKind::track);
         EXPECT_LE(state.of_best.mean, state.start.mean + 1e-6) << n;
         EXPECT_LE(state.of_best.axis_max, state.start.axis_max + 1e-8) << n;
         EXPECT_LE(is.mean, was.mean * 1.02)

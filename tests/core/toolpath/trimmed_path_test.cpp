@@ -107,7 +107,7 @@ TEST(TrimmedPath, EveryStrategyStaysInside) {
 }
 
 /// A sheet that shrinks to a point on u = 0.5.
-geometry::BezierPatch bow_tie() {
+geometry::BezierPatch flat_bow_tie() {
     geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
     for (int j = 0; j < 2; ++j) {
         net.point(0, j) = {0.0, 60.0 * j, 0.0};
@@ -117,7 +117,7 @@ geometry::BezierPatch bow_tie() {
 }
 
 TEST(TrimmedPath, NodesWithoutANormalAreNoHarmWhereNothingIsCut) {
-    const auto patch = bow_tie();
+    const auto patch = flat_bow_tie();
     const Grid grid = Grid::uniform(9, 5); // with a row on u = 0.5
     EXPECT_THROW((void)zigzag(patch, grid, TrackDirection::along_u, false), Error);
     const Trim ends{{{{0.0, 0.0}, {0.375, 0.0}, {0.375, 1.0}, {0.0, 1.0}},
@@ -142,11 +142,11 @@ geometry::BezierPatch triangle() {
     return geometry::BezierPatch(net);
 }
 
-Toolpath covered(const geometry::BezierPatch& patch,
-                 const Trim& trim,
-                 StrategyKind kind,
-                 TrackDirection direction,
-                 bool knows_outline = true) {
+Toolpath trimmed_cover(const geometry::BezierPatch& patch,
+                       const Trim& trim,
+                       StrategyKind kind,
+                       TrackDirection direction,
+                       bool knows_outline = true) {
     const auto machine = test::machine("ac-table");
     const Tool tool =
         kind == StrategyKind::constant_scallop ? Tool{.cutter = test::body(test::ball)} : Tool{};
@@ -167,9 +167,9 @@ TEST(TrimmedPath, NoStrategyNeedsANormalWhereNothingIsCut) {
                             StrategyKind::fewest_points}) {
         for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
             if (kind != StrategyKind::fewest_points) { // which refuses after a long search
-                EXPECT_THROW((void)covered(patch, far_side, kind, direction, false), Error);
+                EXPECT_THROW((void)trimmed_cover(patch, far_side, kind, direction, false), Error);
             }
-            const Toolpath path = covered(patch, far_side, kind, direction);
+            const Toolpath path = trimmed_cover(patch, far_side, kind, direction);
             double low = 1.0, high = 0.0;
             for (const PathPoint& point : path.points) {
                 EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12) << point.origin.uv.transpose();
@@ -184,12 +184,12 @@ TEST(TrimmedPath, NoStrategyNeedsANormalWhereNothingIsCut) {
 }
 
 TEST(TrimmedPath, AHoleInWhichTheSurfaceTurnsOverIsNoHarm) {
-    const auto patch = bow_tie();
+    const auto patch = flat_bow_tie();
     const Trim ends{{{{0.0, 0.0}, {0.375, 0.0}, {0.375, 1.0}, {0.0, 1.0}},
                      {{0.625, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.625, 1.0}}}};
     for (const auto kind : {StrategyKind::spiral, StrategyKind::constant_scallop}) {
         for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
-            for (const PathPoint& point : covered(patch, ends, kind, direction).points) {
+            for (const PathPoint& point : trimmed_cover(patch, ends, kind, direction).points) {
                 EXPECT_GE(std::abs(point.origin.uv.x() - 0.5), 0.125 - 1e-9);
                 EXPECT_NEAR(std::abs(point.normal.z()), 1.0, 1e-12);
             }
@@ -200,9 +200,9 @@ TEST(TrimmedPath, AHoleInWhichTheSurfaceTurnsOverIsNoHarm) {
 /// The pieces of a track beside a hole begin and end at it, each with as few points as it needs.
 TEST(TrimmedPath, FewestPointsAreThoseOfThePiecesThatAreCut) {
     const auto patch = test::patch("dome");
-    const Toolpath path = covered(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v);
+    const Toolpath path = trimmed_cover(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v);
     const Toolpath whole =
-        covered(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v, false);
+        trimmed_cover(patch, frame(), StrategyKind::fewest_points, TrackDirection::along_v, false);
     EXPECT_LT(path.points.size(), whole.points.size());
     EXPECT_NEAR(cut_length(path), cut_length(whole), 1e-9);
 }
@@ -221,13 +221,13 @@ TEST(TrimmedPath, FewestPointsGoFromTrackToTrackAlongTheSurfaceAtTheirOwnEndsAlo
     }
     for (const auto direction : {TrackDirection::along_u, TrackDirection::along_v}) {
         for (const Trim& trim : {Trim{{round}}, frame()}) {
-            const Toolpath path = covered(patch, trim, StrategyKind::fewest_points, direction);
+            const Toolpath path = trimmed_cover(patch, trim, StrategyKind::fewest_points, direction);
             EXPECT_EQ(count_of(path, MoveKind::cross), 0);
             EXPECT_GE(count_of(path, MoveKind::over), 2);
         }
     }
     const Trim beside{{{{0.25, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.25, 1.0}}}};
-    const Toolpath path = covered(patch, beside, StrategyKind::fewest_points, TrackDirection::along_v);
+    const Toolpath path = trimmed_cover(patch, beside, StrategyKind::fewest_points, TrackDirection::along_v);
     EXPECT_EQ(count_of(path, MoveKind::over), 0);
     EXPECT_GT(count_of(path, MoveKind::cross), 2);
 }

@@ -21,7 +21,7 @@ using grid::TrackDirection;
 
 /// A sheet whose last row of control points is in reverse order: it shrinks to a point at u = 0.5 for a
 /// plane.
-BezierPatch bow_tie(double rise) {
+BezierPatch rising_bow_tie(double rise) {
     ControlNet net = ControlNet::sized(2, 4);
     for (int j = 0; j < 4; ++j) {
         net.point(0, j) = {0.0, 20.0 * j, 0.0};
@@ -69,7 +69,7 @@ Trim::Loop square(double low, double high) {
     return {{low, low}, {high, low}, {high, high}, {low, high}};
 }
 
-void look(const BezierPatch& patch, const Trim& trim, int nodes, TrackDirection direction) {
+void refuse_zigzag(const BezierPatch& patch, const Trim& trim, int nodes, TrackDirection direction) {
     const Grid grid = Grid::uniform(nodes, nodes);
     const geometry::OutlineTree outline(trim);
     refuse_turning_over(patch, trim, grid, zigzag(patch, grid, direction, false, &outline));
@@ -78,16 +78,16 @@ void look(const BezierPatch& patch, const Trim& trim, int nodes, TrackDirection 
 constexpr std::array both{TrackDirection::along_u, TrackDirection::along_v};
 
 TEST(TurningOver, TheFlipIsFoundWhereTheBowTieShrinks) {
-    const auto found = flip_between(bow_tie(15.0), {0.3, 0.1}, {0.8, 0.1});
+    const auto found = flip_between(rising_bow_tie(15.0), {0.3, 0.1}, {0.8, 0.1});
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->x(), 0.5, 1e-6);
-    EXPECT_FALSE(flip_between(bow_tie(15.0), {0.6, 0.1}, {0.8, 0.1}));
+    EXPECT_FALSE(flip_between(rising_bow_tie(15.0), {0.6, 0.1}, {0.8, 0.1}));
 }
 
 TEST(TurningOver, ABowTieIsRefusedWithItsPlace) {
     for (const auto direction : both) {
         try {
-            look(bow_tie(15.0), {}, 8, direction);
+            refuse_zigzag(rising_bow_tie(15.0), {}, 8, direction);
             FAIL() << "not refused";
         } catch (const Error& error) {
             EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("turns over on itself"));
@@ -100,8 +100,9 @@ TEST(TurningOver, WhatIsCutAwayMayTurnOver) {
     const Trim below{{{{0.0, 0.0}, {0.4, 0.0}, {0.4, 1.0}, {0.0, 1.0}}}};
     const Trim both_ends{{below.loops.front(), {{0.6, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.6, 1.0}}}};
     for (const auto direction : both) {
-        EXPECT_NO_THROW(look(bow_tie(15.0), below, 8, direction));
-        EXPECT_NO_THROW(look(bow_tie(15.0), both_ends, 8, direction)) << "no cut leads across";
+        EXPECT_NO_THROW(refuse_zigzag(rising_bow_tie(15.0), below, 8, direction));
+        EXPECT_NO_THROW(refuse_zigzag(rising_bow_tie(15.0), both_ends, 8, direction))
+            << "no cut leads across";
     }
 }
 
@@ -120,8 +121,8 @@ TEST(TurningOver, AFlipInsideAHoleOfAFaceIsPassedAndOneBesideItIsNot) {
     ASSERT_FALSE(patch.unit_normal(0.5, 2.0 / 6.0));
     const Trim narrow{{square(0.0, 1.0), square(0.48, 0.52)}};
     for (const auto direction : both) {
-        EXPECT_NO_THROW(look(patch, wide, 7, direction)) << "nodes in the hole have no normal";
-        EXPECT_THROW(look(patch, narrow, 8, direction), Error);
+        EXPECT_NO_THROW(refuse_zigzag(patch, wide, 7, direction)) << "nodes in the hole have no normal";
+        EXPECT_THROW(refuse_zigzag(patch, narrow, 8, direction), Error);
     }
 }
 
@@ -130,20 +131,22 @@ TEST(TurningOver, AFlipBeforeAHoleIsRefusedWhereTheHoleEndsTheRightWayUp) {
     const Trim before_and_behind{{{{0.0, 0.0}, {0.45, 0.0}, {0.45, 1.0}, {0.0, 1.0}},
                                   {{0.9, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.9, 1.0}}}};
     ASSERT_GT(patch.unit_normal(0.0, 0.5)->dot(*patch.unit_normal(1.0, 0.5)), 0.0);
-    EXPECT_THROW(look(patch, before_and_behind, 2, TrackDirection::along_u), Error);
+    EXPECT_THROW(refuse_zigzag(patch, before_and_behind, 2, TrackDirection::along_u), Error);
 }
 
 TEST(TurningOver, AFlipBetweenTwoTracksIsRefusedWhereTheirLinksAreCutAway) {
-    EXPECT_THROW(look(bow_tie(15.0), {{square(0.2, 0.8)}}, 8, TrackDirection::along_v), Error);
+    EXPECT_THROW(refuse_zigzag(rising_bow_tie(15.0), {{square(0.2, 0.8)}}, 8, TrackDirection::along_v),
+                 Error);
 }
 
 TEST(TurningOver, SteepAndCurvedSurfacesArePassed) {
     const BezierPatch wall = steep();
     EXPECT_LT(wall.unit_normal(0.0, 0.5)->dot(*wall.unit_normal(1.0, 0.5)), 0.0)
         << "by a coarse grid it turns round at once";
-    EXPECT_NO_THROW(look(wall, {}, 2, TrackDirection::along_u));
+    EXPECT_NO_THROW(refuse_zigzag(wall, {}, 2, TrackDirection::along_u));
     for (const auto& preset : geometry::surface_presets()) {
-        EXPECT_NO_THROW(look(preset.make().patch(geometry::PatchId{0}), {}, 12, TrackDirection::along_v));
+        EXPECT_NO_THROW(
+            refuse_zigzag(preset.make().patch(geometry::PatchId{0}), {}, 12, TrackDirection::along_v));
     }
 }
 

@@ -13,10 +13,10 @@ namespace millwright::panels {
 namespace {
 
 using machine::DriverState;
-using Bench = test::ArmAtPmac;
+using test::ArmAtPmac;
 
 TEST(ArmAtPmacF1, ProtectionsThatAreOffAreToldWhenItIsConnectedAndWhenItGetsPower) {
-    Bench bench;
+    ArmAtPmac bench;
     const auto& log = bench.person.workshop().session().log;
     const auto told = [&] {
         return std::ranges::count_if(log, [](const std::string& text) {
@@ -35,7 +35,7 @@ TEST(ArmAtPmacF1, ProtectionsThatAreOffAreToldWhenItIsConnectedAndWhenItGetsPowe
 }
 
 TEST(ArmAtPmacF2, TheLogKeepsAlarmsWithTheirReason) {
-    Bench bench;
+    ArmAtPmac bench;
     const auto& log = bench.person.workshop().session().log;
     bench.connect();
     bench.give_power();
@@ -53,7 +53,7 @@ TEST(ArmAtPmacF2, TheLogKeepsAlarmsWithTheirReason) {
 }
 
 TEST(ArmAtPmacF2, DisconnectingTakesThePower) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.give_power();
     ASSERT_TRUE(bench.pmac.powered());
@@ -65,7 +65,7 @@ TEST(ArmAtPmacF2, DisconnectingTakesThePower) {
 }
 
 TEST(ArmAtPmacF2, QuittingAsksSaysThatTheArmMovesAndTakesThePower) {
-    Bench bench;
+    ArmAtPmac bench;
     auto& session = bench.person.workshop().session();
     bench.connect();
     bench.give_power();
@@ -91,7 +91,7 @@ TEST(ArmAtPmacF2, QuittingAsksSaysThatTheArmMovesAndTakesThePower) {
 }
 
 TEST(ArmAtPmacF2, ACardThatDoesNotTellThatItsPowerIsGoneKeepsTheWindowOpen) {
-    Bench bench;
+    ArmAtPmac bench;
     auto& session = bench.person.workshop().session();
     bench.connect();
     bench.give_power();

@@ -19,10 +19,10 @@ namespace millwright::panels {
 namespace {
 
 using machine::DriverState;
-using Bench = test::ArmAtPmac;
+using test::ArmAtPmac;
 
 TEST(ArmAtPmacU2, NothingMovesAndNoMotorHasPowerByConnecting) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     EXPECT_FALSE(bench.pmac.any_power());
     EXPECT_LT(bench.pmac.last_motion(), 0.0);
@@ -30,7 +30,7 @@ TEST(ArmAtPmacU2, NothingMovesAndNoMotorHasPowerByConnecting) {
 }
 
 TEST(ArmAtPmacU2, AJogGivesNoPower) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     EXPECT_EQ(bench.person.refusal("hand/jog/plus_1"), "The motors have no power.");
     EXPECT_EQ(bench.person.refusal("hand/power/machine_home"), "The motors have no power.");
@@ -44,7 +44,7 @@ TEST(ArmAtPmacU2, AJogGivesNoPower) {
 }
 
 TEST(ArmAtPmacU2, AJogRunsAsLongAsItIsHeldAndThePictureFollows) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.jog("hand/jog/plus_1", 1);
     bench.person.keep("arm-pmac");
@@ -59,7 +59,7 @@ TEST(ArmAtPmacU2, AJogRunsAsLongAsItIsHeldAndThePictureFollows) {
 
 TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     using render::Key;
-    Bench bench({1280, 1200}); // room for the whole pane
+    ArmAtPmac bench({1280, 1200}); // room for the whole pane
     const auto status = [&] { return bench.person.workshop().look().controller.status; };
     bench.connect();
     bench.person.click("lower/tabs/program");
@@ -128,7 +128,7 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
 }
 
 TEST(ArmAtPmacU2, ATipThatIsDraggedStaysAndSaysWhy) {
-    Bench bench({1600, 1000});
+    ArmAtPmac bench({1600, 1000});
     bench.connect();
     const Vec3 before = bench.person.workshop().arm().tool().translation();
     const widgets::Point tip = bench.person.place("view/tip").centre();
@@ -142,7 +142,7 @@ TEST(ArmAtPmacU2, ATipThatIsDraggedStaysAndSaysWhy) {
 
 TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
     using render::Key;
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.give_power();
     bench.person.click("lower/tabs/program");
@@ -174,7 +174,7 @@ TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
 
 TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
     using render::Key;
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.give_power();
     bench.person.click("lower/tabs/program");
@@ -194,7 +194,7 @@ TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
 
 TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {
     using render::Key;
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.give_power();
     bench.person.click("hand/jog/keys");
@@ -214,7 +214,7 @@ TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {
 
 TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     using render::Key;
-    Bench bench;
+    ArmAtPmac bench;
     const auto status = [&] { return bench.person.workshop().look().controller.status; };
     bench.connect();
     bench.give_power();
@@ -249,7 +249,7 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
 }
 
 TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.jog("hand/jog/minus_3", 3);
     bench.person.set_focused(false);
@@ -258,7 +258,7 @@ TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
 
 /// What the card refused in an alarm is no news when it is over.
 TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.person.workshop().run("machine.emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
@@ -281,7 +281,7 @@ TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
 /// card's own.
 TEST(ArmAtPmacF2, AWindowThatHangsEndsAJogThatIsStillHeldAndBeginsNoneAnew) {
     constexpr double renewed_deg = 5.0; // as far as a jog goes that nothing ends
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     ASSERT_NO_FATAL_FAILURE(bench.jog("hand/jog/plus_1", 1));
     const double hung_at = bench.pmac.degrees(1), hung = bench.pmac.time();
@@ -302,7 +302,7 @@ TEST(ArmAtPmacF2, AWindowThatHangsEndsAJogThatIsStillHeldAndBeginsNoneAnew) {
 }
 
 TEST(ArmAtPmacF2, LeavingTheWorkspaceEndsAJog) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.jog("hand/jog/plus_4", 4);
     bench.person.workshop().run("view.design");
@@ -310,7 +310,7 @@ TEST(ArmAtPmacF2, LeavingTheWorkspaceEndsAJog) {
 }
 
 TEST(ArmAtPmacF2, AKillTakesThePowerAndNoJogGivesItBack) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.jog("hand/jog/plus_2", 2);
     bench.person.workshop().run("machine.emergency_stop");
@@ -330,7 +330,7 @@ TEST(ArmAtPmacF2, AKillTakesThePowerAndNoJogGivesItBack) {
 /// What stopped the arm is not undone by a key that nobody let go of.
 TEST(ArmAtPmacF2, AKeyThatIsHeldMovesNothingAfterAStop) {
     using render::Key;
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.give_power();
     bench.person.click("hand/jog/keys");
@@ -374,7 +374,7 @@ TEST(ArmAtPmacF2, AKeyThatIsHeldMovesNothingAfterAStop) {
 }
 
 TEST(ArmAtPmacU6, APulledPlugIsToldAndJogsAreRefused) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.pmac.vanish();
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
@@ -384,14 +384,14 @@ TEST(ArmAtPmacU6, APulledPlugIsToldAndJogsAreRefused) {
 }
 
 TEST(ArmAtPmacU6, ACardThatIsNotThereIsToldInTheWindow) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.person.workshop().session().hand.choice.address = "/dev/no-such-port";
     bench.person.click("hand/connection/machine_connect");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.person.sees("hand/connection/failure"); }));
 }
 
 TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.person.click("lower/tabs/console");
     bench.person.frames(2);
@@ -425,7 +425,7 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
 /// Played later, such a point would send the arm to where it never stood.
 TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
     constexpr const char* why = "The position is not known: home the arm first.";
-    Bench bench;
+    ArmAtPmac bench;
     const auto status = [&] { return bench.person.workshop().look().controller.status; };
     bench.person.workshop().run("arm.teach"); // of the drawn arm
     bench.connect();
@@ -448,7 +448,7 @@ TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
 }
 
 TEST(ArmAtPmacU2, ATaughtPointIsChosenAndInSight) {
-    Bench bench({1280, 800});
+    ArmAtPmac bench({1280, 800});
     bench.person.click("lower/tabs/points");
     for (int n = 0; n < 12; ++n) {
         bench.person.workshop().run("arm.teach");
@@ -461,7 +461,7 @@ TEST(ArmAtPmacU2, ATaughtPointIsChosenAndInSight) {
 }
 
 TEST(ArmAtPmacU2, TheJogButtonsAreInSightInASmallWindow) {
-    Bench bench({1100, 700});
+    ArmAtPmac bench({1100, 700});
     bench.connect();
     bench.person.frames(4);
     for (const char* button : {"hand/power/arm_enable",
@@ -475,7 +475,7 @@ TEST(ArmAtPmacU2, TheJogButtonsAreInSightInASmallWindow) {
 }
 
 TEST(ArmAtPmacU4, TheLineOfTheTerminalIsNoGCode) {
-    Bench bench;
+    ArmAtPmac bench;
     EXPECT_EQ(line_name(bench.person.workshop().look()), "MDI");
     bench.connect();
     EXPECT_EQ(line_name(bench.person.workshop().look()), "Line");
@@ -485,7 +485,7 @@ TEST(ArmAtPmacU4, TheLineOfTheTerminalIsNoGCode) {
 }
 
 TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
-    Bench bench;
+    ArmAtPmac bench;
     const auto& log = bench.person.workshop().session().log;
     bench.connect();
     const auto file = bench.person.folder() / "own.ini";
@@ -496,7 +496,7 @@ TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
 }
 
 TEST(ArmAtPmac, TakesNoGCode) {
-    Bench bench;
+    ArmAtPmac bench;
     bench.connect();
     bench.person.workshop().run("view.machine");
     bench.person.wait_idle();

@@ -113,7 +113,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     keep("connected");
 
     person_.click("hand/power/arm_enable");
-    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered(); }));
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered() && status().powered; }));
     follow([&] { person_.click("hand/power/machine_home"); });
     EXPECT_TRUE(status().position_known);
     EXPECT_FALSE(person_.sees("inspector/joints/not_known"));
@@ -200,7 +200,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::idle); }));
     EXPECT_FALSE(bench_.pmac.any_power());
     person_.click("hand/power/arm_enable");
-    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered(); }));
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered() && status().powered; }));
     play_points();
     keep("recovered");
 }

@@ -26,8 +26,8 @@ protected:
         person_.workshop().run("view.arm");
         person_.frames(4);
     }
-    void tab(const char* name) {
-        person_.click(std::string("lower/tabs/") + name);
+    void tab(const std::string& name) {
+        person_.click("lower/tabs/" + name);
         person_.frames(2);
     }
     [[nodiscard]] actions::ArmBench& arm() { return person_.workshop().arm(); }

@@ -21,8 +21,8 @@ using widgets::Point;
 using widgets::Rect;
 
 /// A person who has come to the workspace by its key.
-struct Bench {
-    explicit Bench(const render::PixelSize& screen = {1280, 800}) : person(screen) {
+struct ArmWorkspacePerson {
+    explicit ArmWorkspacePerson(const render::PixelSize& screen = {1280, 800}) : person(screen) {
         person.workshop().run("view.arm");
         person.frames(4);
     }
@@ -36,13 +36,13 @@ struct Bench {
     Person person;
 };
 
-Point middle(const Rect& rect) {
+Point middle_of(const Rect& rect) {
     return {rect.x + 0.5F * rect.w, rect.y + 0.5F * rect.h};
 }
 
 TEST(ArmWorkspace, OpensWithTheArmAtHomeAndShowsEveryPart) {
     for (const render::PixelSize screen : {render::PixelSize{1280, 800}, render::PixelSize{1600, 1000}}) {
-        Bench bench(screen);
+        ArmWorkspacePerson bench(screen);
         EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::arm);
         EXPECT_EQ(bench.arm().name(), "motoman-l3");
         EXPECT_LT((bench.tip() - Vec3(800.0, 0.0, 650.0)).norm(), 1e-9);
@@ -65,7 +65,7 @@ TEST(ArmWorkspace, OpensWithTheArmAtHomeAndShowsEveryPart) {
 }
 
 TEST(ArmWorkspace, CutsNoLabelInASmallWindow) {
-    Bench bench({1100, 700});
+    ArmWorkspacePerson bench({1100, 700});
     for (const char* tab :
          {"lower/tabs/points", "lower/tabs/program", "lower/tabs/console", "lower/tabs/motors"}) {
         bench.person.click(tab);
@@ -78,7 +78,7 @@ TEST(ArmWorkspace, CutsNoLabelInASmallWindow) {
 }
 
 TEST(ArmWorkspace, ASliderTurnsItsJointWithinItsLimits) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     const Rect slider = bench.person.place("inspector/joints/joint_1");
     bench.person.click_at({slider.x + 0.6F * slider.w, slider.y + 0.5F * slider.h});
     const double turned = bench.arm().joints()[0];
@@ -88,20 +88,20 @@ TEST(ArmWorkspace, ASliderTurnsItsJointWithinItsLimits) {
 }
 
 TEST(ArmWorkspace, TheTipFollowsTheMouseInThePlaneOfTheScreen) {
-    Bench bench;
-    const Point from = middle(bench.person.place("view/tip"));
+    ArmWorkspacePerson bench;
+    const Point from = middle_of(bench.person.place("view/tip"));
     const Vec3 before = bench.tip();
     bench.person.drag(from, {from.x + 30.0F, from.y + 40.0F});
     EXPECT_GT((bench.tip() - before).norm(), 30.0);
-    const Point there = middle(bench.person.place("view/tip"));
+    const Point there = middle_of(bench.person.place("view/tip"));
     EXPECT_NEAR(there.x, from.x + 30.0F, 3.0F);
     EXPECT_NEAR(there.y, from.y + 40.0F, 3.0F);
     EXPECT_TRUE(bench.arm().refusal().empty()) << bench.arm().refusal();
 }
 
 TEST(ArmWorkspace, ATipThatIsDraggedTooFarStaysWithAReason) {
-    Bench bench;
-    const Point from = middle(bench.person.place("view/tip"));
+    ArmWorkspacePerson bench;
+    const Point from = middle_of(bench.person.place("view/tip"));
     bench.person.drag(from, {from.x + 400.0F, from.y - 250.0F}, 3);
     EXPECT_FALSE(bench.arm().refusal().empty());
     EXPECT_LE(bench.tip().norm(), 1450.0 + 1e-6);
@@ -161,9 +161,9 @@ TEST(ArmWorkspace, KeepsItsTipAboveTheFloor) {
 }
 
 TEST(ArmWorkspace, ALinkThatIsDraggedTurnsItsJointAlone) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     const kinematics::JointPositions before = bench.arm().joints();
-    const Point from = middle(bench.person.place("view/link_3")); // the middle of the forearm
+    const Point from = middle_of(bench.person.place("view/link_3")); // the middle of the forearm
     bench.person.drag(from, {from.x, from.y + 40.0F});
     const kinematics::JointPositions after = bench.arm().joints();
     EXPECT_GT(std::abs(after[2] - before[2]), 0.02);
@@ -173,7 +173,7 @@ TEST(ArmWorkspace, ALinkThatIsDraggedTurnsItsJointAlone) {
 }
 
 TEST(ArmWorkspace, AGoalListsItsSolutionsAndTheArmGoesThere) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     bench.goal(Vec3(800.0, 300.0, 300.0), Vec3(0.0, 0.0, 1.0));
     ASSERT_GE(bench.arm().solutions().size(), 2U);
     bench.person.click("inspector/goal/solutions/solution_2");
@@ -188,7 +188,7 @@ TEST(ArmWorkspace, AGoalListsItsSolutionsAndTheArmGoesThere) {
 }
 
 TEST(ArmWorkspace, AGoalOutOfReachSaysWhy) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     bench.goal(Vec3(1500.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0));
     EXPECT_TRUE(bench.arm().solutions().empty());
     EXPECT_NE(bench.arm().reason().find("1450"), std::string::npos) << bench.arm().reason();
@@ -197,8 +197,8 @@ TEST(ArmWorkspace, AGoalOutOfReachSaysWhy) {
 }
 
 TEST(ArmWorkspaceU2, AJogMovesTheDrawnArmAsLongAsItIsHeld) {
-    Bench bench;
-    const Point button = middle(bench.person.place("hand/jog/minus_2"));
+    ArmWorkspacePerson bench;
+    const Point button = middle_of(bench.person.place("hand/jog/minus_2"));
     bench.person.hover(button);
     bench.person.hold_button(true);
     bench.person.frames(20);
@@ -211,10 +211,10 @@ TEST(ArmWorkspaceU2, AJogMovesTheDrawnArmAsLongAsItIsHeld) {
 }
 
 TEST(ArmWorkspaceU5, ACartesianJogMovesTheTipAlongItsAxisAlone) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     bench.person.click("hand/jog/frame/base");
     const Vec3 before = bench.tip();
-    bench.person.hover(middle(bench.person.place("hand/jog/minus_Z")));
+    bench.person.hover(middle_of(bench.person.place("hand/jog/minus_Z")));
     bench.person.hold_button(true);
     bench.person.frames(30);
     bench.person.hold_button(false);
@@ -225,7 +225,7 @@ TEST(ArmWorkspaceU5, ACartesianJogMovesTheTipAlongItsAxisAlone) {
 }
 
 TEST(ArmWorkspaceU2, TheKeysOfTheThesisMoveTheChosenJointOnlyWhileTheyAreGiven) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     bench.person.press_key(render::Key::digit_3);
     bench.person.hold_keys({render::Key::equal});
     bench.person.frames(10);
@@ -248,7 +248,7 @@ TEST(ArmWorkspaceU2, TheKeysOfTheThesisMoveTheChosenJointOnlyWhileTheyAreGiven) 
 }
 
 TEST(ArmWorkspaceU4, AColonLeadsToTheTerminal) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     bench.person.click("hand/jog/keys");
     bench.person.press_key(render::Key::semicolon, false, true);
     bench.person.frames(2);
@@ -256,7 +256,7 @@ TEST(ArmWorkspaceU4, AColonLeadsToTheTerminal) {
 }
 
 TEST(ArmWorkspaceS5, FourViewsShowItFromAboveFromTheFrontAndFromTheRight) {
-    Bench bench({1600, 1000});
+    ArmWorkspacePerson bench({1600, 1000});
     bench.person.workshop().run("view.four");
     bench.person.frames(4);
     for (const char* path : {"view/top/tip", "view/front/tip", "view/right/tip", "view/iso/tip"}) {
@@ -273,7 +273,7 @@ TEST(ArmWorkspaceS5, FourViewsShowItFromAboveFromTheFrontAndFromTheRight) {
 }
 
 TEST(ArmWorkspace, EveryArmThatShipsCanBeLookedAt) {
-    Bench bench;
+    ArmWorkspacePerson bench;
     for (const char* name : {"scara", "six-axis", "motoman-l3"}) {
         bench.person.choose("inspector/arm", name);
         bench.person.frames(4);

@@ -14,16 +14,16 @@
 namespace millwright::panels {
 namespace {
 
+using test::dome_project;
+
 namespace fs = std::filesystem;
 
 using test::Person;
 
-constexpr const char* dome = "assets/projects/dome.json";
-
 /// A copy of the dome in the person's own folder, opened.
 fs::path opened_copy(Person& person) {
     const fs::path file = person.folder() / "mine.json";
-    fs::copy_file(dome, file);
+    fs::copy_file(dome_project, file);
     person.open(file);
     return file;
 }
@@ -149,7 +149,7 @@ TEST(UndoAcrossFiles, BringsBackTheFileTogetherWithItsProject) {
 
 TEST(Dialogs, KeysReachTheMachineAlone) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.workshop().session().machine_speed = 1.0;
     person.press_key(render::Key::f9);
     person.frames(3);
@@ -165,7 +165,7 @@ TEST(Dialogs, KeysReachTheMachineAlone) {
 
 /// A copy as a program that crashed leaves it.
 void leave_behind(const fs::path& folder, const fs::path& file) {
-    project::UnsavedWork work{project::read_project(dome), file, 1'000'000};
+    project::UnsavedWork work{project::read_project(dome_project), file, 1'000'000};
     work.project.grid.nu = 33;
     write_file(folder / "1.json", project::recovery_text(work));
 }
@@ -178,13 +178,13 @@ bool is_empty_of_copies(const fs::path& folder) {
 
 TEST(RecoveryDialog, RecoverGoesOnWithTheUnsavedWork) {
     const test::ScratchFolder scratch;
-    leave_behind(scratch.path(), fs::absolute(dome));
+    leave_behind(scratch.path(), fs::absolute(dome_project));
     Person person({1280, 800}, scratch.path());
     ASSERT_TRUE(person.sees("dialogs/recovery/recovery_recover"));
     person.click("dialogs/recovery/recovery_recover");
     const auto now = person.workshop().look();
     EXPECT_EQ(now.project.grid.nu, 33);
-    EXPECT_EQ(now.document.file, fs::absolute(dome));
+    EXPECT_EQ(now.document.file, fs::absolute(dome_project));
     EXPECT_TRUE(now.changed());
     EXPECT_FALSE(now.asks());
     EXPECT_FALSE(is_empty_of_copies(scratch.path())) << "it is still unsaved";
@@ -194,7 +194,7 @@ TEST(RecoveryDialog, RecoverGoesOnWithTheUnsavedWork) {
 
 TEST(RecoveryDialog, FilesFromOutsideWaitForTheAnswer) {
     const test::ScratchFolder scratch;
-    leave_behind(scratch.path(), fs::absolute(dome));
+    leave_behind(scratch.path(), fs::absolute(dome_project));
     Person person({1280, 800}, scratch.path());
     person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt")});
     person.frames();
@@ -211,7 +211,7 @@ TEST(ReceivedFiles, OfSeveralTheOneThatIsOpenedIsNamed) {
     Person person;
     person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt"),
                                fs::absolute("assets/samples/plot/figures.plt"),
-                               fs::absolute(dome)});
+                               fs::absolute(dome_project)});
     person.wait_idle();
     EXPECT_EQ(person.project().plot.file.filename(), "moves.plt");
     const auto& log = person.workshop().session().log;
@@ -223,14 +223,14 @@ TEST(ReceivedFiles, WaitBehindAQuestionAboutUnsavedChangesAndAskTheirOwn) {
     (void)opened_copy(person);
     change(person);
     choose_sample(person);
-    person.workshop().receive({fs::absolute(dome)});
+    person.workshop().receive({fs::absolute(dome_project)});
     person.frames();
     person.click("dialogs/unsaved/unsaved_cancel");
     person.frames();
     ASSERT_TRUE(person.sees("dialogs/unsaved/unsaved_discard")) << "now about the dome";
     EXPECT_EQ(person.workshop().look().leaving_to, "open dome.json");
     person.click("dialogs/unsaved/unsaved_discard");
-    EXPECT_EQ(person.workshop().look().document.file, fs::absolute(dome));
+    EXPECT_EQ(person.workshop().look().document.file, fs::absolute(dome_project));
 }
 
 TEST(RecoveryDialog, DiscardRemovesTheCopy) {
@@ -240,7 +240,7 @@ TEST(RecoveryDialog, DiscardRemovesTheCopy) {
     person.click("dialogs/recovery/recovery_discard");
     EXPECT_FALSE(person.workshop().look().asks());
     EXPECT_TRUE(is_empty_of_copies(scratch.path()));
-    EXPECT_EQ(person.project().grid.nu, 20);
+    EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
 }
 
 TEST(RecoveryDialog, LaterAsksAgainAtTheNextStart) {

@@ -20,12 +20,12 @@
 namespace millwright::panels {
 namespace {
 
+using test::dome_project;
+
 namespace fs = std::filesystem;
 
 using test::Person;
 using ::testing::HasSubstr;
-
-constexpr const char* dome = "assets/projects/dome.json";
 
 geometry::Surface surface_in(const char* project) {
     return project::surface_of(project::read_project(project).surface);
@@ -33,7 +33,7 @@ geometry::Surface surface_in(const char* project) {
 
 class Import : public ::testing::Test {
 protected:
-    Import() { person_.open(dome); }
+    Import() { person_.open(dome_project); }
 
     [[nodiscard]] fs::path written(const std::string& name, const geometry::Surface& surface) {
         const fs::path file = person_.folder() / name;
@@ -104,10 +104,10 @@ TEST_F(Import, OfTheProjectsPathNothingIsPlottedBesideWhatIsLookedAt) {
 }
 
 TEST_F(Import, TheDialogListsTheFilesThatCanBeRead) {
-    (void)written("dome.ply", surface_in(dome));
+    (void)written("dome.ply", surface_in(dome_project));
     (void)written("notes.txt", std::string("nothing"));
     const fs::path project = person_.folder() / "mine.json";
-    fs::copy_file(dome, project);
+    fs::copy_file(dome_project, project);
     person_.open(project);
     person_.press_key(render::Key::i, true);
     EXPECT_TRUE(person_.sees("dialogs/files/entries/dome.ply"));
@@ -120,7 +120,7 @@ TEST_F(Import, TheDialogListsTheFilesThatCanBeRead) {
     EXPECT_EQ(bench().file().filename(), "dome.ply");
     person_.click("inspector/import/import_give_up");
     EXPECT_FALSE(bench().is_open());
-    EXPECT_EQ(person_.project().surface, project::read_project(dome).surface);
+    EXPECT_EQ(person_.project().surface, project::read_project(dome_project).surface);
 }
 
 TEST_F(Import, OneOfSeveralFacesIsChosen) {
@@ -153,7 +153,7 @@ TEST_F(Import, TheNumbersOfManyFacesAreWhole) {
     }
     constexpr int strips = 12;
     std::vector<geometry::BezierPatch> patches;
-    geometry::BezierPatch rest = surface_in(dome).patches().front();
+    geometry::BezierPatch rest = surface_in(dome_project).patches().front();
     for (int left = strips; left > 1; --left) {
         auto [strip, other] = geometry::split(rest, geometry::Parameter::u, 1.0 / left);
         patches.push_back(std::move(strip));

@@ -11,30 +11,29 @@ namespace millwright::panels {
 namespace {
 
 using actions::Workspace;
+using test::dome_project;
 using test::Person;
 using viewport::layer_switches;
 using viewport::Layers;
 using viewport::LayerSwitch;
 
-constexpr const char* dome = "assets/projects/dome.json";
-
-const Layers& shown(Person& person) {
+const Layers& shown_layers(Person& person) {
     return person.workshop().session().layers_now();
 }
 
 TEST(LayerList, HasARowForEveryLayerThatSwitchesItInThisWorkspaceOnly) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     const Layers of_grid = person.workshop().session().layers[1];
     person.click("view/layers");
     for (const LayerSwitch& which : layer_switches) {
         if (which.of == LayerSwitch::Of::arm) {
             continue;
         }
-        const Layers before = shown(person);
+        const Layers before = shown_layers(person);
         person.click("view/layers/" + std::string(which.id));
-        EXPECT_EQ(shown(person), switched(before, which)) << which.id;
-        EXPECT_NE(shown(person), before) << which.id;
+        EXPECT_EQ(shown_layers(person), switched(before, which)) << which.id;
+        EXPECT_NE(shown_layers(person), before) << which.id;
     }
     EXPECT_EQ(person.workshop().session().layers[1], of_grid);
 }
@@ -51,7 +50,7 @@ TEST(LayerList, StaysOpenForTheNextLayerAndClosesByAClickElsewhere) {
 
 TEST(LayerList, AHiddenLayerIsGoneFromThePictureAndComesBack) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     const render::Picture with = person.picture();
     EXPECT_TRUE(person.sees("view/control_point(1,1)"));
     person.workshop().run("view.layer_control_net");
@@ -65,25 +64,25 @@ TEST(LayerList, AHiddenLayerIsGoneFromThePictureAndComesBack) {
 
 TEST(LayerList, GoesBackToTheUsualLayers) {
     Person person;
-    const Layers usual = shown(person);
+    const Layers usual = shown_layers(person);
     person.click("view/layers");
     person.click("view/layers/surface");
     person.click("view/layers/tool_axes");
-    ASSERT_NE(shown(person), usual);
+    ASSERT_NE(shown_layers(person), usual);
     person.click("view/layers/usual");
-    EXPECT_EQ(shown(person), usual);
+    EXPECT_EQ(shown_layers(person), usual);
     EXPECT_FALSE(person.sees("view/layers/surface"));
 }
 
 TEST(LayerList, TheWeightIsShownFromTheGridPanelAndFollowsTheFormula) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.press_key(render::Key::f3);
     person.frames(2);
     EXPECT_FALSE(person.sees("view/weight_legend"));
     person.click("inspector/tracks"); // folded away, so that all of the next section is in sight
     person.click("inspector/elliptic/show_weight");
-    EXPECT_TRUE(shown(person).weight);
+    EXPECT_TRUE(shown_layers(person).weight);
     EXPECT_TRUE(person.sees("view/weight_legend"));
     const render::Picture of_error = person.picture();
     person.keep("weight-of-the-error");
@@ -104,9 +103,9 @@ TEST(LayerList, IsInTheViewMenuToo) {
     ASSERT_TRUE(person.sees("menu/view/layers/floor"));
     person.keep("layers-menu");
     EXPECT_LE(person.place("menu/view/layers/usual").bottom(), 800.0F);
-    const bool before = shown(person).floor;
+    const bool before = shown_layers(person).floor;
     person.click("menu/view/layers/floor");
-    EXPECT_NE(shown(person).floor, before);
+    EXPECT_NE(shown_layers(person).floor, before);
     person.hover(person.place("menu/view/view_fit").centre());
     EXPECT_FALSE(person.sees("menu/view/layers/floor"));
     EXPECT_TRUE(person.sees("menu/view/view_fit"));
@@ -114,11 +113,11 @@ TEST(LayerList, IsInTheViewMenuToo) {
 
 TEST(LayerList, IsFoundInThePaletteByTheNameOfALayer) {
     Person person;
-    const bool before = shown(person).singular_points;
+    const bool before = shown_layers(person).singular_points;
     person.press_key(render::Key::k, true);
     person.type("singular");
     person.press_key(render::Key::enter);
-    EXPECT_NE(shown(person).singular_points, before);
+    EXPECT_NE(shown_layers(person).singular_points, before);
 }
 
 TEST(LayerList, CutsNoTextAndFitsTheSmallWindow) {

@@ -34,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double jog_speed_mm_per_min = 1500.0;
 /// What the promise of 100 ms may be late by on a computer that has other things to do: the frame in which
 /// the event is seen, and threads that wait for their turn. (The promise itself is proven in emulated time.)
-constexpr double late = 2.0; // s
+constexpr double allowed_delay = 2.0; // s
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -111,7 +111,7 @@ protected:
     void expect_prompt(double seconds) {
         RecordProperty("stopped_after_ms", fmt::format("{:.0f}", 1e3 * seconds));
         fmt::print("             stopped after {:.0f} ms\n", 1e3 * seconds);
-        EXPECT_LT(seconds, 0.1 + late);
+        EXPECT_LT(seconds, 0.1 + allowed_delay);
     }
 };
 
@@ -384,7 +384,7 @@ TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
                 break;
             }
             live(0.1); // what is on its way arrives
-            EXPECT_TRUE(live_until([this] { return !grbl.moving(); }, late)) << "round " << round;
+            EXPECT_TRUE(live_until([this] { return !grbl.moving(); }, allowed_delay)) << "round " << round;
             live(0.1);
             EXPECT_FALSE(grbl.moving()) << "round " << round;
             person.set_focused(true);

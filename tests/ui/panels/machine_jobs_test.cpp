@@ -36,7 +36,7 @@ constexpr const char* far_first = "G21 G90 G94 G17\n"
                                   "X2 Y0\n"
                                   "G0 Z5\n"
                                   "M2\n";
-constexpr int middle = 12;
+constexpr int middle_line = 12;
 
 class MachineJobs : public ::testing::Test {
 protected:
@@ -126,7 +126,7 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     person.workshop().run("view.machine");
     person.frames(3);
     person.click("inspector/job/begin/on");
-    person.fill_in("inspector/job/begin/line", std::to_string(middle));
+    person.fill_in("inspector/job/begin/line", std::to_string(middle_line));
     person.wait_idle();
     const auto approach = person.workshop().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
@@ -141,7 +141,7 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     ASSERT_TRUE(person.live_until([&] { return !person.sees("inspector/job/begin/trust"); }));
     person.click("inspector/job/machine_run");
     double farthest = 0.0;
-    int first_line = middle;
+    int first_line = middle_line;
     ASSERT_TRUE(person.live_until(
         [&] {
             const auto shown = person.workshop().look();
@@ -155,10 +155,10 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     const auto job = person.workshop().look().job;
     EXPECT_EQ(job.outcome->end, machine::JobEnd::done) << job.outcome->sentence;
     EXPECT_LT(farthest, 10.0); // never where the lines before went
-    EXPECT_EQ(first_line, middle);
+    EXPECT_EQ(first_line, middle_line);
     EXPECT_GE(person.workshop().look().file_place().value().line, 14);
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
-    EXPECT_EQ(machine::read_job_log(job.outcome->log_file).start.from_line, middle);
+    EXPECT_EQ(machine::read_job_log(job.outcome->log_file).start.from_line, middle_line);
     EXPECT_FALSE(person.workshop().session().begin.on); // the next job begins at its beginning
 }
 
@@ -168,7 +168,7 @@ TEST_F(MachineJobs, SayWhyALineIsNoPlaceToBegin) {
     connect(person, grbl);
     person.open(program(person.folder()));
     person.workshop().run("view.machine");
-    person.workshop().session().begin = {true, middle, -9.0, {}};
+    person.workshop().session().begin = {true, middle_line, -9.0, {}};
     person.wait_idle();
     ASSERT_TRUE(person.workshop().look().approach->refusal);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("the clearance Z-9.000 is below"));
@@ -183,7 +183,7 @@ TEST_F(MachineJobs, OfTheVirtualMachineBeginAtALineToo) {
     person.open(program(person.folder()));
     person.workshop().run("view.machine");
     person.workshop().session().machine_speed = 0.0;
-    person.workshop().session().begin = {true, middle, std::nullopt, {}};
+    person.workshop().session().begin = {true, middle_line, std::nullopt, {}};
     person.wait_idle();
     const auto approach = person.workshop().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");

@@ -19,12 +19,12 @@ using test::TableBench;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr int lines = 40;
+constexpr int program_lines = 40;
 
 /// A row a line, from line 4 on: line n goes to Y n.
 std::filesystem::path rows(const std::filesystem::path& folder) {
     std::string text = "G21 G90 G94 G17\nG0 Z5\nG1 Z-1 F3000\n";
-    for (int n = 4; n < lines; ++n) {
+    for (int n = 4; n < program_lines; ++n) {
         text += "X" + std::to_string(n % 2 == 0 ? 5 : 50) + " Y" + std::to_string(n) + "\n";
     }
     write_file(folder / "rows.ngc", text + "M2\n");
@@ -83,7 +83,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     person.wait_idle();
     EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
     person.click("inspector/job/machine_run");
-    int first_line = lines;
+    int first_line = program_lines;
     double most_left = 0.0;
     ASSERT_TRUE(person.live_until(
         [&] {
@@ -99,7 +99,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     EXPECT_THAT(table.positions().front(), ElementsAre(30.0, 33.0, 5.0)); // up from there, before all else
     EXPECT_GE(first_line, 20);
     EXPECT_GT(most_left, 10.0) << "20 rows of 45 mm at 50 mm/s, of the job's own plan"; // it was 0 to the end
-    EXPECT_DOUBLE_EQ(table.position()[1], lines - 1);
+    EXPECT_DOUBLE_EQ(table.position()[1], program_lines - 1);
 }
 
 /// What is offered then is the line that comes next, not one that was cut before.
@@ -112,7 +112,7 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
     person.workshop().run("machine.stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
     const double row = table.position()[1];
-    EXPECT_LT(row, lines - 1);
+    EXPECT_LT(row, program_lines - 1);
     person.frames(3);
     person.click("inspector/job/begin/on");
     person.frames(2);

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <thread>
 
 namespace millwright::test {
 
@@ -23,6 +24,13 @@ std::filesystem::path fresh_folder() {
 
 } // namespace
 
+project::Project small_sample() {
+    project::Project project = project::project_from_preset("dome");
+    project.grid.nu = 6;
+    project.grid.nv = 6;
+    return project;
+}
+
 Person::Person(const render::PixelSize& screen,
                const std::filesystem::path& recovery,
                const std::filesystem::path& jobs)
@@ -31,7 +39,8 @@ Person::Person(const render::PixelSize& screen,
                  .log_folder = jobs.empty() ? folder_ / "jobs" : jobs,
                  .settings = folder_ / "recent.json",
                  .recovery = recovery,
-                 .wake = [] {}}) {
+                 .wake = [] {},
+                 .start = small_sample()}) {
     desktop_ = std::make_unique<panels::Desktop>(context_, workshop_);
     wait_idle();
 }
@@ -48,8 +57,7 @@ void Person::open(const std::filesystem::path& project_file) {
 
 void Person::frame() {
     (void)workshop_.advance(static_cast<double>(input_.seconds));
-    desktop_->frame(input_);
-    context_.present();
+    desktop_->frame_unseen(input_);
     input_.text.clear();
     input_.wheel = 0.0F;
 }
@@ -70,7 +78,7 @@ bool Person::live_until(const std::function<bool()>& done, double seconds) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     while (std::chrono::duration<double>(Clock::now() - start).count() < seconds) {
-        frame();
+        frame_of_a_screen();
         if (done()) {
             frame(); // a controller's state may be younger than the frame: now the panels show it too
             return true;
@@ -84,7 +92,7 @@ bool Person::hold_until(const std::function<bool()>& done, double seconds) {
     const auto start = Clock::now();
     auto last = start;
     while (std::chrono::duration<double>(last - start).count() < seconds) {
-        frame();
+        frame_of_a_screen();
         if (done()) {
             return true;
         }
@@ -95,6 +103,12 @@ bool Person::hold_until(const std::function<bool()>& done, double seconds) {
         }
     }
     return done();
+}
+
+void Person::frame_of_a_screen() {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(input_.seconds);
+    frame();
+    std::this_thread::sleep_until(end);
 }
 
 void Person::press_anew() {

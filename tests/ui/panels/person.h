@@ -15,6 +15,12 @@
 
 namespace millwright::test {
 
+inline constexpr const char* dome_project = "assets/projects/dome.json";
+
+/// The sample with few nodes, with which a Person begins: most of what is looked at does not depend on their
+/// number, and all of them are planned again for every test.
+[[nodiscard]] project::Project small_sample();
+
 class Person {
 public:
     /// `recovery`: folder of the copies of unsaved work; none are kept if it is empty. `jobs`: folder of the
@@ -36,7 +42,7 @@ public:
     /// Waits until nothing runs in the background, then looks twice.
     void wait_idle();
 
-    /// Frames as they come, until `done` has become true and been drawn, or the time is over.
+    /// Frames at the pace of a screen, until `done` has become true and been drawn, or the time is over.
     bool live_until(const std::function<bool()>& done, double seconds = 20.0);
     /// The same with what is held down now. After a frame in which the computer stood still, the window wants
     /// another press (actions::JogHand::longest_frame): it gets one.
@@ -74,8 +80,10 @@ public:
 
 private:
     void frame();
-    void press_anew(); ///< what is held down
-    void press();      ///< and lets go, where the mouse is
+    void frame_of_a_screen(); ///< takes as long as it says in input_, as beside a controller that runs in
+                              ///< real time
+    void press_anew();        ///< what is held down
+    void press();             ///< and lets go, where the mouse is
 
     std::filesystem::path folder_;
     render::OffscreenContext context_;

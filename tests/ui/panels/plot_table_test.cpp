@@ -12,11 +12,11 @@
 namespace millwright::panels {
 namespace {
 
-using Bench = test::PlotPerson;
+using test::PlotPerson;
 using testing::HasSubstr;
 
 TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("lower/tabs/table");
     bench.person.frames();
     bench.person.click("lower/plot_play_table");
@@ -36,7 +36,7 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
 
 TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     test::TableBench table({.keep = true});
-    Bench bench("assets/samples/plot/moves.plt");
+    PlotPerson bench("assets/samples/plot/moves.plt");
     actions::TableChoice choice;
     choice.port = table.port();
     choice.record = {};
@@ -75,7 +75,7 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
 
 // As `plot decode` has it: the table stood at the end of the last stroke, in the work.
 TEST(PlotTable, PointsGoToWhereTheFileLeavesThePen) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     std::ofstream(bench.folder / "away.plt") << "IN;SP1;PU400,0;PD800,0;PU;PA0,2000;SP;";
     bench.drop(bench.folder / "away.plt");
     bench.person.fill_in("inspector/work/origin_x_mm", "10");
@@ -94,7 +94,7 @@ TEST(PlotTable, PointsGoToWhereTheFileLeavesThePen) {
 // Programs, path files and reliefs have a path with heights of its own.
 TEST(PlotTable, GCodeIsPlayedAtItsOwnHeights) {
     test::TableBench table({.keep = true});
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     std::ofstream(bench.folder / "step.ngc") << "G21 G90\nG0 Z4\nG0 X2 Y3\nG1 Z-1 F600\nX12\nG0 Z4\nM2\n";
     bench.drop(bench.folder / "step.ngc");
     ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
@@ -122,7 +122,7 @@ TEST(PlotTable, GCodeIsPlayedAtItsOwnHeights) {
 }
 
 TEST(PlotTable, WhatIsRefusedIsToldWholeAndInTheWordsOfThePane) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     actions::TableChoice choice;
     choice.decoding.velocity = 500.0;
     bench.plot().set_table(choice);

@@ -32,10 +32,10 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-using Bench = test::PlotPerson;
+using test::PlotPerson;
 
 TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
-    Bench bench("assets/samples/plot/hatched-sign.plt");
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::plot);
     ASSERT_FALSE(bench.made().failure);
     for (const char* path : {"layers/levels",
@@ -55,7 +55,7 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
 }
 
 TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
-    Bench bench("assets/samples/plot/everyday.plt", {1600, 1200});
+    PlotPerson bench("assets/samples/plot/everyday.plt", {1600, 1200});
     for (const char* path : {"layers/position/gone", "layers/position/left", "layers/position"}) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
     }
@@ -73,7 +73,7 @@ TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
 
 // "Has gone ... of" and "Way": one number, of the program that is played.
 TEST(PlotWorkspace, TheWayThatIsToldIsTheOneThatIsGone) {
-    Bench bench("assets/samples/plot/hatched-sign.plt");
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const auto differ = [&] {
         const motion::Trajectory& gone = *bench.person.workshop().look().opened->motion->trajectory;
         const plot::PathLengths told = bench.made().lengths;
@@ -86,7 +86,7 @@ TEST(PlotWorkspace, TheWayThatIsToldIsTheOneThatIsGone) {
 }
 
 TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
-    Bench bench("assets/samples/plot/hatched-sign.plt");
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const plot::WorkTime before = bench.made().as_planned;
     bench.person.fill_in("inspector/travel/link_mm", "3");
     bench.settle();
@@ -100,7 +100,7 @@ TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
 }
 
 TEST(PlotWorkspace, ThePlannersTimeIsToldWithLinksAndWithout) {
-    Bench bench("assets/samples/plot/hatched-sign.plt");
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     EXPECT_TRUE(bench.made().cut_as_drawn);
     const double alone = bench.person.workshop().look().duration();
     bench.person.fill_in("inspector/travel/link_mm", "3");
@@ -113,7 +113,7 @@ TEST(PlotWorkspace, ThePlannersTimeIsToldWithLinksAndWithout) {
 }
 
 TEST(PlotWorkspace, EachAxisHasItsUnit) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     const auto width = [&] { return extents(*bench.made().strokes)->upper.x(); };
     const auto height = [&] { return extents(*bench.made().strokes)->upper.y(); };
     const double x = width();
@@ -130,7 +130,7 @@ bool yellow(int r, int g, int b) {
 
 // What lies beyond the machine's travel has no program, and was out of sight as well, since the view stayed.
 TEST(PlotWorkspace, ADrawingThatIsMovedStaysInSight) {
-    Bench bench("assets/samples/plot/hatched-sign.plt");
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const int before = bench.pixels_like(yellow);
     ASSERT_GT(before, 1000);
     bench.person.fill_in("inspector/work/origin_x_mm", "400");
@@ -150,7 +150,7 @@ TEST(PlotWorkspace, ADrawingThatIsMovedStaysInSight) {
 }
 
 TEST(PlotWorkspace, LevelsAreEnabledOrderedAndRepeatedByHand) {
-    Bench bench("assets/samples/plot/hatched-sign.plt", {1600, 1200});
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt", {1600, 1200});
     const auto levels = bench.plot().levels();
     ASSERT_GE(levels.size(), 2U);
     bench.person.fill_in("layers/level/depth_mm", "2.5");
@@ -170,7 +170,7 @@ TEST(PlotWorkspace, LevelsAreEnabledOrderedAndRepeatedByHand) {
 }
 
 TEST(PlotWorkspace, PicturesBecomeReliefsWithALivePreview) {
-    Bench bench("assets/samples/pictures/snail.png");
+    PlotPerson bench("assets/samples/pictures/snail.png");
     ASSERT_FALSE(bench.made().failure);
     EXPECT_TRUE(bench.made().picture);
     ASSERT_TRUE(bench.made().look);
@@ -194,7 +194,7 @@ TEST(PlotWorkspace, PicturesBecomeReliefsWithALivePreview) {
 }
 
 TEST(PlotWorkspace, ARegionOfThePictureIsCutAloneAndInItsSize) {
-    Bench bench("assets/samples/pictures/snail.png", {1600, 1200});
+    PlotPerson bench("assets/samples/pictures/snail.png", {1600, 1200});
     bench.person.click("inspector/source/size");
     bench.person.frames();
     bench.person.fill_in("inspector/source/size/pixel_mm", "0.5");
@@ -211,7 +211,7 @@ TEST(PlotWorkspace, ARegionOfThePictureIsCutAloneAndInItsSize) {
 }
 
 TEST(PlotWorkspace, EveryChangeIsAStepThatIsUndoneAndSaved) {
-    Bench bench("assets/samples/plot/hatched-sign.plt");
+    PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const fs::path plot = bench.plot().file();
     const double before = bench.made().as_planned.seconds;
     bench.person.fill_in("inspector/travel/link_mm", "3");
@@ -244,7 +244,7 @@ TEST(PlotWorkspace, EveryChangeIsAStepThatIsUndoneAndSaved) {
 }
 
 TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("lower/materials/material0");
     bench.settle();
     // Hardwood: 0.003 in for 1/8 inch, in proportion for 3 mm, two edges, 10,000 a minute.
@@ -265,7 +265,7 @@ TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
 }
 
 TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     std::ofstream(bench.folder / "everyday.ngc") << "mine\n";
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
@@ -277,7 +277,7 @@ TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
 }
 
 TEST(PlotWorkspace, WritesThePathThatIsReadBackExactlyAndReplacesNoFile) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     std::ofstream(bench.folder / "everyday.path") << "mine\n";
     bench.person.click("inspector/plot_write_path");
     bench.settle();
@@ -292,7 +292,7 @@ TEST(PlotWorkspace, WritesThePathThatIsReadBackExactlyAndReplacesNoFile) {
 
 /// Where samples ship nobody looks for programs, and perhaps nobody may write.
 TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     const auto programs_there = [] {
         return std::ranges::count_if(fs::directory_iterator("assets/samples/plot"),
                                      [](const auto& entry) { return entry.path().extension() == ".ngc"; });
@@ -306,7 +306,7 @@ TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
 }
 
 TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.workshop().session().workspace = Workspace::machine;
     bench.person.open("assets/projects/dome.json");
     bench.settle();
@@ -364,7 +364,7 @@ std::int64_t moves_of(const gcode::Program& program, kinematics::AxisPositions a
 
 TEST(PlotWorkspace, ProgramsOfPlotsAndPathFilesAreSentByRecords) {
     test::TableBench table;
-    Bench bench("assets/samples/plot/autocad-7475.plt");
+    PlotPerson bench("assets/samples/plot/autocad-7475.plt");
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
     choose_table(bench.person, table.port());
@@ -397,7 +397,7 @@ TEST(PlotWorkspace, ProgramsOfPlotsAndPathFilesAreSentByRecords) {
 
 TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) {
     test::TableBench table;
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
     choose_table(bench.person, table.port(), "t {X} {Y} {a} {s}"); // Z is missing
@@ -428,7 +428,7 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
     const auto& stream = *emulator;
     const machine::SteadyClock clock;
     machine::EmulatorServer server(std::move(links), clock, std::move(emulator));
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
     choose_table(bench.person, "");
@@ -446,7 +446,7 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
 }
 
 TEST(PlotWorkspace, ThePlotPlaysAgainWhenOneComesBackFromTheMachine) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     const double duration = bench.person.workshop().look().duration();
     ASSERT_GT(duration, 0.0);
     bench.person.click("inspector/plot_to_machine");
@@ -467,14 +467,14 @@ TEST(PlotWorkspace, ThePlotPlaysAgainWhenOneComesBackFromTheMachine) {
 }
 
 TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
-    Bench drawing("assets/samples/plot/hatched-sign.plt");
+    PlotPerson drawing("assets/samples/plot/hatched-sign.plt");
     plot::CutPath path = *drawing.made().path;
     for (std::size_t n = path.size() / 2; n < path.size(); ++n) {
         path[n].tool = 2;
     }
     const fs::path file = drawing.folder / "sign.path";
     std::ofstream(file) << plot::path_file_text(path);
-    Bench bench(file);
+    PlotPerson bench(file);
     ASSERT_FALSE(bench.made().failure);
     ASSERT_EQ(bench.made().cuts.size(), 2U);
     const auto red = [](int r, int g, int b) { return r > g + 60 && r > b + 60; };
@@ -490,7 +490,7 @@ TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
 
 // Elsewhere G-code is a program for the machine; where parts are made of drawings it is one of these.
 TEST(PlotWorkspace, GCodeThatIsDroppedHereIsCutAsItStands) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     fs::copy_file("assets/samples/gcode/thesis-3d.ngc", bench.folder / "thesis-3d.ngc");
     bench.drop(bench.folder / "thesis-3d.ngc");
     EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::plot);
@@ -515,7 +515,7 @@ TEST(PlotWorkspace, GCodeThatIsDroppedHereIsCutAsItStands) {
 }
 
 TEST(PlotWorkspace, SaysWhatIsWrongWithAFileAndKeepsWorking) {
-    Bench bench("assets/samples/plot/everyday.plt");
+    PlotPerson bench("assets/samples/plot/everyday.plt");
     std::ofstream(bench.folder / "junk.png") << "this is no picture";
     bench.drop(bench.folder / "junk.png");
     ASSERT_TRUE(bench.made().failure);

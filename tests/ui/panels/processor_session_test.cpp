@@ -26,7 +26,7 @@ std::string left(const cordic::IterationTrace& trace) {
                                 : fmt::format("{:.2e} deg", to_degrees(trace.points.back().angle_error));
 }
 
-std::string shown(const ProcessorBench& bench) {
+std::string shown_state(const ProcessorBench& bench) {
     const cordic::Debugger& debugger = bench.debugger();
     const cordic::ProcessorState& state = debugger.state();
     const auto row = bench.code_row();
@@ -82,7 +82,7 @@ TEST(ProcessorSession, GoesAsItWasRecorded) {
             continue;
         }
         act(person, line);
-        played += line + "\n    " + shown(person.workshop().look().processor) + "\n";
+        played += line + "\n    " + shown_state(person.workshop().look().processor) + "\n";
     }
     EXPECT_EQ(played, read_file(record)) << "what was played now:\n" << played;
 }

@@ -20,8 +20,8 @@ using actions::Workspace;
 using test::Person;
 
 /// A person who has come to the workspace by its key.
-struct Bench {
-    explicit Bench(const render::PixelSize& screen = {1280, 800}) : person(screen) {
+struct ProcessorWorkspacePerson {
+    explicit ProcessorWorkspacePerson(const render::PixelSize& screen = {1280, 800}) : person(screen) {
         person.press_key(render::Key::f7);
         person.frames(3);
     }
@@ -32,7 +32,7 @@ struct Bench {
 };
 
 TEST(ProcessorWorkspace, OpensByItsKeyWithTheThesissArcAndShowsEveryPart) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::processor);
     EXPECT_EQ(bench.processor().name(), "thesis-arc.ngc");
     for (const char* path : {"view/diagram",
@@ -50,7 +50,7 @@ TEST(ProcessorWorkspace, OpensByItsKeyWithTheThesissArcAndShowsEveryPart) {
 }
 
 TEST(ProcessorWorkspace, StepsByClockMicroInstructionInstructionAndBlock) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     person.click("timeline/processor_clock");
     EXPECT_EQ(bench.state().clocks.total, 1);
@@ -74,7 +74,7 @@ TEST(ProcessorWorkspace, StepsByClockMicroInstructionInstructionAndBlock) {
 
 // To the middle of a rotation, clock by clock.
 TEST(ProcessorWorkspace, ShowsTheVectorConvergingStepByStep) {
-    Bench bench({1600, 1000});
+    ProcessorWorkspacePerson bench({1600, 1000});
     Person& person = bench.person;
     for (int n = 0; n < 20; ++n) {
         person.click("timeline/processor_set_point");
@@ -100,7 +100,7 @@ TEST(ProcessorWorkspace, ShowsTheVectorConvergingStepByStep) {
 }
 
 TEST(ProcessorWorkspace, StopsAtABreakpointThatIsClickedInTheListing) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     person.click("code/tabs/microprogram");
     person.frames();
@@ -124,7 +124,7 @@ TEST(ProcessorWorkspace, StopsAtABreakpointThatIsClickedInTheListing) {
 }
 
 TEST(ProcessorWorkspace, RunsToABreakpointOfAnInstruction) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     const widgets::Rect lines = person.place("code/instructions");
     person.click_at({lines.x + 0.5F * lines.w, lines.y + 60.0F});
@@ -137,7 +137,7 @@ TEST(ProcessorWorkspace, RunsToABreakpointOfAnInstruction) {
 }
 
 TEST(ProcessorWorkspace, RunsToALineThatIsClicked) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     person.click("code/click/run_to");
     const widgets::Rect lines = person.place("code/instructions");
@@ -155,7 +155,7 @@ TEST(ProcessorWorkspace, RunsToALineThatIsClicked) {
 }
 
 TEST(ProcessorWorkspace, HasTheDirectionAndTheSignOfZeroOfTheThesisAsSwitches) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     // The arc begins at (10, 10), about (5, 10).
     const auto first_of_arc = [&] { return bench.processor().differences()[1]; };
@@ -178,7 +178,7 @@ TEST(ProcessorWorkspace, HasTheDirectionAndTheSignOfZeroOfTheThesisAsSwitches) {
 }
 
 TEST(ProcessorWorkspace, ShowsTheErrorOfFormatAndIterationsAtOnce) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     const double thesis = bench.processor().report().position_error;
     person.click("inspector/format/classic");
@@ -201,7 +201,7 @@ TEST(ProcessorWorkspace, ShowsTheErrorOfFormatAndIterationsAtOnce) {
 }
 
 TEST(ProcessorWorkspace, TellsTheWordOfItsBitsAndKeepsItAWord) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     EXPECT_FALSE(person.sees("inspector/format/word"));
     person.click("inspector/format/kind/fixed");
@@ -229,7 +229,7 @@ TEST(ProcessorWorkspace, TellsTheWordOfItsBitsAndKeepsItAWord) {
 // In the smallest window and in a large one, without any scrolling.
 TEST(ProcessorWorkspace, HasAllRegistersInSight) {
     for (const render::PixelSize& screen : {render::PixelSize{1280, 800}, render::PixelSize{1600, 1000}}) {
-        Bench bench(screen);
+        ProcessorWorkspacePerson bench(screen);
         Person& person = bench.person;
         for (const char* kind : {"f32", "f64", "fixed"}) {
             person.click(std::string("inspector/format/kind/") + kind);
@@ -254,7 +254,7 @@ TEST(ProcessorWorkspace, HasAllRegistersInSight) {
 
 // In fixed point a rotation ends at exactly nothing.
 TEST(ProcessorWorkspace, MarksStepsThatLeaveNothingToTurn) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     person.click("inspector/format/kind/fixed");
     EXPECT_FALSE(person.sees("lower/errors/zeros"));
@@ -269,7 +269,7 @@ TEST(ProcessorWorkspace, MarksStepsThatLeaveNothingToTurn) {
 }
 
 TEST(ProcessorWorkspace, ShowsWhatComesTooLateAtASlowerClock) {
-    Bench bench({1600, 1000});
+    ProcessorWorkspacePerson bench({1600, 1000});
     Person& person = bench.person;
     EXPECT_TRUE(bench.processor().report().late.empty());
     person.click("inspector/registers"); // folded away, so that all of the next section is in sight
@@ -295,7 +295,7 @@ TEST(ProcessorWorkspace, ShowsWhatComesTooLateAtASlowerClock) {
 }
 
 TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     bench.person.workshop().run("processor.project"); // the dome needs five axes
     bench.person.frames(3);
     ASSERT_TRUE(bench.processor().failure().has_value());
@@ -307,7 +307,7 @@ TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
 
 // In every micro-instruction of lines and arcs, whose signals the diagram tells, and in the widest words.
 TEST(ProcessorWorkspace, CutsNoTextAtTheSmallestWindow) {
-    Bench bench;
+    ProcessorWorkspacePerson bench;
     Person& person = bench.person;
     std::set<std::string> cut;
     const auto look = [&] {

@@ -51,6 +51,7 @@ TEST_F(SurfaceTools, PaintBesideAFormulaOfLargeValuesIsToldToBeFaintAndCanBeMade
                                 p.grid.elliptic.expression = "10 + 900 * u";
                             },
                             {});
+    person_.wait_idle();
     person_.click("inspector/surface_tool/tool/brush");
     person_.fill_in("inspector/surface_tool/radius", "12");
     EXPECT_FALSE(person_.sees("inspector/surface_tool/faint")) << "nothing is painted yet";

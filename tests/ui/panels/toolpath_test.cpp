@@ -12,17 +12,17 @@
 namespace millwright::panels {
 namespace {
 
+using test::dome_project;
 using test::Person;
 using toolpath::CutterKind;
 
-constexpr const char* dome = "assets/projects/dome.json";
 constexpr render::PixelSize tall{1600, 1400}; // so that the whole inspector is in sight
 
 /// At the Toolpath workspace of a small dome.
 class ToolpathWorkspace : public ::testing::Test {
 protected:
     ToolpathWorkspace() {
-        person_.open(dome);
+        person_.open(dome_project);
         person_.workshop().edit("Change the grid",
                                 [](project::Project& p) {
                                     p.grid.nu = 6;
@@ -177,6 +177,7 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
     EXPECT_EQ(person_.refusal(accept), "The part stands there already.");
     person_.keep("toolpath-set-up-accepted");
     person_.press_key(render::Key::z, true);
+    person_.wait_idle();
     EXPECT_TRUE(person_.refusal(accept).empty());
     EXPECT_NE(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
 }

@@ -20,9 +20,8 @@ namespace {
 
 using actions::Workspace;
 using project::GridMethod;
+using test::dome_project;
 using test::Person;
-
-constexpr const char* dome = "assets/projects/dome.json";
 
 std::string cut_texts(Person& person) {
     std::string cut;
@@ -48,7 +47,7 @@ class EveryScreen : public ::testing::TestWithParam<Screen> {};
 TEST_P(EveryScreen, ShowsItsPanesInEveryWorkspaceWithoutCuttingAnyText) {
     Person person(GetParam().size);
     person.workshop().session().theme = GetParam().theme;
-    person.open(dome);
+    person.open(dome_project);
     for (const char* workspace : {"design", "grid", "toolpath", "program", "machine"}) {
         person.workshop().run(std::string("view.") + workspace);
         person.frames(3);
@@ -70,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryScreen, ::testing::ValuesIn(screens), [](cons
 /// As small as on a laptop with large letters.
 TEST(SmallWindow, KeepsItsButtonsItsTabsAndTheSpeedOfThePlayback) {
     Person person({1100, 700});
-    person.open(dome);
+    person.open(dome_project);
     for (const char* workspace : {"design", "grid", "toolpath", "program", "machine", "plot", "arm"}) {
         person.workshop().run(std::string("view.") + workspace);
         person.frames(3);
@@ -107,7 +106,7 @@ TEST(Workbench, ChangesWorkspaceByATab) {
 
 TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.press_key(render::Key::f5);
     EXPECT_TRUE(person.sees("lower/motion"));
     person.press_key(render::Key::f2);
@@ -121,7 +120,7 @@ TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
 
 TEST(Workbench, TheTableSideBySideScrollsBelowTheTabs) {
     Person person({1600, 1000});
-    person.open(dome);
+    person.open(dome_project);
     person.press_key(render::Key::f4);
     person.click("lower/tabs/compare");
     person.frames();
@@ -133,7 +132,7 @@ TEST(Workbench, TheTableSideBySideScrollsBelowTheTabs) {
 
 TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     const auto now = person.workshop().look();
     ASSERT_TRUE(now.trajectory());
     const auto program = static_cast<std::size_t>(project::program_grid(now.project));
@@ -147,7 +146,7 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
 
 TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     auto now = person.workshop().look();
     project::PublishedPlan plan = *now.plan;
     const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
@@ -169,7 +168,7 @@ TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
     person.wait_idle();
     EXPECT_EQ(person.workshop().look().evaluation(GridMethod::uniform)->outcome.grid.nu(), 10);
     person.press_key(render::Key::z, true);
-    EXPECT_EQ(person.project().grid.nu, 20);
+    EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
     person.press_key(render::Key::y, true);
     EXPECT_EQ(person.project().grid.nu, 10);
 }
@@ -185,7 +184,7 @@ TEST(Workbench, RedoesByItsOtherKeyToo) {
 
 TEST(Workbench, TakesAKeyInTheVeryFrameAfterATextFieldIsLeft) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.click("menu/workspaces/grid");
     person.click("inspector/grid/nu");
     person.type("15");
@@ -199,7 +198,7 @@ TEST(Workbench, TakesAKeyInTheVeryFrameAfterATextFieldIsLeft) {
 
 TEST(Workbench, KeepsKeysFromShortcutsInTheVeryFrameInWhichAFieldGetsThem) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.click("menu/workspaces/grid");
     person.hover(person.place("inspector/grid/nu").centre());
     person.hold_button(true);
@@ -215,7 +214,7 @@ TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
     Person person;
     person.click("menu/workspaces/grid");
     person.fill_in("inspector/grid/nu", "1");
-    EXPECT_EQ(person.project().grid.nu, 20);
+    EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
     const auto* seen = person.desktop().ui().places().find("inspector/grid/nu");
     ASSERT_NE(seen, nullptr);
     EXPECT_FALSE(seen->reason.empty());
@@ -273,7 +272,7 @@ TEST(Workbench, TheWholeChainIsWatchedAndChosen) {
 
 TEST(Workbench, StepsThroughTheProgramAndTheListingFollows) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.workshop().run("play.forward");
     person.workshop().run("play.forward");
     person.frames();
@@ -288,7 +287,7 @@ TEST(Workbench, StepsThroughTheProgramAndTheListingFollows) {
 
 TEST(Workbench, PlaysUntilPaused) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.press_key(render::Key::space);
     EXPECT_TRUE(person.workshop().session().playback.playing);
     person.frames(10);
@@ -300,7 +299,7 @@ TEST(Workbench, PlaysUntilPaused) {
 
 TEST(Workbench, RunsTheProgramOnTheVirtualMachineToItsEnd) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.workshop().session().machine_speed = 0.0;
     person.press_key(render::Key::f9);
     person.wait_idle();
@@ -337,7 +336,7 @@ TEST(Workbench, SavesOpensAndTellsAboutABrokenFile) {
 
 TEST(Workbench, DrawsNothingNewWhenIdle) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     person.hover({640.0F, 300.0F});
     person.frames(5);
     EXPECT_FALSE(person.desktop().next_change().has_value());
@@ -347,7 +346,7 @@ TEST(Workbench, DrawsNothingNewWhenIdle) {
 
 TEST(Workbench, HasALightThemeToo) {
     Person person;
-    person.open(dome);
+    person.open(dome_project);
     const render::Picture dark = person.picture();
     person.workshop().run("view.theme");
     person.frames(2);

@@ -16,7 +16,7 @@
 namespace millwright::render {
 namespace {
 
-constexpr PixelSize picture = {800, 500};
+constexpr PixelSize picture_size = {800, 500};
 constexpr double near_zero = 1e-9;
 
 const Bounds part = {.min = {-50.0, -40.0, -10.0}, .max = {50.0, 60.0, 30.0}};
@@ -43,7 +43,7 @@ void expect_same(const glm::dvec3& a, const glm::dvec3& b) {
 
 TEST(Camera, SeesItsTargetInTheMiddle) {
     for (const Camera& camera : cameras()) {
-        const auto seen = project(camera.view(picture, part), camera.pose().target);
+        const auto seen = project(camera.view(picture_size, part), camera.pose().target);
         ASSERT_TRUE(seen);
         EXPECT_NEAR(seen->pixel.x, 400.0, near_zero);
         EXPECT_NEAR(seen->pixel.y, 250.0, near_zero);
@@ -52,7 +52,7 @@ TEST(Camera, SeesItsTargetInTheMiddle) {
 
 TEST(Camera, LooksAsGlmsLookAtDoes) {
     for (const Camera& camera : cameras()) {
-        const glm::dmat4 ours = camera.view(picture, part).view;
+        const glm::dmat4 ours = camera.view(picture_size, part).view;
         const glm::dmat4 theirs = glm::lookAt(camera.eye(), camera.pose().target, camera.up());
         for (int i = 0; i < 4; ++i) {
             EXPECT_LT(glm::length(ours[i] - theirs[i]), near_zero);
@@ -84,14 +84,14 @@ TEST(Camera, SeesTheStandardSidesAsDrawingsShowThem) {
 TEST(Camera, ShowsTheTargetPlaneAtTheSameSizeInBothProjections) {
     const Camera camera({.distance = 120.0, .yaw = 0.2, .pitch = 0.4});
     const glm::dvec3 point = camera.pose().target + 17.0 * camera.right() - 9.0 * camera.up();
-    const auto perspective = project(camera.view(picture, part), point);
-    const auto flat = project(camera.with(Projection::orthographic).view(picture, part), point);
+    const auto perspective = project(camera.view(picture_size, part), point);
+    const auto flat = project(camera.with(Projection::orthographic).view(picture_size, part), point);
     EXPECT_LT(glm::length(perspective->pixel - flat->pixel), near_zero);
 }
 
 TEST(Camera, ClipsNoCornerOfTheScene) {
     for (const Camera& camera : cameras()) {
-        const View view = camera.view(picture, part);
+        const View view = camera.view(picture_size, part);
         for (const glm::dvec3& corner : corners(part)) {
             const auto seen = project(view, corner);
             ASSERT_TRUE(seen);
@@ -104,7 +104,7 @@ TEST(Camera, ClipsNoCornerOfTheScene) {
 TEST(Camera, FitsABoxSoThatOneSideJustHasItsMargin) {
     constexpr double aspect = 1.6;
     for (const Camera& camera : cameras()) {
-        const View view = camera.fitted(part, aspect).view(picture, part);
+        const View view = camera.fitted(part, aspect).view(picture_size, part);
         double reach = 0.0; // 1 is the border of the picture
         for (const glm::dvec3& corner : corners(part)) {
             const glm::dvec2 pixel = project(view, corner)->pixel;
@@ -117,7 +117,7 @@ TEST(Camera, FitsABoxSoThatOneSideJustHasItsMargin) {
 
 TEST(Camera, CentresWhatItFits) {
     for (const Camera& camera : cameras()) {
-        const View view = camera.fitted(part, 1.6).view(picture, part);
+        const View view = camera.fitted(part, 1.6).view(picture_size, part);
         glm::dvec2 low(1e9);
         glm::dvec2 high(-1e9);
         for (const glm::dvec3& corner : corners(part)) {
@@ -145,9 +145,10 @@ TEST(Camera, KeepsItsDistanceWhenItFitsASinglePoint) {
 TEST(Camera, LetsThePointUnderTheHandFollowAPan) {
     for (const Camera& camera : cameras()) {
         const glm::dvec3 held = camera.pose().target + 20.0 * camera.right() + 5.0 * camera.up();
-        const glm::dvec2 before = project(camera.view(picture, part), held)->pixel;
+        const glm::dvec2 before = project(camera.view(picture_size, part), held)->pixel;
         const glm::dvec2 drag(37.0, -12.0);
-        const glm::dvec2 after = project(camera.panned(drag, picture).view(picture, part), held)->pixel;
+        const glm::dvec2 after =
+            project(camera.panned(drag, picture_size).view(picture_size, part), held)->pixel;
         EXPECT_LT(glm::length(after - before - drag), 1e-6);
     }
 }
@@ -155,10 +156,10 @@ TEST(Camera, LetsThePointUnderTheHandFollowAPan) {
 TEST(Camera, KeepsThePointUnderTheCursorWhenItZooms) {
     for (const Camera& camera : cameras()) {
         const glm::dvec3 held = camera.pose().target - 30.0 * camera.right() + 12.0 * camera.up();
-        const glm::dvec2 cursor = project(camera.view(picture, part), held)->pixel;
+        const glm::dvec2 cursor = project(camera.view(picture_size, part), held)->pixel;
         for (const double factor : {0.5, 1.7}) {
-            const Camera zoomed = camera.zoomed(factor, cursor, picture);
-            EXPECT_LT(glm::length(project(zoomed.view(picture, part), held)->pixel - cursor), 1e-6);
+            const Camera zoomed = camera.zoomed(factor, cursor, picture_size);
+            EXPECT_LT(glm::length(project(zoomed.view(picture_size, part), held)->pixel - cursor), 1e-6);
             EXPECT_NEAR(zoomed.pose().distance, 250.0 * factor, near_zero);
         }
     }
@@ -166,15 +167,15 @@ TEST(Camera, KeepsThePointUnderTheCursorWhenItZooms) {
 
 TEST(Camera, TurnsHalfAroundForADragOfThePicturesHeight) {
     const Camera camera({.yaw = 0.3, .pitch = 0.2});
-    const Camera turned = camera.orbited(glm::dvec2(500.0, 0.0), picture);
+    const Camera turned = camera.orbited(glm::dvec2(500.0, 0.0), picture_size);
     EXPECT_NEAR(std::cos(turned.pose().yaw - 0.3), -1.0, near_zero);
-    EXPECT_NEAR(camera.orbited(glm::dvec2(0.0, 50.0), picture).pose().pitch, 0.2 + 0.1 * pi, near_zero);
+    EXPECT_NEAR(camera.orbited(glm::dvec2(0.0, 50.0), picture_size).pose().pitch, 0.2 + 0.1 * pi, near_zero);
 }
 
 TEST(Camera, MovesTheNearSideWithTheHandWhenItTurns) {
     const Camera camera;
     const glm::dvec3 near_side = camera.pose().target + 20.0 * camera.backward();
-    const View turned = camera.orbited(glm::dvec2(10.0, 10.0), picture).view(picture, part);
+    const View turned = camera.orbited(glm::dvec2(10.0, 10.0), picture_size).view(picture_size, part);
     const glm::dvec2 seen = project(turned, near_side)->pixel;
     EXPECT_GT(seen.x, 400.0);
     EXPECT_GT(seen.y, 250.0);
@@ -188,11 +189,11 @@ TEST(Camera, StopsTurningStraightAboveAndBelow) {
 TEST(Camera, NeverReachesDistanceZeroHoweverOftenItZooms) {
     Camera camera;
     for (int i = 0; i < 500; ++i) {
-        camera = camera.zoomed(0.5, {10.0, 10.0}, picture);
+        camera = camera.zoomed(0.5, {10.0, 10.0}, picture_size);
     }
     EXPECT_GT(camera.pose().distance, 0.0);
     for (int i = 0; i < 500; ++i) {
-        camera = camera.zoomed(2.0, {10.0, 10.0}, picture);
+        camera = camera.zoomed(2.0, {10.0, 10.0}, picture_size);
     }
     EXPECT_LT(camera.pose().distance, 1e9);
 }
@@ -202,7 +203,7 @@ TEST(Camera, CannotBeMadeOfNumbersThatAreNone) {
     EXPECT_THROW(Camera(CameraPose{.yaw = nan}), Defect);
     EXPECT_THROW(Camera(CameraPose{.target = {0.0, nan, 0.0}}), Defect);
     EXPECT_THROW(Camera(CameraPose{.distance = 0.0}), Defect);
-    EXPECT_THROW(static_cast<void>(Camera().zoomed(0.0, {0.0, 0.0}, picture)), Defect);
+    EXPECT_THROW(static_cast<void>(Camera().zoomed(0.0, {0.0, 0.0}, picture_size)), Defect);
 }
 
 } // namespace

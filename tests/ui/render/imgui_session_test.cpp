@@ -1,6 +1,7 @@
 #include "ui/render/imgui_session.h"
 
 #include "core/base/error.h"
+#include "tests/ui/render/clear_screen.h"
 #include "ui/render/camera.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/render/painter.h"
@@ -17,11 +18,6 @@
 namespace millwright::render {
 namespace {
 
-void clear(float red, float green, float blue) {
-    glClearColor(red, green, blue, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT);
-}
-
 /// A red rectangle from (10, 10) to (30, 20).
 void draw_rectangle() {
     ImGui::GetForegroundDrawList()->AddRectFilled(
@@ -32,7 +28,7 @@ TEST(ImGuiSession, DrawsIntoAContextWithoutDisplay) {
     OffscreenContext context({64, 48});
     ImGuiSession session(context);
     context.begin();
-    clear(0.0F, 0.0F, 0.0F);
+    clear_screen(0.0F, 0.0F, 0.0F);
     session.begin_frame();
     draw_rectangle();
     session.end_frame();
@@ -67,10 +63,10 @@ TEST(ImGuiSession, ShowsAViewUprightInsideAPane) {
     ImGuiSession session(context);
     ViewTarget view(1);
     view.begin({100, 80});
-    clear(0.0F, 0.0F, 1.0F);
+    clear_screen(0.0F, 0.0F, 1.0F);
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 60, 100, 20); // the top quarter
-    clear(1.0F, 0.0F, 0.0F);
+    clear_screen(1.0F, 0.0F, 0.0F);
     view.end();
     ImVec2 corner;
     session.begin_frame();
@@ -131,7 +127,7 @@ TEST(ImGuiSession, DrawsTheSameInAWindow) {
     ImGuiSession session(window);
     static_cast<void>(window.wait(0.0));
     window.begin();
-    clear(0.0F, 0.0F, 0.0F);
+    clear_screen(0.0F, 0.0F, 0.0F);
     session.begin_frame({});
     draw_rectangle();
     session.end_frame();
@@ -147,6 +143,11 @@ public:
         glfwSetKeyCallback(window, changed_);
     }
     void change(int key, int action, int mods = 0) const { changed_(window_, key, 0, action, mods); }
+    /// Down and up again.
+    void strike(int key) const {
+        change(key, GLFW_PRESS);
+        change(key, GLFW_RELEASE);
+    }
 
 private:
     GLFWwindow* window_;
@@ -179,6 +180,40 @@ TEST(ImGuiSession, TakesAKeyWithTheModifiersOfItsPressInAWindow) {
     keyboard.change(GLFW_KEY_K, GLFW_PRESS);
     keyboard.change(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
     EXPECT_FALSE(frame_has_ctrl_k());
+}
+
+// A slow frame: the key or button is up again before ImGui looks.
+TEST(ImGuiSession, SeesWhatWentDownAndUpBetweenTwoFramesInAWindow) {
+    if (std::getenv("DISPLAY") == nullptr) {
+        GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
+    }
+    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    ImGuiSession session(window);
+    const Keyboard keyboard(window.handle());
+    const GLFWmousebuttonfun button_changed = glfwSetMouseButtonCallback(window.handle(), nullptr);
+    glfwSetMouseButtonCallback(window.handle(), button_changed);
+    struct Seen {
+        bool key, enter, click;
+        bool operator==(const Seen&) const = default;
+    };
+    const auto seen_in_frame = [&session] {
+        session.begin_frame();
+        const Seen seen{key_pressed(Key::f5),
+                        key_pressed(Key::keypad_enter),
+                        ImGui::IsMouseClicked(ImGuiMouseButton_Right)};
+        session.end_frame();
+        return seen;
+    };
+    EXPECT_EQ(seen_in_frame(), (Seen{false, false, false}));
+    keyboard.strike(GLFW_KEY_F5);
+    keyboard.strike(GLFW_KEY_KP_ENTER);
+    button_changed(window.handle(), GLFW_MOUSE_BUTTON_RIGHT, GLFW_PRESS, 0);
+    button_changed(window.handle(), GLFW_MOUSE_BUTTON_RIGHT, GLFW_RELEASE, 0);
+    EXPECT_EQ(seen_in_frame(), (Seen{true, true, true}));
+    EXPECT_TRUE(window.wait(0.0)); // for the frame that shows them up
+    EXPECT_EQ(seen_in_frame(), (Seen{false, false, false}));
+    keyboard.strike(GLFW_KEY_F5);
+    EXPECT_EQ(seen_in_frame(), (Seen{true, false, false}));
 }
 
 } // namespace

@@ -27,7 +27,7 @@ LineStyle red_line(float width_px) {
     return style;
 }
 
-Picture drawn(Canvas& canvas, const std::vector<glm::vec3>& points, const LineStyle& style) {
+Picture drawn_strip(Canvas& canvas, const std::vector<glm::vec3>& points, const LineStyle& style) {
     return canvas.picture([&](const Painter& painter) {
         painter.lines(LineBuffer(through(points), LineTopology::strip), style, canvas.flat());
     });
@@ -58,7 +58,8 @@ double total(const Picture& picture) {
 TEST(LineDrawer, IsAsWideAsAsked) {
     Canvas canvas({60, 40});
     for (const float width : {0.5F, 1.0F, 2.0F, 3.5F, 9.0F}) {
-        const Picture picture = drawn(canvas, {{10.0F, 20.3F, 0.0F}, {50.0F, 20.3F, 0.0F}}, red_line(width));
+        const Picture picture =
+            drawn_strip(canvas, {{10.0F, 20.3F, 0.0F}, {50.0F, 20.3F, 0.0F}}, red_line(width));
         EXPECT_NEAR(column(picture, 30), static_cast<double>(width), 0.03) << width;
     }
 }
@@ -69,7 +70,7 @@ TEST(LineDrawer, CoversTheAreaOfACapsuleInAnyDirection) {
         const auto x = static_cast<float>(25.0 * std::cos(angle));
         const auto y = static_cast<float>(25.0 * std::sin(angle));
         const Picture picture =
-            drawn(canvas, {{40.0F - x, 40.0F - y, 0.0F}, {40.0F + x, 40.0F + y, 0.0F}}, red_line(6.0F));
+            drawn_strip(canvas, {{40.0F - x, 40.0F - y, 0.0F}, {40.0F + x, 40.0F + y, 0.0F}}, red_line(6.0F));
         EXPECT_NEAR(total(picture), 50.0 * 6.0 + std::acos(-1.0) * 9.0, 4.0) << angle;
     }
 }
@@ -80,7 +81,7 @@ TEST(LineDrawer, HasNoGapAndNoThickeningWhereSegmentsMeet) {
     for (int i = 0; i <= 40; ++i) {
         points.emplace_back(10.0F + 2.0F * static_cast<float>(i), 20.25F, 0.0F);
     }
-    const Picture picture = drawn(canvas, points, red_line(3.0F));
+    const Picture picture = drawn_strip(canvas, points, red_line(3.0F));
     for (int x = 12; x < 88; ++x) {
         EXPECT_NEAR(column(picture, x), 3.0, 0.05) << x;
     }
@@ -93,7 +94,7 @@ TEST(LineDrawer, GoesOnBehindTheJointOfALineThatRecedes) {
         points.emplace_back(
             10.0F + 2.0F * static_cast<float>(i), 20.25F, 40.0F - 2.0F * static_cast<float>(i));
     }
-    const Picture picture = drawn(canvas, points, red_line(5.0F));
+    const Picture picture = drawn_strip(canvas, points, red_line(5.0F));
     for (int x = 14; x < 86; ++x) {
         EXPECT_EQ(picture.at(x, 20), red_pixel) << x;
     }
@@ -103,7 +104,7 @@ TEST(LineDrawer, DrawsDashesOfTheGivenLengths) {
     Canvas canvas({120, 20});
     LineStyle style = red_line(3.0F);
     style.dash = {.on_px = 6.0F, .off_px = 4.0F};
-    const Picture picture = drawn(canvas, {{10.0F, 10.5F, 0.0F}, {110.0F, 10.5F, 0.0F}}, style);
+    const Picture picture = drawn_strip(canvas, {{10.0F, 10.5F, 0.0F}, {110.0F, 10.5F, 0.0F}}, style);
     double along = 0.0;
     for (int x = 20; x < 100; ++x) {
         along += covered(picture.at(x, 10));

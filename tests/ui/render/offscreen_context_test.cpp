@@ -1,6 +1,7 @@
 #include "ui/render/offscreen_context.h"
 
 #include "core/base/error.h"
+#include "tests/ui/render/clear_screen.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -12,11 +13,6 @@
 namespace millwright::render {
 namespace {
 
-void clear(float red, float green, float blue) {
-    glClearColor(red, green, blue, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT);
-}
-
 bool is_plain(const Picture& picture, const Pixel& pixel) {
     return std::ranges::all_of(picture.pixels, [&](const Pixel& p) { return p == pixel; });
 }
@@ -24,7 +20,7 @@ bool is_plain(const Picture& picture, const Pixel& pixel) {
 TEST(OffscreenContext, ReadsBackTheColourItWasClearedTo) {
     OffscreenContext context({33, 17});
     context.begin();
-    clear(1.0F, 0.2F, 0.0F);
+    clear_screen(1.0F, 0.2F, 0.0F);
     const Picture picture = context.read_back();
     EXPECT_EQ(picture.size, (PixelSize{33, 17}));
     EXPECT_TRUE(is_plain(picture, {255, 51, 0, 255}));
@@ -43,10 +39,10 @@ TEST(OffscreenContext, NeedsNoDisplay) {
 TEST(OffscreenContext, HasItsTopRowFirst) {
     OffscreenContext context({4, 4});
     context.begin();
-    clear(0.0F, 0.0F, 0.0F);
+    clear_screen(0.0F, 0.0F, 0.0F);
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 3, 4, 1); // OpenGL counts rows from below
-    clear(1.0F, 1.0F, 1.0F);
+    clear_screen(1.0F, 1.0F, 1.0F);
     const Picture picture = context.read_back();
     EXPECT_EQ(picture.at(0, 0), (Pixel{255, 255, 255, 255}));
     EXPECT_EQ(picture.at(0, 1), (Pixel{0, 0, 0, 255}));
@@ -66,9 +62,9 @@ TEST(OffscreenContext, LivesBesideAnother) {
     {
         OffscreenContext second({4, 4});
         second.begin();
-        clear(0.0F, 1.0F, 0.0F);
+        clear_screen(0.0F, 1.0F, 0.0F);
         first.begin();
-        clear(1.0F, 0.0F, 0.0F);
+        clear_screen(1.0F, 0.0F, 0.0F);
         EXPECT_TRUE(is_plain(second.read_back(), {0, 255, 0, 255}));
     }
     EXPECT_TRUE(is_plain(first.read_back(), {255, 0, 0, 255}));

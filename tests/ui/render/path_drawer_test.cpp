@@ -26,7 +26,7 @@ PathBuffer level_path() {
     return {vertices, min, max};
 }
 
-Picture drawn(const std::vector<std::uint16_t>& indices, int done = -1) {
+Picture drawn_path(const std::vector<std::uint16_t>& indices, int done = -1) {
     Canvas canvas({60, 40});
     PathStyle style;
     style.color[rapid] = glm::vec4(0.0F); // not drawn
@@ -38,7 +38,7 @@ Picture drawn(const std::vector<std::uint16_t>& indices, int done = -1) {
 }
 
 TEST(PathDrawer, DrawsEachPieceInTheColourOfItsKind) {
-    const Picture picture = drawn({0, 1, 2, 3});
+    const Picture picture = drawn_path({0, 1, 2, 3});
     EXPECT_EQ(picture.at(10, 20), Canvas::ground_pixel);
     EXPECT_EQ(picture.at(30, 20), red_pixel);
     EXPECT_EQ(picture.at(50, 20), red_pixel);
@@ -46,15 +46,15 @@ TEST(PathDrawer, DrawsEachPieceInTheColourOfItsKind) {
 }
 
 TEST(PathDrawer, LeavesOutWhatIsNotAmongTheIndices) {
-    EXPECT_EQ(drawn({2, 3}).at(30, 20), Canvas::ground_pixel);
-    EXPECT_EQ(drawn({1, 3}).at(30, 20), red_pixel); // straight on
-    const Picture picture = drawn({1, 2, path_restart, 3});
+    EXPECT_EQ(drawn_path({2, 3}).at(30, 20), Canvas::ground_pixel);
+    EXPECT_EQ(drawn_path({1, 3}).at(30, 20), red_pixel); // straight on
+    const Picture picture = drawn_path({1, 2, path_restart, 3});
     EXPECT_EQ(picture.at(30, 20), red_pixel);
     EXPECT_EQ(picture.at(50, 20), Canvas::ground_pixel);
 }
 
 TEST(PathDrawer, ShowsWhatIsDone) {
-    const Picture picture = drawn({0, 1, 2, 3}, 2);
+    const Picture picture = drawn_path({0, 1, 2, 3}, 2);
     EXPECT_EQ(picture.at(10, 20), green_pixel);
     EXPECT_EQ(picture.at(30, 20), green_pixel);
     EXPECT_EQ(picture.at(50, 20), red_pixel);

@@ -10,7 +10,7 @@
 namespace millwright::render {
 namespace {
 
-Picture drawn(Canvas& canvas, const PointVertex& point, const PointStyle& style) {
+Picture drawn_point(Canvas& canvas, const PointVertex& point, const PointStyle& style) {
     return canvas.picture([&](const Painter& painter) {
         painter.points(PointBuffer(std::array<PointVertex, 1>{point}), style, canvas.flat());
     });
@@ -38,7 +38,7 @@ TEST(PointDrawer, CoversTheAreaOfADisc) {
     Canvas canvas({40, 40});
     for (const float size : {4.0F, 9.0F, 20.0F}) {
         const double expected = std::acos(-1.0) * static_cast<double>(size * size) / 4.0;
-        EXPECT_NEAR(area(drawn(canvas, middle, red_point(size))), expected, 0.03 * expected + 0.5);
+        EXPECT_NEAR(area(drawn_point(canvas, middle, red_point(size))), expected, 0.03 * expected + 0.5);
     }
 }
 
@@ -47,7 +47,7 @@ TEST(PointDrawer, PutsTheRingInsideItsSize) {
     PointStyle style = red_point(20.0F);
     style.ring_px = 4.0F;
     style.ring_color = {0.0F, 0.0F, 1.0F, 1.0F};
-    const Picture picture = drawn(canvas, middle, style);
+    const Picture picture = drawn_point(canvas, middle, style);
     EXPECT_EQ(picture.at(20, 20), red_pixel);
     EXPECT_EQ(picture.at(28, 20), (Pixel{0, 0, 255, 255}));
     EXPECT_EQ(picture.at(32, 20), Canvas::ground_pixel);
@@ -60,7 +60,7 @@ TEST(PointDrawer, MarksSelectedPointsBySizeAndColour) {
     style.selected_size_px = 16.0F;
     PointVertex selected = middle;
     selected.selected = 1.0F;
-    const Picture picture = drawn(canvas, selected, style);
+    const Picture picture = drawn_point(canvas, selected, style);
     EXPECT_EQ(picture.at(20, 20), (Pixel{0, 255, 0, 255}));
     EXPECT_EQ(picture.at(26, 20), (Pixel{0, 255, 0, 255}));
 }
@@ -73,7 +73,7 @@ TEST(PointDrawer, ShowsAValueThroughTheColourMap) {
     PointVertex point = middle;
     point.value = 3.0F;
     const glm::vec3 expected = color_of(style.coloring.scale, 3.0);
-    EXPECT_NEAR(drawn(canvas, point, style).at(20, 20)[1], 255.0F * expected.g, 1.5F);
+    EXPECT_NEAR(drawn_point(canvas, point, style).at(20, 20)[1], 255.0F * expected.g, 1.5F);
 }
 
 TEST(PointDrawer, IsNotCutByTheSurfaceItLiesOn) {

@@ -1,6 +1,7 @@
 #include "ui/render/view_target.h"
 
 #include "core/base/error.h"
+#include "tests/ui/render/clear_screen.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/program.h"
 
@@ -13,19 +14,14 @@
 namespace millwright::render {
 namespace {
 
-void clear(float red, float green, float blue) {
-    glClearColor(red, green, blue, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT);
-}
-
 TEST(ViewTarget, GivesTheDrawingBackToWhatWasBound) {
     OffscreenContext context({10, 6});
     context.begin();
     ViewTarget target;
     target.begin({30, 20});
-    clear(1.0F, 0.0F, 0.0F);
+    clear_screen(1.0F, 0.0F, 0.0F);
     target.end();
-    clear(0.0F, 0.0F, 1.0F);
+    clear_screen(0.0F, 0.0F, 1.0F);
     EXPECT_EQ(target.read().at(29, 19), (Pixel{255, 0, 0, 255}));
     EXPECT_EQ(context.read_back().at(9, 5), (Pixel{0, 0, 255, 255}));
     GLint viewport[4] = {};
@@ -48,7 +44,7 @@ int greys(Edges edges) {
     const VertexArray nothing;
     ViewTarget target(4);
     target.begin({40, 30}, edges);
-    clear(0.0F, 0.0F, 0.0F);
+    clear_screen(0.0F, 0.0F, 0.0F);
     program.use();
     glBindVertexArray(nothing.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -69,7 +65,7 @@ TEST(ViewTarget, ShowsWhatWasDrawnLastWhicheverEdgesItHad) {
     const std::array<Edges, 3> order{Edges::smooth, Edges::rough, Edges::smooth};
     for (std::size_t k = 0; k < order.size(); ++k) {
         target.begin({6, 6}, order[k]);
-        clear(static_cast<float>(k) / 2.0F, 1.0F, 0.0F);
+        clear_screen(static_cast<float>(k) / 2.0F, 1.0F, 0.0F);
         target.end();
         EXPECT_NEAR(target.read().at(3, 3)[0], 127.5 * static_cast<double>(k), 1.0);
     }

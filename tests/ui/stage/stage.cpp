@@ -1,8 +1,9 @@
 #include "tests/ui/stage/stage.h"
 
+#include "ui/render/imgui_compat.h"
+
 #include <imgui.h>
 
-#include <array>
 #include <memory>
 #include <utility>
 
@@ -15,29 +16,6 @@ namespace {
 
 constexpr float frame_time = 1.0F / 60.0F;
 
-int index_of(Key key) {
-    return static_cast<int>(key) + 1;
-}
-
-void map_keys(ImGuiIO& io) {
-    constexpr std::array<std::pair<ImGuiKey, Key>, 13> pairs{{{ImGuiKey_Tab, Key::tab},
-                                                              {ImGuiKey_Enter, Key::enter},
-                                                              {ImGuiKey_Escape, Key::escape},
-                                                              {ImGuiKey_UpArrow, Key::up},
-                                                              {ImGuiKey_DownArrow, Key::down},
-                                                              {ImGuiKey_LeftArrow, Key::left},
-                                                              {ImGuiKey_RightArrow, Key::right},
-                                                              {ImGuiKey_Backspace, Key::backspace},
-                                                              {ImGuiKey_PageDown, Key::page_down},
-                                                              {ImGuiKey_Home, Key::home},
-                                                              {ImGuiKey_End, Key::end},
-                                                              {ImGuiKey_Space, Key::space},
-                                                              {ImGuiKey_Delete, Key::del}}};
-    for (const auto& [theirs, ours] : pairs) {
-        io.KeyMap[theirs] = index_of(ours);
-    }
-}
-
 } // namespace
 
 Stage::Stage(Draw draw, const Screen& screen)
@@ -47,8 +25,7 @@ Stage::Stage(Draw draw, const Screen& screen)
     io.IniFilename = nullptr;
     io.DisplaySize = {screen.width, screen.height};
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    io.MousePos = {-1.0F, -1.0F};
-    map_keys(io);
+    render::prepare_input(io);
     widgets::apply(screen.theme, screen.scale, ImGui::GetStyle());
     widgets::LoadedFonts loaded = widgets::load_fonts(*io.Fonts, screen.scale);
     font_diagnostics_ = std::move(loaded.diagnostics);
@@ -63,7 +40,10 @@ Stage::~Stage() {
 
 void Stage::draw_frame(float seconds) {
     ImGui::SetCurrentContext(context_);
-    ImGui::GetIO().DeltaTime = seconds;
+    input_.seconds = seconds;
+    render::put_input(ImGui::GetIO(), input_);
+    input_.text.clear();
+    input_.wheel = 0.0F;
     ImGui::NewFrame();
     ui_->begin_frame();
     try {
@@ -100,17 +80,18 @@ std::string Stage::reason(std::string_view path) {
 }
 
 void Stage::move(Point to) {
-    ImGui::GetIO().MousePos = {to.x, to.y};
+    input_.mouse_x = to.x;
+    input_.mouse_y = to.y;
     frames();
 }
 
 void Stage::press() {
-    ImGui::GetIO().MouseDown[0] = true;
+    input_.buttons[0] = true;
     frames();
 }
 
 void Stage::release() {
-    ImGui::GetIO().MouseDown[0] = false;
+    input_.buttons[0] = false;
     frames();
 }
 
@@ -137,28 +118,27 @@ void Stage::drag(Point from, Point to, int steps) {
 }
 
 void Stage::wheel(float notches) {
-    ImGui::GetIO().MouseWheel = notches;
+    input_.wheel = notches;
     frames();
 }
 
 void Stage::key(Key key) {
-    ImGui::GetIO().KeysDown[index_of(key)] = true;
+    input_.keys = {key};
     frames();
-    ImGui::GetIO().KeysDown[index_of(key)] = false;
+    input_.keys = {};
     frames();
 }
 
 void Stage::hold_shift(bool down) {
-    ImGui::GetIO().KeyShift = down;
+    input_.shift = down;
 }
 
 void Stage::hold_ctrl(bool down) {
-    ImGui::GetIO().KeyCtrl = down;
+    input_.ctrl = down;
 }
 
 void Stage::type(std::string_view text) {
-    const std::string whole(text);
-    ImGui::GetIO().AddInputCharactersUTF8(whole.c_str());
+    input_.text = text;
     frames();
 }
 

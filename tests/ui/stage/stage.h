@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/ui/stage/software_renderer.h"
+#include "ui/render/input_state.h"
 #include "ui/widgets/ui.h"
 
 #include <filesystem>
@@ -15,7 +16,7 @@ struct ImGuiContext;
 
 namespace millwright::test {
 
-enum class Key { tab, enter, escape, up, down, left, right, backspace, page_down, home, end, space, del };
+using render::Key;
 
 struct Screen {
     float width = 800.0F;
@@ -70,6 +71,7 @@ private:
 
     Draw draw_;
     Screen screen_;
+    render::InputState input_;
     ImGuiContext* context_ = nullptr;
     std::vector<Diagnostic> font_diagnostics_;
     std::unique_ptr<widgets::Ui> ui_;

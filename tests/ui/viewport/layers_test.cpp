@@ -19,7 +19,7 @@ namespace {
 using render::Picture;
 using render::Pixel;
 
-constexpr int step = 1; // of 255: rounding of colours on their way through the shaders
+constexpr int color_step = 1; // of 255: rounding of colours on their way through the shaders
 
 struct Spot {
     int x = 0;
@@ -43,7 +43,7 @@ protected:
     static bool is(const Pixel& pixel, const glm::vec3& color) {
         for (int k = 0; k < 3; ++k) {
             const long wanted = std::lround(255.0F * color[k]);
-            if (std::abs(wanted - static_cast<long>(pixel[static_cast<std::size_t>(k)])) > step) {
+            if (std::abs(wanted - static_cast<long>(pixel[static_cast<std::size_t>(k)])) > color_step) {
                 return false;
             }
         }
@@ -66,7 +66,7 @@ protected:
     const render::ViewColors colors = render::view_colors(render::Theme::dark);
 };
 
-constexpr Layers nothing{.surface = false, .floor = false, .origin = false};
+constexpr Layers bare_view{.surface = false, .floor = false, .origin = false};
 
 // T4.
 TEST_F(LayersTest, SurfaceCoversItsPlaceAndNothingElse) {
@@ -74,7 +74,7 @@ TEST_F(LayersTest, SurfaceCoversItsPlaceAndNothingElse) {
     const Scene scene = only(all, {.floor = false, .origin = false});
     const render::View view = look_at(scene);
     const Picture with = picture(scene, view);
-    const Picture without = picture(only(all, nothing), view);
+    const Picture without = picture(only(all, bare_view), view);
     const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
     EXPECT_NE(with.at(middle.x, middle.y), without.at(middle.x, middle.y));
     EXPECT_EQ(with.at(3, 3), without.at(3, 3));
@@ -131,7 +131,7 @@ TEST_F(LayersTest, ColoursOfValuesEndAtTheOutline) {
     project::Workpiece made = *scene.workpiece;
     made.trim = {{test::rectangle(0.0, 0.0, 1.0, 1.0), test::circle({0.5, 0.5}, 0.2, 96)}};
     scene.workpiece = std::make_shared<const project::Workpiece>(made);
-    const Picture empty = picture(only(scene, nothing), view);
+    const Picture empty = picture(only(scene, bare_view), view);
     for (const bool bent : {false, true}) {
         scene.shown = test::evaluation(made, bent ? test::bent_grid(12) : grid::Grid::uniform(12, 12));
         const Picture seen = picture(scene, view);
@@ -484,7 +484,7 @@ TEST_F(LayersTest, AnEmptySceneIsOnlyItsGround) {
     const render::View view = render::Camera().view(size(), {});
     const Picture seen = picture(empty, view);
     Scene hidden;
-    hidden.layers = nothing;
+    hidden.layers = bare_view;
     EXPECT_EQ(seen, picture(hidden, view));
     for (int k = 0; k < view_kind_count; ++k) {
         Scene scene;

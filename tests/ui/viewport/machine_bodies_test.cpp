@@ -2,6 +2,7 @@
 
 #include "core/kinematics/forward.h"
 #include "tests/ui/viewport/scenes.h"
+#include "tests/ui/viewport/views.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,7 @@ namespace {
 using kinematics::AxisPositions;
 using kinematics::MachineBody;
 using kinematics::MachineModel;
-
-constexpr double exact_mm = 1e-9;
+using test::exact_mm;
 
 AxisPositions some_positions(const MachineModel& machine) {
     AxisPositions positions(machine.axis_count());

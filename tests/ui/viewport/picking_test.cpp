@@ -1,6 +1,7 @@
 #include "ui/viewport/picking.h"
 
 #include "tests/ui/viewport/scenes.h"
+#include "tests/ui/viewport/views.h"
 #include "ui/render/camera.h"
 #include "ui/render/convert.h"
 
@@ -11,7 +12,8 @@
 namespace millwright::viewport {
 namespace {
 
-constexpr render::PixelSize size = {640, 480};
+using test::pixel_of;
+using test::view_size;
 
 /// A plane sheet z = 0 over [0, 100] x [0, 100], as a patch of degree 3 with u along x.
 std::shared_ptr<const geometry::Surface> sheet() {
@@ -25,19 +27,15 @@ std::shared_ptr<const geometry::Surface> sheet() {
         std::vector<geometry::BezierPatch>{geometry::BezierPatch(net)});
 }
 
-render::View from_above() {
+render::View part_from_above() {
     return render::Camera({.target = {50.0, 50.0, 0.0}, .distance = 300.0})
         .seen_from(render::StandardView::top)
-        .view(size, {.min = glm::dvec3(-50.0), .max = glm::dvec3(150.0)});
-}
-
-glm::dvec2 pixel_of(const render::View& view, const Vec3& p) {
-    return render::project(view, render::to_glm(p)).value().pixel;
+        .view(view_size, {.min = glm::dvec3(-50.0), .max = glm::dvec3(150.0)});
 }
 
 TEST(PickControlPoint, FindsTheHandleWithinReachOnly) {
     const auto surface = sheet();
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const Vec3 point = surface->patch(geometry::PatchId{0}).net().point(2, 1);
     const glm::dvec2 pixel = pixel_of(view, point);
     const Frame here = Frame::Identity();
@@ -57,7 +55,7 @@ TEST(PickControlPoint, TakesTheNearerOfTwoHandlesInOneLineOfSight) {
     const render::View view =
         render::Camera({.distance = 300.0, .projection = render::Projection::orthographic})
             .seen_from(render::StandardView::top)
-            .view(size, {.min = glm::dvec3(-50.0), .max = glm::dvec3(50.0)});
+            .view(view_size, {.min = glm::dvec3(-50.0), .max = glm::dvec3(50.0)});
     const auto found =
         pick_control_point(surface, Frame::Identity(), view, pixel_of(view, net.point(0, 0)), 9.0);
     ASSERT_TRUE(found);
@@ -66,7 +64,7 @@ TEST(PickControlPoint, TakesTheNearerOfTwoHandlesInOneLineOfSight) {
 
 TEST(ControlPointsIn, FindsThoseInsideWhicheverCornersAreGiven) {
     const auto surface = sheet();
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const geometry::ControlNet& net = surface->patch(geometry::PatchId{0}).net();
     const glm::dvec2 a = pixel_of(view, net.point(0, 0)) + glm::dvec2(-3.0, 3.0);
     const glm::dvec2 b = pixel_of(view, net.point(1, 2)) + glm::dvec2(3.0, -3.0);
@@ -80,7 +78,7 @@ TEST(ControlPointsIn, FindsThoseInsideWhicheverCornersAreGiven) {
 TEST(SurfacePicker, FindsThePlaceAndItsParameters) {
     SurfacePicker picker;
     picker.follow(sheet());
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const Vec3 place(37.0, 81.0, 0.0);
     const auto hit = picker.hit(render::ray(view, pixel_of(view, place)), Frame::Identity());
     ASSERT_TRUE(hit);
@@ -94,7 +92,7 @@ TEST(SurfacePicker, MeetsAMovedSurfaceWhereItIs) {
     picker.follow(sheet());
     Frame s_T_w = Frame::Identity();
     s_T_w.translation() = Vec3(0.0, 0.0, 25.0);
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const Vec3 place_w(20.0, 30.0, 0.0);
     const auto hit = picker.hit(render::ray(view, pixel_of(view, s_T_w * place_w)), s_T_w);
     ASSERT_TRUE(hit);
@@ -103,7 +101,7 @@ TEST(SurfacePicker, MeetsAMovedSurfaceWhereItIs) {
 
 TEST(SurfacePicker, MeetsNothingBesideTheSurfaceOrWithoutOne) {
     SurfacePicker picker;
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const render::Ray through = render::ray(view, pixel_of(view, {50.0, 50.0, 0.0}));
     EXPECT_FALSE(picker.hit(through, Frame::Identity()));
     picker.follow(sheet());
@@ -123,7 +121,7 @@ project::ReferenceMesh two_faces() {
 }
 
 TEST(PickFace, FindsTheNearestAndNoneBehindTheSurfaceOrBeside) {
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const Frame here = Frame::Identity();
     constexpr double any = std::numeric_limits<double>::infinity();
     const auto at = [&](const Vec3& place, double farthest) {
@@ -144,10 +142,11 @@ TEST(PickFace, FindsTheNearestAndNoneBehindTheSurfaceOrBeside) {
 
 TEST(PickMove, FindsEachMoveAtItsMiddle) {
     const Scene scene = test::scene_of(test::two_bell, ViewKind::toolpath);
-    const render::View view = render::Camera()
-                                  .seen_from(render::StandardView::top)
-                                  .fitted(render::to_glm(scene.surface->control_box()), render::aspect(size))
-                                  .view(size, render::to_glm(scene.surface->control_box()));
+    const render::View view =
+        render::Camera()
+            .seen_from(render::StandardView::top)
+            .fitted(render::to_glm(scene.surface->control_box()), render::aspect(view_size))
+            .view(view_size, render::to_glm(scene.surface->control_box()));
     const auto& points = scene.shown->toolpath.points;
     for (const std::size_t move : {0U, 17U, 64U, 130U}) {
         const Vec2 uv = 0.5 * (points[move].origin.uv + points[move + 1].origin.uv);
@@ -164,8 +163,8 @@ TEST(PickMove, FindsNothingBehindTheSurface) {
     const render::Bounds box = render::to_glm(scene.surface->control_box());
     const render::View view = render::Camera()
                                   .seen_from(render::StandardView::top)
-                                  .fitted(box, render::aspect(size))
-                                  .view(size, box);
+                                  .fitted(box, render::aspect(view_size))
+                                  .view(view_size, box);
     const Vec3 tip = scene.shown->toolpath.points[30].pose.tip;
     const glm::dvec2 pixel = pixel_of(view, tip);
     const render::Ray sight = render::ray(view, pixel);
@@ -176,7 +175,7 @@ TEST(PickMove, FindsNothingBehindTheSurface) {
 
 TEST(PickMove, FindsNothingWhereNoPathIsShown) {
     Scene scene = test::scene_of(test::two_bell, ViewKind::design);
-    const render::View view = from_above();
+    const render::View view = part_from_above();
     const glm::dvec2 pixel = pixel_of(view, scene.shown->toolpath.points[3].pose.tip);
     EXPECT_FALSE(pick_move(scene, view, pixel, 400.0, std::nullopt, 0.0));
     scene.layers.toolpath = true;

@@ -1,6 +1,7 @@
 #include "ui/viewport/point_drag.h"
 
 #include "core/base/error.h"
+#include "tests/ui/viewport/views.h"
 #include "ui/render/camera.h"
 #include "ui/render/convert.h"
 
@@ -11,8 +12,10 @@
 namespace millwright::viewport {
 namespace {
 
-constexpr double exact_mm = 1e-9; // a drag crosses the view's matrices and their inverse
-constexpr render::PixelSize size = {640, 480};
+using test::exact_mm;
+using test::pixel_of;
+using test::view_size;
+
 const Vec3 grabbed(12.0, -7.0, 30.0);
 
 render::Bounds around() {
@@ -25,11 +28,7 @@ render::Camera camera(render::Projection projection) {
 }
 
 render::View seen(render::Projection projection) {
-    return camera(projection).view(size, around());
-}
-
-glm::dvec2 pixel_of(const render::View& view, const Vec3& p) {
-    return render::project(view, render::to_glm(p)).value().pixel;
+    return camera(projection).view(view_size, around());
 }
 
 PointDrag drag_of(const render::View& view, const Frame& s_T_w = Frame::Identity()) {
@@ -99,8 +98,9 @@ TEST(PointDrag, DoesNotJumpWhenFineIsPressedMidway) {
 }
 
 TEST(PointDrag, SnapsTheGrabbedPointToRoundCoordinates) {
-    const render::View view =
-        camera(render::Projection::orthographic).seen_from(render::StandardView::top).view(size, around());
+    const render::View view = camera(render::Projection::orthographic)
+                                  .seen_from(render::StandardView::top)
+                                  .view(view_size, around());
     const double step = snap_step(view, grabbed);
     PointDrag drag = drag_of(view);
     drag.move_to(view, pixel_of(view, grabbed) + glm::dvec2(93.0, 41.0), {.axis = {}, .snap = true});

@@ -16,7 +16,7 @@
 namespace millwright::viewport {
 namespace {
 
-constexpr render::PixelSize size{800, 600};
+constexpr render::PixelSize large_view{800, 600};
 
 gcode::PreviewPath random_path(int points, double step) {
     gcode::PreviewPath path;
@@ -69,16 +69,16 @@ render::Bounds bounds_of(const gcode::PreviewPath& path) {
 
 render::View view_of(const gcode::PreviewPath& path) {
     const render::Bounds bounds = bounds_of(path);
-    return render::Camera().fitted(bounds, render::aspect(size)).view(size, bounds);
+    return render::Camera().fitted(bounds, render::aspect(large_view)).view(large_view, bounds);
 }
 
-render::View from_above(const gcode::PreviewPath& path, double zoom) {
+render::View path_from_above(const gcode::PreviewPath& path, double zoom) {
     const render::Bounds bounds = bounds_of(path);
     return render::Camera()
         .seen_from(render::StandardView::top)
-        .fitted(bounds, render::aspect(size))
-        .zoomed(zoom, {400.0, 300.0}, size)
-        .view(size, bounds);
+        .fitted(bounds, render::aspect(large_view))
+        .zoomed(zoom, {400.0, 300.0}, large_view)
+        .view(large_view, bounds);
 }
 
 std::size_t drawn(const std::vector<std::vector<std::uint16_t>>& indices) {
@@ -124,8 +124,8 @@ bool any_in_picture(const gcode::PathChunk& chunk, const gcode::PathBlock& block
     return std::ranges::any_of(points, [&](const gcode::PathPoint& point) {
         const Vec3 at = point.position();
         const auto seen = render::project(view, {at.x(), at.y(), at.z()});
-        return seen && seen->pixel.x >= 0.0 && seen->pixel.x <= size.width && seen->pixel.y >= 0.0 &&
-               seen->pixel.y <= size.height;
+        return seen && seen->pixel.x >= 0.0 && seen->pixel.x <= large_view.width && seen->pixel.y >= 0.0 &&
+               seen->pixel.y <= large_view.height;
     });
 }
 
@@ -144,7 +144,7 @@ TEST(PiecesInSight, LeaveOutLinesThatCoverEachOtherAndNoOther) {
             }
         }
     }
-    const render::View view = from_above(path, 1.0);
+    const render::View view = path_from_above(path, 1.0);
     const auto all = pieces_in_sight(path.chunks, view, 1);
     const auto thinned = pieces_in_sight(path.chunks, view, 1, 1.0);
     EXPECT_GT(drawn(all), 7000U);
@@ -174,8 +174,8 @@ TEST(PiecesInSight, OfAShortPathAreEveryPointWhereItIsNear) {
 
 TEST(PiecesInSight, LeaveOutWhatIsOutsideOfThePicture) {
     const gcode::PreviewPath path = rough_raster(200, 300);
-    const render::View near = from_above(path, 0.05);
-    const std::size_t whole = drawn(pieces_in_sight(path.chunks, from_above(path, 1.0), 1'000'000));
+    const render::View near = path_from_above(path, 0.05);
+    const std::size_t whole = drawn(pieces_in_sight(path.chunks, path_from_above(path, 1.0), 1'000'000));
     const auto pieces = pieces_in_sight(path.chunks, near, 1'000'000);
     EXPECT_LT(drawn(pieces), whole / 8);
     const std::vector<bool> seen = drawn_blocks(path, pieces);

@@ -1,5 +1,6 @@
 // The keyboard alone reaches and presses everything.
 #include "tests/ui/stage/stage.h"
+#include "tests/ui/widgets/whole_screen.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>
@@ -13,14 +14,13 @@ namespace {
 
 using test::Key;
 using test::Stage;
-
-constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+using test::whole_screen;
 
 TEST(Keyboard, SpacePressesWhatTheArrowsReached) {
     int first = 0;
     int second = 0;
     Stage stage([&](Ui& ui) {
-        const auto pane = ui.pane("main", whole);
+        const auto pane = ui.pane("main", whole_screen);
         first += ui.button("first", "First") ? 1 : 0;
         second += ui.button("second", "Second") ? 1 : 0;
     });
@@ -39,7 +39,7 @@ TEST(Keyboard, EnterTakesTheOptionThatTheArrowsReached) {
     int now = 1;
     int answers = 0;
     Stage stage([&](Ui& ui) {
-        const auto pane = ui.pane("main", whole);
+        const auto pane = ui.pane("main", whole_screen);
         const std::array<Option, 4> options{
             {{"a", "First"}, {"b", "Second"}, {"c", "Third"}, {"d", "Fourth"}}};
         if (const auto chosen = ui.choice("list", "List", now, options)) {
@@ -63,7 +63,7 @@ TEST(Keyboard, EnterTakesTheMenuItemThatTheArrowsReached) {
     int opened = 0;
     int saved = 0;
     Stage stage([&](Ui& ui) {
-        const auto pane = ui.pane("main", whole);
+        const auto pane = ui.pane("main", whole_screen);
         if (const auto file = menu(ui, "file", "File")) {
             opened += menu_item(ui, "open", "Open") ? 1 : 0;
             saved += menu_item(ui, "save", "Save") ? 1 : 0;
@@ -88,7 +88,7 @@ protected:
     bool on = false;
     double radius = 3.0;
     Stage stage{[this](Ui& ui) {
-        const auto pane = ui.pane("main", whole);
+        const auto pane = ui.pane("main", whole_screen);
         const FieldInfo info{.id = "radius", .label = "Radius", .unit = "mm"};
         radius = ui.number(radius, info).value_or(radius);
         presses += ui.button("adapt", "Adapt") ? 1 : 0;

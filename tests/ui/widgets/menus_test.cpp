@@ -1,5 +1,6 @@
 // Menus, and lists that open in them.
 #include "tests/ui/stage/stage.h"
+#include "tests/ui/widgets/whole_screen.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>
@@ -12,14 +13,13 @@ namespace {
 
 using test::Key;
 using test::Stage;
-
-constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+using test::whole_screen;
 
 class Menus : public testing::Test {
 protected:
     std::vector<std::string> chosen;
     Stage stage{[this](Ui& ui) {
-        const auto pane = ui.pane("bar", whole);
+        const auto pane = ui.pane("bar", whole_screen);
         if (const auto file = menu(ui, "file", "File")) {
             if (menu_item(ui, "open", "Open ...", "Ctrl+O")) {
                 chosen.emplace_back("open");
@@ -78,7 +78,7 @@ class Lists : public testing::Test {
 protected:
     bool on = false;
     Stage stage{[this](Ui& ui) {
-        const auto pane = ui.pane("bar", whole);
+        const auto pane = ui.pane("bar", whole_screen);
         if (const auto file = menu(ui, "file", "File")) {
             menu_item(ui, "open", "Open ...");
             if (const auto more = submenu(ui, "more", "More")) {
@@ -118,7 +118,7 @@ TEST_F(Lists, ALongListStaysOnTheScreen) {
     stage.move(stage.place("bar/file/more").centre());
     stage.frames(3);
     EXPECT_GE(stage.place("bar/file/more/floor").y, 0.0F);
-    EXPECT_LE(stage.place("bar/file/more/17").bottom(), whole.bottom());
+    EXPECT_LE(stage.place("bar/file/more/17").bottom(), whole_screen.bottom());
 }
 
 TEST_F(Lists, AnEyeSwitchesAndTheListStaysForTheNext) {

@@ -13,14 +13,14 @@ namespace {
 using test::Key;
 using test::Stage;
 
-constexpr FieldInfo radius_info{.id = "radius",
-                                .label = "Cutter radius",
-                                .unit = "mm",
-                                .tip = "Half the diameter.",
-                                .min = 0.1,
-                                .max = 50.0,
-                                .default_value = 3.0,
-                                .decimals = 3};
+constexpr FieldInfo ball_radius_info{.id = "radius",
+                                     .label = "Cutter radius",
+                                     .unit = "mm",
+                                     .tip = "Half the diameter.",
+                                     .min = 0.1,
+                                     .max = 50.0,
+                                     .default_value = 3.0,
+                                     .decimals = 3};
 
 /// A tool panel that keeps what is committed.
 class NumberField : public testing::Test {
@@ -30,7 +30,7 @@ protected:
     std::vector<double> committed;
     Stage stage{[this](Ui& ui) {
         const auto pane = ui.pane("tool", {0.0F, 0.0F, 400.0F, 300.0F});
-        if (const auto value = ui.number(radius, radius_info)) {
+        if (const auto value = ui.number(radius, ball_radius_info)) {
             radius = *value;
             committed.push_back(*value);
         }
@@ -170,7 +170,7 @@ TEST_F(NumberField, DraggingTheLabelStepsAndCommitsOnceWhenLetGo) {
     ASSERT_EQ(committed.size(), 1U);
     EXPECT_NEAR(radius, 7.0, 1e-12); // a step of 0.1 every 4 px
     stage.drag(label, {label.x - 10000.0F, label.y}, 2);
-    EXPECT_DOUBLE_EQ(radius, radius_info.min);
+    EXPECT_DOUBLE_EQ(radius, ball_radius_info.min);
 }
 
 TEST_F(NumberField, EscEndsDraggingTheLabel) {
@@ -196,7 +196,8 @@ TEST(NumberFieldDisabled, TakesNoTextAndKeepsItsReason) {
     int commits = 0;
     Stage stage([&](Ui& ui) {
         const auto pane = ui.pane("tool", {0.0F, 0.0F, 400.0F, 300.0F});
-        commits += ui.number(6.0, radius_info, Permission::refused("The tool is in the spindle.")) ? 1 : 0;
+        commits +=
+            ui.number(6.0, ball_radius_info, Permission::refused("The tool is in the spindle.")) ? 1 : 0;
     });
     stage.frames(2);
     stage.fill_in("tool/radius", "9");

@@ -1,5 +1,6 @@
 // Pieces that have no file of their own here: splitter, canvas, dialog, choice, table.
 #include "tests/ui/stage/stage.h"
+#include "tests/ui/widgets/whole_screen.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,7 @@ namespace millwright::widgets {
 namespace {
 
 using test::Stage;
-
-constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+using test::whole_screen;
 
 class Splitter : public testing::Test {
 protected:
@@ -57,7 +57,7 @@ protected:
     std::vector<std::string> events;
     int button_presses = 0;
     Stage stage{[this](Ui& ui) {
-        const auto pane = ui.bare_pane("view", whole);
+        const auto pane = ui.bare_pane("view", whole_screen);
         last = canvas(ui, "scene", {0.0F, 0.0F, 400.0F, 400.0F}, 0);
         if (last.pointer.pressed) {
             events.emplace_back("pressed");
@@ -106,7 +106,7 @@ TEST(Dialog, IsDrawnOverEverythingAndTakesTheMouse) {
     bool open = true;
     int below = 0;
     Stage stage([&](Ui& ui) {
-        const auto pane = ui.pane("main", whole);
+        const auto pane = ui.pane("main", whole_screen);
         below += ui.button("below", "Below") ? 1 : 0;
         if (open) {
             if (const auto dialog = ui.dialog("sure", "Leave without saving?", 360.0F)) {
@@ -127,7 +127,7 @@ TEST(Dialog, IsDrawnOverEverythingAndTakesTheMouse) {
 
 TEST(Tip, AppearsWhenTheMouseRests) {
     Stage stage([](Ui& ui) {
-        const auto pane = ui.pane("main", whole);
+        const auto pane = ui.pane("main", whole_screen);
         ui.button("adapt", "Adapt", {}, {.tip = "Moves the nodes to where the error is."});
     });
     stage.frames(2);

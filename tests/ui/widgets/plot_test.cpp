@@ -1,6 +1,7 @@
 // Curves over an axis, and their legend.
 #include "core/base/error.h"
 #include "tests/ui/stage/stage.h"
+#include "tests/ui/widgets/whole_screen.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,7 @@ namespace millwright::widgets {
 namespace {
 
 using test::Stage;
-
-constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+using test::whole_screen;
 
 class Plot : public testing::Test {
 protected:
@@ -22,7 +22,7 @@ protected:
     bool is_log = false;
     std::optional<double> clicked;
     Stage stage{[this](Ui& ui) {
-        const auto pane = ui.pane("plots", whole);
+        const auto pane = ui.pane("plots", whole_screen);
         const Series series{"Error", x, y, 0, true};
         if (const auto at = line_plot(ui,
                                       "error",
@@ -120,7 +120,7 @@ TEST_F(Plot, ASeriesWithMoreXThanYIsADefect) {
 TEST(Legend, IsClickedForItsSettings) {
     int clicks = 0;
     Stage stage([&](Ui& ui) {
-        const auto pane = ui.bare_pane("view", whole);
+        const auto pane = ui.bare_pane("view", whole_screen);
         LegendView view{.title = "Error", .unit = "mm", .high = 0.25, .map = [](double t) {
                             return rgb(t > 0.5 ? 0 : 255);
                         }};
@@ -139,7 +139,7 @@ TEST(Legend, IsClickedForItsSettings) {
 TEST(Legend, OfAScaleThatEndsBelowTheLargestSaysSo) {
     LegendView view{.title = "Error", .unit = "mm", .high = 0.5, .map = [](double) { return rgb(0x20A040); }};
     Stage stage([&](Ui& ui) {
-        const auto pane = ui.bare_pane("view", whole);
+        const auto pane = ui.bare_pane("view", whole_screen);
         view.lying = false;
         (void)legend(ui, "legend", {600.0F, 10.0F, 92.0F, 250.0F}, view);
         view.lying = true;

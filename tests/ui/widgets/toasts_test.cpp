@@ -1,5 +1,6 @@
 // Notices.
 #include "tests/ui/stage/stage.h"
+#include "tests/ui/widgets/whole_screen.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +11,13 @@ namespace millwright::widgets {
 namespace {
 
 using test::Stage;
-
-constexpr Rect whole{0.0F, 0.0F, 800.0F, 600.0F};
+using test::whole_screen;
 
 TEST(Toasts, DangerStaysUntilItIsClosedOthersGo) {
     Toasts toasts;
     toasts.push({Severity::good, "Saved.", ""});
     toasts.push({Severity::danger, "The link is lost.", "/dev/ttyUSB0"});
-    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole); });
+    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole_screen); });
     stage.frames(2);
     EXPECT_TRUE(stage.ui().place("notices/1").has_value());
     EXPECT_TRUE(stage.ui().next_change().has_value());
@@ -35,7 +35,7 @@ TEST(Toasts, TheSameNoticeIsNotStacked) {
     for (int i = 0; i < 20; ++i) {
         toasts.push({Severity::warning, "Near the limit of X.", ""});
     }
-    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole); });
+    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole_screen); });
     stage.frames(2);
     EXPECT_EQ(std::ssize(stage.ui().places().all()), 2);
 }
@@ -46,7 +46,7 @@ TEST(Toasts, AFloodKeepsTheDanger) {
     for (int i = 0; i < 20; ++i) {
         toasts.push({Severity::info, "Step " + std::to_string(i), ""});
     }
-    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole); });
+    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole_screen); });
     stage.frames(2);
     EXPECT_TRUE(stage.ui().place("notices/1").has_value());
 }
@@ -56,7 +56,7 @@ TEST(Toasts, WhatPassesIsForgottenWhenItIsOver) {
     toasts.push({Severity::danger, "The PMAC is in alarm.", "", true});
     toasts.push({Severity::danger, "dome.json cannot be read.", "", false});
     toasts.forget_passing();
-    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole); });
+    Stage stage([&](Ui& ui) { toasts.draw(ui, "notices", whole_screen); });
     stage.frames(2);
     EXPECT_FALSE(stage.ui().place("notices/1").has_value());
     EXPECT_TRUE(stage.ui().place("notices/2").has_value());

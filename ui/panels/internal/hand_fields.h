@@ -6,12 +6,16 @@
 #include "ui/widgets/field_info.h"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
 namespace millwright::panels {
 
 using actions::at_rest;
+
+inline constexpr double no_default = std::numeric_limits<double>::quiet_NaN(); // of a field
+inline constexpr double seconds_per_minute = 60.0;
 
 /// The same for single lines.
 [[nodiscard]] widgets::Permission can_command(const actions::ControllerView& machine);

@@ -13,7 +13,7 @@ namespace {
 constexpr float line_px = 6.0F;
 
 /// What a view takes in, of the reach: the same wherever the arm stands, so that the picture rests.
-constexpr double behind = 0.45, ahead = 0.8, aside = 0.55, above = 0.75;
+constexpr double reach_behind = 0.45, reach_ahead = 0.8, reach_aside = 0.55, reach_above = 0.75;
 
 std::vector<Vec3> skeleton(const ArmScene& arm) {
     std::vector<Vec3> points{Vec3(0.0, 0.0, arm.look->foot)};
@@ -59,8 +59,8 @@ public:
             return {};
         }
         const double reach = scene.arm->look->reach;
-        const Box3 box(Vec3(-behind * reach, -aside * reach, scene.arm->look->foot),
-                       Vec3(ahead * reach, aside * reach, above * reach));
+        const Box3 box(Vec3(-reach_behind * reach, -reach_aside * reach, scene.arm->look->foot),
+                       Vec3(reach_ahead * reach, reach_aside * reach, reach_above * reach));
         return moved_corners(box, Frame::Identity());
     }
 

@@ -82,7 +82,9 @@ std::optional<StandardView> axis_gizmo(widgets::Ui& ui, const Pane& pane) {
         pane.rect.right() - size - ui.px(inset), pane.rect.y + ui.px(inset), size, size};
     const ImVec2 middle = {place.centre().x, place.centre().y};
     ImGui::SetCursorScreenPos({place.x, place.y});
+    ImGui::PushAllowKeyboardFocus(false); // Tab does not stop here
     const bool clicked = ImGui::InvisibleButton(ui.path("axes").c_str(), {size, size});
+    ImGui::PopAllowKeyboardFocus();
     const bool hovered = ImGui::IsItemHovered();
     ui.record("axes", place);
     if (hovered) {

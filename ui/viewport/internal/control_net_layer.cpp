@@ -14,7 +14,7 @@ namespace {
 constexpr float handle_px = 9.0F;
 constexpr float selected_px = 12.0F;
 constexpr float hovered_px = 14.0F;
-constexpr float behind = 0.35F; // opacity of what shows through
+constexpr float hidden_net_opacity = 0.35F; // where the surface is in front
 
 void append_net(const geometry::ControlNet& net, std::vector<render::LineVertex>& vertices) {
     for (int i = 0; i < net.rows; ++i) {
@@ -53,9 +53,9 @@ public:
         if (!scene.layers.control_net || !surface_) {
             return;
         }
-        draw_lines(canvas, render::Depth::overlay, 0.5F * behind);
+        draw_lines(canvas, render::Depth::overlay, 0.5F * hidden_net_opacity);
         draw_lines(canvas, render::Depth::tested, 0.85F);
-        draw_points(canvas, points_, style(canvas, render::Depth::overlay, behind));
+        draw_points(canvas, points_, style(canvas, render::Depth::overlay, hidden_net_opacity));
         draw_points(canvas, points_, style(canvas, render::Depth::tested, 1.0F));
         if (canvas.highlight.point) {
             draw_hovered(canvas, *canvas.highlight.point);

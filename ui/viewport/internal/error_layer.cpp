@@ -13,7 +13,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float to_come = 0.6F;        // opacity
+constexpr float remaining_error_opacity = 0.6F;
 constexpr double deepest_share = 0.05; // of the content's radius: deeper under the surface, the way is hidden
 
 using toolpath::MoveKind;
@@ -106,7 +106,7 @@ private:
                            render::LineStyle style,
                            const render::View& view) {
         const int done = segments_done(lines, scene.now);
-        style.coloring.opacity = to_come;
+        style.coloring.opacity = remaining_error_opacity;
         style.first = done;
         canvas.painter.lines(lines.buffer(), style, view);
         style.coloring.opacity = 1.0F;

@@ -16,7 +16,7 @@ namespace {
 constexpr double wall_share = 0.08;   // of the part's size: how far the walls reach below its lowest place
 constexpr double plate_mm = 12.0;     // at most
 constexpr double column_share = 0.45; // of the plate's edges
-constexpr int border_steps = 48;
+constexpr int part_border_steps = 48;
 
 struct Heights {
     double table = 0.0;  ///< of the table's top
@@ -40,7 +40,7 @@ std::vector<Vec3> border(const geometry::BezierPatch& patch) {
     std::vector<Vec3> points;
     for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
         const std::vector<Vec3> side = on_surface(
-            patch, {corners[k][0], corners[k][1]}, {corners[k + 1][0], corners[k + 1][1]}, border_steps);
+            patch, {corners[k][0], corners[k][1]}, {corners[k + 1][0], corners[k + 1][1]}, part_border_steps);
         points.insert(points.end(), side.begin(), side.end() - 1);
     }
     points.push_back(points.front());

@@ -15,20 +15,20 @@ namespace millwright::viewport {
 namespace {
 
 // The grid has its own unit: the distance of its lines. Each tenth line is a major one.
-constexpr int reach = 30;            // lines to each side of the middle
+constexpr int lines_per_side = 30;   // of the middle
 constexpr double full_to = 0.2;      // of the reach: full strength up to here, nothing at the border
 constexpr double lines_across = 6.0; // of the content's radius
 constexpr double gap_share = 0.02;   // of the content's radius: how far below the content
 
 float strength(const Vec3& at) {
-    const double distance = at.norm() / reach;
+    const double distance = at.norm() / lines_per_side;
     const double faded = glm::clamp((1.0 - distance) / (1.0 - full_to), 0.0, 1.0);
     return static_cast<float>(faded * faded);
 }
 
 void append_line(std::vector<render::LineVertex>& lines, int at, bool along_x) {
     constexpr int step = 3;
-    for (int from = -reach; from < reach; from += step) {
+    for (int from = -lines_per_side; from < lines_per_side; from += step) {
         const Vec3 a = along_x ? Vec3(from, at, 0.0) : Vec3(at, from, 0.0);
         const Vec3 b = along_x ? Vec3(from + step, at, 0.0) : Vec3(at, from + step, 0.0);
         if (strength(a) > 0.0F || strength(b) > 0.0F) {
@@ -40,7 +40,7 @@ void append_line(std::vector<render::LineVertex>& lines, int at, bool along_x) {
 
 render::LineBuffer grid_lines(bool major, const glm::vec3& color) {
     std::vector<render::LineVertex> lines;
-    for (int at = -reach; at <= reach; ++at) {
+    for (int at = -lines_per_side; at <= lines_per_side; ++at) {
         if ((at % 10 == 0) == major) {
             append_line(lines, at, true);
             append_line(lines, at, false);
@@ -53,7 +53,7 @@ render::LineBuffer grid_lines(bool major, const glm::vec3& color) {
 }
 
 /// Places the grid below the content, its middle at a multiple of ten lines.
-glm::mat4 placed(const render::Bounds& content) {
+glm::mat4 floor_placement(const render::Bounds& content) {
     const double size = radius(content);
     const double step = round_length(size / lines_across);
     const glm::dvec3 middle = center(content);
@@ -89,7 +89,7 @@ public:
         }
         const FloorLines& lines = canvas.colors.theme == render::Theme::dark ? *dark_ : light_;
         const render::LineStyle style = {.coloring = {.from = render::ColorFrom::vertex},
-                                         .model = placed(canvas.content),
+                                         .model = floor_placement(canvas.content),
                                          .width_px = 1.0F,
                                          .depth = render::Depth::ghost};
         canvas.painter.lines(lines.fine, style, canvas.view);

@@ -62,7 +62,7 @@ render::PointBuffer make_marks(const grid::NodeArray& nodes, const geometry::Bez
 }
 
 GridBuffers
-make_buffers(const grid::NodeArray& nodes, const project::Workpiece& workpiece, const GridLines& shown) {
+make_grid_buffers(const grid::NodeArray& nodes, const project::Workpiece& workpiece, const GridLines& shown) {
     const std::vector<int> rows = line_numbers(nodes.rows, shown.each_row);
     const std::vector<int> columns = line_numbers(nodes.columns, shown.each_column);
     const int down = nodes_a_piece(shown.each_row, columns.size(), nodes.rows);
@@ -102,7 +102,7 @@ public:
         const GridLines wanted =
             readable_lines(*nodes_, workpiece_->patch, canvas.view, glm::dmat4(canvas.s_T_w));
         if (made_for_ != wanted) {
-            buffers_ = make_buffers(*nodes_, *workpiece_, wanted);
+            buffers_ = make_grid_buffers(*nodes_, *workpiece_, wanted);
             made_for_ = wanted;
         }
         return buffers_;

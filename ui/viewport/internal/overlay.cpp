@@ -24,7 +24,7 @@ using widgets::Point;
 using widgets::Rect;
 
 // Pixels at scale 1.
-constexpr float margin = 14.0F;
+constexpr float overlay_margin = 14.0F;
 constexpr float label_ground = 6.0F; // beyond a label's text
 constexpr float label_above = 23.0F;
 constexpr float label_space = 2.0F; // between labels that stand above each other
@@ -54,18 +54,18 @@ ImVec2 vec(Point p) {
     return {p.x, p.y};
 }
 
-void draw_line(Point a, Point b, widgets::Colour colour, float width) {
+void draw_overlay_line(Point a, Point b, widgets::Colour colour, float width) {
     ImGui::GetWindowDrawList()->AddLine(vec(a), vec(b), colour, width);
 }
 
-float text_width(const widgets::Ui& ui, const std::string& text) {
+float small_text_width(const widgets::Ui& ui, const std::string& text) {
     const ImFont* font = ui.look().fonts.small;
     return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0F, text.c_str()).x;
 }
 
 void draw_centred(widgets::Ui& ui, Point at, const std::string& text, widgets::Colour colour) {
     const ImFont* font = ui.look().fonts.small;
-    const float wide = text_width(ui, text);
+    const float wide = small_text_width(ui, text);
     ImGui::GetWindowDrawList()->AddText(
         font,
         font->FontSize,
@@ -76,7 +76,7 @@ void draw_centred(widgets::Ui& ui, Point at, const std::string& text, widgets::C
 
 /// The middle of a label nearest to `at` with which nothing of it is cut off.
 Point inside(const widgets::Ui& ui, const Rect& rect, Point at, const std::string& text) {
-    const float half = 0.5F * text_width(ui, text) + ui.px(label_ground);
+    const float half = 0.5F * small_text_width(ui, text) + ui.px(label_ground);
     at.x = std::max(std::min(at.x, rect.right() - half), rect.x + half);
     return at;
 }
@@ -112,7 +112,7 @@ std::optional<Point> free_place(const widgets::Ui& ui,
 }
 
 /// "20 mm", "0.5 mm", "2 m".
-std::string length_text(double length) {
+std::string scale_bar_text(double length) {
     if (length >= 1000.0) {
         return shortest(length / 1000.0) + " m";
     }
@@ -263,30 +263,30 @@ void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point) 
     const double pixel = render::pixel_length(pane.view, point);
     const double length = round_length(bar_px * pane.view.content_scale * pixel);
     const auto width = static_cast<float>(length / pixel);
-    const Point left = {pane.rect.x + ui.px(margin), pane.rect.bottom() - ui.px(margin)};
+    const Point left = {pane.rect.x + ui.px(overlay_margin), pane.rect.bottom() - ui.px(overlay_margin)};
     const Point right = {left.x + width, left.y};
     const float tick = ui.px(5.0F);
     const widgets::Colour colour = text_colour(pane);
     for (const auto& [a, b] : {std::pair{left, right},
                                std::pair{Point{left.x, left.y - tick}, left},
                                std::pair{Point{right.x, right.y - tick}, right}}) {
-        draw_line(a, b, colour, ui.px(1.5F));
+        draw_overlay_line(a, b, colour, ui.px(1.5F));
     }
-    draw_centred(ui, {0.5F * (left.x + right.x), left.y - ui.px(11.0F)}, length_text(length), colour);
+    draw_centred(ui, {0.5F * (left.x + right.x), left.y - ui.px(11.0F)}, scale_bar_text(length), colour);
 }
 
 LegendPlaces upright_legends(const widgets::Ui& ui, const Rect& picture, const Scene& scene) {
     LegendPlaces places{.free = picture};
     const auto count = static_cast<float>(legend_count(scene));
-    const float space = ui.px(0.5F * margin);
+    const float space = ui.px(0.5F * overlay_margin);
     const float bottom = picture.bottom() - ui.px(above_scale_bar);
-    const float room = bottom - picture.y - ui.px(margin + legend_top);
+    const float room = bottom - picture.y - ui.px(overlay_margin + legend_top);
     const float stacked = std::min(ui.px(legend_height), (room - (count - 1.0F) * space) / count);
     const bool stands_above = stacked >= ui.px(least_legend_height);
     const float height = stands_above ? stacked : std::min(ui.px(legend_height), room);
     const float step_x = stands_above ? 0.0F : ui.px(legend_width) + space;
     const float step_y = stands_above ? height + space : 0.0F;
-    Rect place{picture.x + ui.px(margin), bottom - height, ui.px(legend_width), height};
+    Rect place{picture.x + ui.px(overlay_margin), bottom - height, ui.px(legend_width), height};
     for (int n = 0; n < legend_count(scene); ++n) {
         if (height < ui.px(least_legend_height) || place.right() > picture.right()) {
             break;
@@ -306,7 +306,7 @@ LegendPlaces upright_legends(const widgets::Ui& ui, const Rect& picture, const S
 LegendPlaces lying_legends(const widgets::Ui& ui, const Rect& picture, float left, const Scene& scene) {
     LegendPlaces places{.lying = true, .free = picture};
     const int count = legend_count(scene);
-    const float space = ui.px(0.5F * margin);
+    const float space = ui.px(0.5F * overlay_margin);
     const float room = picture.right() - space - left;
     const float each = std::min(ui.px(lying_width), room / static_cast<float>(std::max(count, 1)) - space);
     if (count == 0 || each < ui.px(least_lying_width)) {
@@ -369,7 +369,7 @@ void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std:
         if (!line.empty()) {
             ImGui::GetWindowDrawList()->AddText(font,
                                                 font->FontSize,
-                                                {pane.rect.x + ui.px(margin), y},
+                                                {pane.rect.x + ui.px(overlay_margin), y},
                                                 to_colour(pane.colors.neutral[6]),
                                                 line.data(),
                                                 line.data() + line.size());

@@ -17,7 +17,7 @@ constexpr double points_at_rest = 100'000.0;
 // Of ten thousand passes from afar most cover each other: drawing them all takes longer than their points.
 constexpr double same_while_moving_px = 1.0;
 
-render::PathBuffer buffer_of(const PathChunk& chunk) {
+render::PathBuffer chunk_buffer(const PathChunk& chunk) {
     const glm::vec3 min(chunk.min[0], chunk.min[1], chunk.min[2]);
     const glm::vec3 max(chunk.max[0], chunk.max[1], chunk.max[2]);
     std::vector<render::PathVertex> vertices;
@@ -41,7 +41,7 @@ bool PathBuffers::follow(const std::vector<std::shared_ptr<const PathChunk>>& ch
             return false;
         }
         shown_.push_back(*next);
-        buffers_.push_back(buffer_of(**next));
+        buffers_.push_back(chunk_buffer(**next));
     }
     return true;
 }

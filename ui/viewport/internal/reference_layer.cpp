@@ -13,7 +13,7 @@ using exchange::TriangleMesh;
 constexpr std::size_t most_outline = 2'000; // points that the view is fitted to
 
 /// Normals are the mean of those of the triangles around, by area. `values` may be empty.
-render::MeshBuffer buffer_of(const TriangleMesh& mesh, const std::vector<double>& values) {
+render::MeshBuffer reference_buffer(const TriangleMesh& mesh, const std::vector<double>& values) {
     std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
     std::vector<std::uint32_t> corners;
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
@@ -52,8 +52,8 @@ public:
         fitted_ = {};
         rest_ = {};
         if (reference_) {
-            fitted_ = buffer_of(reference_->fitted, reference_->deviation);
-            rest_ = buffer_of(reference_->rest, {});
+            fitted_ = reference_buffer(reference_->fitted, reference_->deviation);
+            rest_ = reference_buffer(reference_->rest, {});
             add_outline(outline_, reference_->fitted);
             add_outline(outline_, reference_->rest);
         }

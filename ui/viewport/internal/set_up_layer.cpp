@@ -18,7 +18,7 @@ namespace {
 using toolpath::SetUpParameter;
 using toolpath::SetUpPlace;
 
-constexpr int border_steps = 60;
+constexpr int map_border_steps = 60;
 constexpr double beside_share = 0.08; // of the part's diagonal: between the part and the plane
 
 Eigen::Index index(SetUpParameter parameter) {
@@ -26,7 +26,7 @@ Eigen::Index index(SetUpParameter parameter) {
 }
 
 /// Where `place` would bring a point of the part that is at `p` now.
-Vec3 placed(const Vec3& p, const SetUpPlace& now, const SetUpPlace& place) {
+Vec3 moved_with_part(const Vec3& p, const SetUpPlace& now, const SetUpPlace& place) {
     const Eigen::AngleAxisd turn(place[3] - now[3], Vec3::UnitZ());
     return turn * p + (place - now).head<3>();
 }
@@ -100,19 +100,19 @@ private:
         std::vector<render::LineVertex> border;
         const std::array<Vec2, 5> corners{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1), Vec2(0, 0)};
         for (std::size_t side = 0; side + 1 < corners.size(); ++side) {
-            for (int k = 0; k < border_steps; ++k) {
+            for (int k = 0; k < map_border_steps; ++k) {
                 for (const int end : {k, k + 1}) {
-                    const double t = static_cast<double>(end) / border_steps;
+                    const double t = static_cast<double>(end) / map_border_steps;
                     const Vec2 uv = (1.0 - t) * corners[side] + t * corners[side + 1];
                     const Vec3 p = workpiece_->patch.position(uv.x(), uv.y());
-                    border.push_back({.position = render::to_float(placed(p, now_, place_))});
+                    border.push_back({.position = render::to_float(moved_with_part(p, now_, place_))});
                 }
             }
         }
         border_ = render::LineBuffer(border, render::LineTopology::segments);
         for (const Vec2& corner : corners) {
             const Vec3 p = workpiece_->patch.position(corner.x(), corner.y());
-            corners_.push_back(placed(p, now_, place_));
+            corners_.push_back(moved_with_part(p, now_, place_));
         }
     }
 

@@ -18,7 +18,7 @@ namespace {
 using widgets::Rect;
 
 // Pixels at scale 1.
-constexpr float margin = 16.0F;
+constexpr float sheet_margin = 16.0F;
 constexpr float title_height = 38.0F;
 constexpr float row_height = 21.0F;
 constexpr float table_pad = 9.0F;
@@ -35,7 +35,7 @@ constexpr render::PixelSize smallest_with_words = {480, 320};
 constexpr render::PixelSize usual_part = {640, 480};
 constexpr double least_line_scale = 0.55;
 
-float text_width(const ImFont* font, const std::string& text) {
+float sheet_text_width(const ImFont* font, const std::string& text) {
     return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0F, text.c_str()).x;
 }
 
@@ -47,11 +47,11 @@ void write(const ImFont* font, float x, float y, widgets::Colour colour, const s
 /// The text without its last parts, which are parted by dots, so that it fits.
 std::string fitting(const ImFont* font, std::string text, float width) {
     constexpr std::string_view dot = "  \u00B7  ";
-    while (text_width(font, text) > width && text.rfind(dot) != std::string::npos) {
+    while (sheet_text_width(font, text) > width && text.rfind(dot) != std::string::npos) {
         text.resize(text.rfind(dot));
     }
     const auto continues = [&] { return (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U; };
-    while (text_width(font, text) > width && !text.empty()) {
+    while (sheet_text_width(font, text) > width && !text.empty()) {
         while (text.size() > 1 && continues()) { // a character of UTF-8 goes as a whole
             text.pop_back();
         }
@@ -64,9 +64,9 @@ std::string fitting(const ImFont* font, std::string text, float width) {
 std::vector<float> column_widths(const ImFont* font, const PictureFacts& facts) {
     std::vector<float> widths;
     for (std::size_t k = 0; k < facts.columns.size(); ++k) {
-        widths.push_back(text_width(font, facts.columns[k]));
+        widths.push_back(sheet_text_width(font, facts.columns[k]));
         for (const auto& row : facts.rows) {
-            widths.back() = std::max(widths.back(), text_width(font, row[k]));
+            widths.back() = std::max(widths.back(), sheet_text_width(font, row[k]));
         }
     }
     return widths;
@@ -82,16 +82,17 @@ void draw_table(widgets::Ui& ui, const Rect& place, const PictureFacts& facts) {
     draw_ground(ui, place, place.y);
     const ImFont* font = ui.look().fonts.small;
     const std::vector<float> widths = column_widths(font, facts);
-    const float left = place.x + ui.px(margin);
+    const float left = place.x + ui.px(sheet_margin);
     const float needed = std::accumulate(widths.begin(), widths.end(), 0.0F);
     const auto gaps = static_cast<float>(std::max<std::ptrdiff_t>(std::ssize(widths) - 1, 1));
-    const float gap = std::min(ui.px(widest_gap), (place.right() - ui.px(margin) - left - needed) / gaps);
+    const float gap =
+        std::min(ui.px(widest_gap), (place.right() - ui.px(sheet_margin) - left - needed) / gaps);
     float y = place.y + ui.px(table_pad) + 0.5F * (ui.px(row_height) - font->FontSize);
     const auto draw_row = [&](const std::vector<std::string>& cells, widgets::Colour colour) {
         float right = left;
         for (std::size_t k = 0; k < cells.size(); ++k) {
             right += widths[k] + (k == 0 ? 0.0F : gap);
-            const float x = k == 0 ? left : right - text_width(font, cells[k]);
+            const float x = k == 0 ? left : right - sheet_text_width(font, cells[k]);
             write(font, x, y, colour, cells[k]);
         }
         y += ui.px(row_height);
@@ -106,10 +107,10 @@ void draw_title(widgets::Ui& ui, const Rect& place, const PictureFacts& facts) {
     draw_ground(ui, place, place.bottom());
     const ImFont* strong = ui.look().fonts.strong;
     const ImFont* small = ui.look().fonts.small;
-    const float left = place.x + ui.px(margin);
-    const float room = place.right() - ui.px(margin) - left;
+    const float left = place.x + ui.px(sheet_margin);
+    const float room = place.right() - ui.px(sheet_margin) - left;
     const std::string title = fitting(strong, facts.title, 0.6F * room);
-    const float beside = text_width(strong, title) + ui.px(margin);
+    const float beside = sheet_text_width(strong, title) + ui.px(sheet_margin);
     const float middle = place.centre().y;
     write(strong, left, middle - 0.5F * strong->FontSize, ui.colours().text, title);
     write(small,
@@ -161,7 +162,7 @@ Sheet sheet_for(const render::PixelSize& size, int parts, const PictureFacts& fa
     sheet.title = {0.0F, 0.0F, width, px(title_height)};
     sheet.table = {0.0F, height - table, width, table};
     sheet.signs = {0.0F, sheet.title.h, width, height - sheet.title.h - table};
-    add_parts(sheet, parts, px(margin), px(below), has_legend ? px(legend_space) : px(margin));
+    add_parts(sheet, parts, px(sheet_margin), px(below), has_legend ? px(legend_space) : px(sheet_margin));
     const Rect& free = sheet.parts.front().free;
     sheet.line_scale = std::max(least_line_scale, shrunk(free.w, free.h, usual_part));
     return sheet;

@@ -7,7 +7,7 @@ namespace millwright::viewport {
 
 namespace {
 
-render::MeshBuffer buffer_of(const geometry::SolidMesh& mesh) {
+render::MeshBuffer solid_buffer(const geometry::SolidMesh& mesh) {
     std::vector<render::MeshVertex> vertices;
     vertices.reserve(mesh.positions.size());
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
@@ -29,7 +29,7 @@ render::MeshBuffer buffer_of(const geometry::SolidMesh& mesh) {
 std::vector<ColoredMesh> buffers_of(const geometry::SolidBody& body) {
     std::vector<ColoredMesh> meshes;
     for (const geometry::SolidMesh& mesh : body.meshes) {
-        meshes.push_back({buffer_of(mesh), render::to_float(mesh.color), geometry::is_closed(mesh)});
+        meshes.push_back({solid_buffer(mesh), render::to_float(mesh.color), geometry::is_closed(mesh)});
     }
     return meshes;
 }

@@ -62,7 +62,7 @@ void add_band(Solid& solid, const glm::vec2& from, const glm::vec2& to) {
     }
 }
 
-void append(Solid& to, const Solid& part) {
+void append_solid(Solid& to, const Solid& part) {
     const auto first = static_cast<std::uint32_t>(to.vertices.size());
     to.vertices.insert(to.vertices.end(), part.vertices.begin(), part.vertices.end());
     to.edges.insert(to.edges.end(), part.edges.begin(), part.edges.end());
@@ -93,7 +93,7 @@ Solid tool_solid(const toolpath::Tool& tool) {
         for (const Vec2& p : body ? body->outline(chord_share * body->shape().radius) : std::vector<Vec2>()) {
             profile.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
         }
-        append(solid, turned_solid(profile));
+        append_solid(solid, turned_solid(profile));
     }
     return solid;
 }

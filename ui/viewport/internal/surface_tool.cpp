@@ -39,7 +39,7 @@ bool is_hidden(const Pane& pane, const SurfacePicker& picker, const Frame& s_T_w
     return hit && glm::dot(point - sight.origin, sight.direction) > (1.0 + behind) * hit->distance;
 }
 
-void draw_line(widgets::Ui& ui, const std::vector<ImVec2>& pixels) {
+void draw_pixel_line(widgets::Ui& ui, const std::vector<ImVec2>& pixels) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto count = static_cast<int>(pixels.size());
     list.AddPolyline(pixels.data(), count, to_colour(glm::vec3(0.0F), 0.55), 0, ui.px(2.0F * line_width));
@@ -62,10 +62,10 @@ void draw_places(widgets::Ui& ui,
         if (pixel) {
             pixels.push_back(*pixel);
         } else {
-            draw_line(ui, std::exchange(pixels, {}));
+            draw_pixel_line(ui, std::exchange(pixels, {}));
         }
     }
-    draw_line(ui, pixels);
+    draw_pixel_line(ui, pixels);
 }
 
 void draw_corners(widgets::Ui& ui, const Pane& pane, const Scene& scene, const SurfaceHand& hand) {

@@ -10,7 +10,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr float to_come = 0.5F; // opacity
+constexpr float remaining_path_opacity = 0.5F;
 constexpr std::ptrdiff_t most_arrows = 10;
 constexpr double arrow_share = 0.45; // of the move's length
 constexpr double hair_share = 0.05;  // of the part's diagonal
@@ -101,7 +101,7 @@ struct Buffers {
     render::PointBuffer end;
 };
 
-Buffers make_buffers(const geometry::BezierPatch& patch, const toolpath::Toolpath& path) {
+Buffers make_toolpath_buffers(const geometry::BezierPatch& patch, const toolpath::Toolpath& path) {
     if (path.points.empty()) {
         return {};
     }
@@ -123,7 +123,8 @@ public:
         }
         shown_ = scene.shown;
         workpiece_ = scene.workpiece;
-        buffers_ = shown_ && workpiece_ ? make_buffers(workpiece_->patch, shown_->toolpath) : Buffers{};
+        buffers_ =
+            shown_ && workpiece_ ? make_toolpath_buffers(workpiece_->patch, shown_->toolpath) : Buffers{};
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
@@ -171,7 +172,7 @@ private:
     static void
     draw_moves(const Scene& scene, const Canvas& canvas, const PathLines& lines, render::LineStyle style) {
         const int done = segments_done(lines, scene.now);
-        style.coloring.opacity = to_come;
+        style.coloring.opacity = remaining_path_opacity;
         style.first = done;
         draw_lines(canvas, lines.buffer(), style);
         style.coloring.opacity = 1.0F;

@@ -66,6 +66,8 @@ void offer_tip(Ui& ui, const std::string& path, const Rect& rect, std::string_vi
 /// Shows `text` beside the mouse at once, as long as it is called.
 void show_at_mouse(Ui& ui, const std::string& path, std::string text);
 
+inline constexpr double disabled_opacity = 0.45;
+
 [[nodiscard]] float text_width(const ImFont* font, std::string_view text);
 
 inline constexpr std::string_view ellipsis = "…";

@@ -1,5 +1,7 @@
 #include "ui/widgets/internal/edit.h"
 
+#include "ui/widgets/internal/imgui_inside.h"
+
 #include <imgui_stdlib.h>
 
 #include <cmath>
@@ -87,7 +89,7 @@ Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text
                 .initial = text,
                 .called = false,
                 .kept_until = ImGui::GetFrameCount() + frames_to_refocus};
-        ImGui::SetKeyboardFocusHere();
+        focus_next_item();
     }
     const std::string id = "##" + box.path;
     typed.entered = ImGui::InputText(id.c_str(), &text, flags, callback, &answering);
@@ -145,7 +147,7 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
     return reason.empty() && changed && !reverted ? std::optional(text) : std::nullopt;
 }
 
-std::optional<std::string> follow(Ui& ui, const EditBox& box, const Typed& typed) {
+std::optional<std::string> follow_typing(Ui& ui, const EditBox& box, const Typed& typed) {
     Ui::State::Edit& edit = ui.state().edit;
     if (typed.activated && edit.path != box.path) {
         edit = {.path = box.path, .text = typed.text, .initial = std::string(box.shown)};
@@ -217,7 +219,7 @@ std::optional<std::string> edit_box(Ui& ui, const EditBox& box) {
     ImGui::BeginDisabled(!permission.allowed);
     const Typed typed = type_into(ui, box, part.typing, text_now(ui, box));
     const bool focused = typed.active || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
-    const std::optional<std::string> committed = follow(ui, box, typed);
+    const std::optional<std::string> committed = follow_typing(ui, box, typed);
     ImGui::EndDisabled();
 
     if (box.stepped && !typed.active && text_width(box.font, typed.text) > part.typing.w) {

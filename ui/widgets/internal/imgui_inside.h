@@ -1,14 +1,15 @@
-// The little for which ImGui 1.86's public interface is not enough. Newer versions do some of it by
-// themselves; whoever moves to one looks here.
+// The little for which ImGui's public interface is not enough, and what differs between 1.86 (Debian 12) and
+// 1.90 (Debian 13) inside it.
 #pragma once
 
 #include "ui/widgets/places.h"
 
 #include <optional>
+#include <string>
 
 namespace millwright::widgets {
 
-/// Whether Tab stops at the item submitted while this lives. (1.86 stops at text fields alone.)
+/// Whether Tab stops at the item submitted while this lives.
 class TabStop {
 public:
     explicit TabStop(bool is_one);
@@ -20,11 +21,19 @@ public:
 /// Once a frame: shows where the keyboard stands as soon as Tab is used, and goes on from there.
 void show_keyboard_on_tab();
 
+[[nodiscard]] bool keypad_enter_pressed();
+
 /// A text field has the keyboard now. (WantTextInput says what was so a frame ago.)
 [[nodiscard]] bool text_field_active();
 
 /// Where the dialog stands that is open, as far as it is known a frame after it opened; nothing without one.
 [[nodiscard]] std::optional<Rect> dialog_place();
+
+/// Gives the keyboard to the next item, whichever pane has it now.
+void focus_next_item();
+
+/// An invisible button for these of ImGui's mouse buttons; items over it that come later win.
+void overlaid_button(const std::string& id, const Rect& place, int buttons);
 
 /// The wheel over the last item is the item's own: the pane behind does not scroll.
 void keep_wheel();

@@ -12,7 +12,7 @@ bool inside_letter(std::string_view text, std::size_t at) {
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
 }
 
-bool is_blank(char c) {
+bool is_blank_or_newline(char c) {
     return c == ' ' || c == '\t' || c == '\n';
 }
 
@@ -58,8 +58,8 @@ bool TextSteps::begins(std::string_view before, std::string_view after, int care
     }
     const auto first =
         static_cast<std::size_t>(std::clamp<long>(caret_before, 0, static_cast<long>(after.size())));
-    return kind_ == Kind::typed && first > 0 && first < after.size() && is_blank(after[first - 1]) &&
-           !is_blank(after[first]);
+    return kind_ == Kind::typed && first > 0 && first < after.size() &&
+           is_blank_or_newline(after[first - 1]) && !is_blank_or_newline(after[first]);
 }
 
 } // namespace millwright::widgets

@@ -13,7 +13,7 @@ namespace millwright::gcode::internal {
 
 namespace {
 
-std::pair<Axis, Axis> axes_of(Plane plane) {
+std::pair<Axis, Axis> first_two_axes(Plane plane) {
     switch (plane) {
     case Plane::xz:
         return {Axis::z, Axis::x};
@@ -36,14 +36,14 @@ struct Radii {
 };
 
 Radii radii_of(const AxisValues& start, const Move& arc) {
-    const auto [first, second] = axes_of(arc.plane);
+    const auto [first, second] = first_two_axes(arc.plane);
     return {std::hypot(start[first] - arc.centre_1, start[second] - arc.centre_2),
             std::hypot(arc.target[first] - arc.centre_1, arc.target[second] - arc.centre_2)};
 }
 
 void equal_chords(const AxisValues& start, const Move& arc, double wanted, const ChordSink& sink) {
     expects(wanted <= most_chords, "an arc has a finite number of chords");
-    const auto [first, second] = axes_of(arc.plane);
+    const auto [first, second] = first_two_axes(arc.plane);
     const Radii radii = radii_of(start, arc);
     const double angle = std::atan2(start[second] - arc.centre_2, start[first] - arc.centre_1);
     const int chords = std::max(1, static_cast<int>(wanted));

@@ -16,14 +16,14 @@ namespace millwright::gcode::internal {
 
 namespace {
 
-struct Kind {
+struct CommentKind {
     std::string_view begins; ///< in lower case
     CommandKind command;
     bool expands; ///< parameters in it are replaced by their values
 };
 
 // LOGAPPEND and LOGOPEN before LOG, which begins like them.
-constexpr std::array<Kind, 7> kinds{{
+constexpr std::array<CommentKind, 7> comment_kinds{{
     {"msg,", CommandKind::message, false},
     {"debug,", CommandKind::message, true},
     {"print,", CommandKind::print, true},
@@ -114,7 +114,7 @@ std::string expanded(std::string_view text, const Variables& variables) {
 void execute_comment(Run& run, std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t");
     text.remove_prefix(begin == std::string_view::npos ? text.size() : begin);
-    for (const Kind& kind : kinds) {
+    for (const CommentKind& kind : comment_kinds) {
         if (!begins_with(text, kind.begins)) {
             continue;
         }

@@ -16,10 +16,6 @@ Vec2 left_of(const Vec2& v) {
     return {-v.y(), v.x()};
 }
 
-double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 /// By how much the contour turns away from the tool: from -90 to 270 degrees, so that a reversal is convex.
 double turn_away(const PathElement& before, const PathElement& next, double side) {
     double turn =

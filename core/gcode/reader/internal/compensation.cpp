@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/internal/arc_geometry.h"
 #include "core/gcode/reader/internal/compensated_corner.h"
+#include "core/gcode/reader/internal/expression.h"
 #include "core/gcode/reader/internal/held_moves.h"
 #include "core/gcode/reader/internal/refusal.h"
 
@@ -14,8 +15,6 @@
 namespace millwright::gcode::internal {
 
 namespace {
-
-constexpr double whole_within = 1e-4;
 
 /// Radius and orientation that the words of the line ask for.
 struct Cutter {

@@ -7,6 +7,7 @@
 #include "core/gcode/reader/internal/source_files.h"
 
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/gcode/reader/internal/programmed_feed.h"
 
 #include <fmt/format.h>
 
@@ -15,11 +16,10 @@ namespace millwright::gcode::internal {
 
 namespace {
 
-constexpr double same_place = 1e-9;  // mm: rounding of offsets
 constexpr double same_height = 1e-6; // mm: of turned and scaled programs
 
 /// The feed as it was programmed, without what dividing by the time left of it.
-double speed_of(const Block& block) {
+double speed_of(const gcode::Block& block) {
     constexpr double steps = 1e9; // a mm/min
     return from_mm_per_min(std::round(to_mm_per_min(block.feed) * steps) / steps);
 }
@@ -38,7 +38,7 @@ CutProgramBuilder::CutProgramBuilder(const Program& program,
 }
 
 /// `tool`: that a change brings; 0: nobody said.
-void CutProgramBuilder::add(const Block& block, int tool) {
+void CutProgramBuilder::add(const gcode::Block& block, int tool) {
     switch (block.kind) {
     case BlockKind::rapid:
     case BlockKind::feed:
@@ -85,7 +85,7 @@ void CutProgramBuilder::find_safe_height(const Program& program, const std::opti
     double lowest_feed = std::numeric_limits<double>::infinity();
     bool told = false;
     Vec3 from = program.start;
-    for (const Block& block : program.blocks) {
+    for (const gcode::Block& block : program.blocks) {
         if (!block.moves()) {
             continue;
         }
@@ -109,7 +109,7 @@ bool CutProgramBuilder::in_the_air(double z) const {
 
 /// Where the tool stood before the program nobody knows: the path begins where it names all three axes,
 /// or cuts.
-void CutProgramBuilder::move(const Block& block) {
+void CutProgramBuilder::move(const gcode::Block& block) {
     const Vec3 to = block.target;
     if (made_.path.empty()) {
         if (block.kind == BlockKind::rapid) {
@@ -129,7 +129,7 @@ void CutProgramBuilder::move(const Block& block) {
     at_ = to;
 }
 
-void CutProgramBuilder::approach(const Block& block) {
+void CutProgramBuilder::approach(const gcode::Block& block) {
     height_is_named_ = height_is_named_ || block.named.contains(2);
     if (!((block.target - at_).norm() > 0.0)) {
         return; // G0 alone in the head of a program
@@ -146,7 +146,7 @@ void CutProgramBuilder::approach(const Block& block) {
 }
 
 /// With the first feed; from above where no rapid told the height.
-void CutProgramBuilder::begin(const Block& first_feed) {
+void CutProgramBuilder::begin(const gcode::Block& first_feed) {
     if (height_is_named_) {
         return append(at_, 0.0, plot::CutMove::rapid);
     }
@@ -163,7 +163,7 @@ void CutProgramBuilder::begin(const Block& first_feed) {
     append(at_, speed_of(first_feed), plot::CutMove::plunge);
 }
 
-void CutProgramBuilder::feed(const Vec3& to, const Block& block) {
+void CutProgramBuilder::feed(const Vec3& to, const gcode::Block& block) {
     const double speed = speed_of(block);
     made_.feed_time += block.duration;
     const bool down = to.z() < at_.z();
@@ -227,7 +227,7 @@ void CutProgramBuilder::change_tool(int tool) {
     }
 }
 
-void CutProgramBuilder::turn_spindle(const Block& block) {
+void CutProgramBuilder::turn_spindle(const gcode::Block& block) {
     if (!(block.spindle_rpm > 0.0 || block.spindle_rpm < 0.0)) {
         return;
     }
@@ -242,7 +242,7 @@ void CutProgramBuilder::turn_spindle(const Block& block) {
     }
 }
 
-void CutProgramBuilder::leave_out(const Block& block, const char* what) {
+void CutProgramBuilder::leave_out(const gcode::Block& block, const char* what) {
     LeftOut& found = left_out_[what];
     found.line = found.count++ == 0 ? block.source_line : found.line;
 }

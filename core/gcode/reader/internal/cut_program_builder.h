@@ -21,7 +21,7 @@ public:
                       const std::optional<double>& safe_height);
 
     /// `tool`: that a change brings; 0: nobody said.
-    void add(const Block& block, int tool);
+    void add(const gcode::Block& block, int tool);
     /// Once, after the last block.
     [[nodiscard]] CutProgram take();
 
@@ -39,15 +39,15 @@ private:
 
     void find_safe_height(const Program& program, const std::optional<double>& given);
     [[nodiscard]] bool in_the_air(double z) const;
-    void move(const Block& block);
-    void approach(const Block& block);
-    void begin(const Block& first_feed);
-    void feed(const Vec3& to, const Block& block);
+    void move(const gcode::Block& block);
+    void approach(const gcode::Block& block);
+    void begin(const gcode::Block& first_feed);
+    void feed(const Vec3& to, const gcode::Block& block);
     void travel_at_feed(const Vec3& to, double speed, int line);
     void close_stroke();
     void change_tool(int tool);
-    void turn_spindle(const Block& block);
-    void leave_out(const Block& block, const char* what);
+    void turn_spindle(const gcode::Block& block);
+    void leave_out(const gcode::Block& block, const char* what);
     void append(const Vec3& to, double speed, plot::CutMove move);
     int pen_of(const Stroke& stroke, const std::optional<double>& z);
     void see_from_above(const Stroke& stroke);

@@ -172,7 +172,7 @@ char offset_letter(Axis axis) {
     return static_cast<char>('I' + static_cast<int>(axis) % 3);
 }
 
-void check_words(const Block& block, const ModalState& s, int motion, const PlaneAxes& axes) {
+void check_cycle_words(const Block& block, const ModalState& s, int motion, const PlaneAxes& axes) {
     const int column = block.column_of(GGroup::motion);
     const bool first_of_its_kind = s.motion != motion;
     const std::string name = g_name(motion);
@@ -293,7 +293,7 @@ void make_cycle(Run& run, Block& block, int motion) {
     const PlaneAxes axes = axes_of(s.plane);
     const int column = block.column_of(GGroup::motion);
     check_modes(block, s);
-    check_words(block, s, motion, axes);
+    check_cycle_words(block, s, motion, axes);
     CycleMemory memory = s.cycle;
     remember_words(block, memory, axes);
     if (!memory.initial_level_set) {

@@ -209,13 +209,13 @@ void change_units(Run& run, const Block& block, int code) {
     }
 }
 
-struct Step {
+struct BlockStep {
     GGroup group;
     void (*execute)(Run& run, const Block& block, int code);
 };
 
 // In LinuxCNC's order.
-constexpr std::array<Step, 11> steps{{
+constexpr std::array<BlockStep, 11> steps{{
     {GGroup::plane, set_plane},
     {GGroup::units, change_units},
     {GGroup::lathe_diameter, [](Run& run, const Block&, int code) { set_diameter_mode(run, code); }},
@@ -236,7 +236,7 @@ void execute_g_codes(Run& run, Block& block) {
         const double unit = run.settings.dialect == Dialect::fanuc ? 1e-3 : 1.0;
         run.out.post(CommandKind::dwell, 0, block['P'] * unit);
     }
-    for (const Step& step : steps) {
+    for (const BlockStep& step : steps) {
         const int code = block.code(step.group);
         if (code != no_code) {
             step.execute(run, block, code);

@@ -18,8 +18,6 @@ constexpr int deepest_nesting = 60;
 
 /// Numbers that differ by less are equal for EQ and NE (LinuxCNC's TOLERANCE_EQUAL).
 constexpr double equal_within = 1e-6;
-/// What counts as whole (LinuxCNC).
-constexpr double whole_within = 1e-4;
 
 double read_any(Cursor& cursor, const Variables& variables);
 

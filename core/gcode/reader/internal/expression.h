@@ -15,7 +15,10 @@ namespace millwright::gcode::internal {
 /// A value in brackets.
 [[nodiscard]] double read_bracketed(Cursor& cursor, const Variables& variables);
 
-/// A value within 0.0001 of a whole number.
+/// What counts as whole (LinuxCNC).
+inline constexpr double whole_within = 1e-4;
+
+/// A value within `whole_within` of a whole number.
 [[nodiscard]] int read_integer(Cursor& cursor, const Variables& variables);
 
 /// A name between < and >, in lower case and without blanks; the cursor is at the <.

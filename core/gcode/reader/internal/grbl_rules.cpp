@@ -14,7 +14,7 @@ namespace millwright::gcode::internal {
 namespace {
 
 /// Of Grbl's line buffer: characters without blanks and comments.
-constexpr std::ptrdiff_t longest_line = 79;
+constexpr std::ptrdiff_t longest_grbl_line = 79;
 
 constexpr std::array g_codes{0,   10,  20,  30,  40,  100, 170, 180, 190, 200, 210, 280, 281,
                              300, 301, 382, 383, 384, 385, 400, 431, 490, 530, 540, 550, 560,
@@ -100,10 +100,6 @@ void check_g92(const Block& block) {
     }
 }
 
-bool is_arc(int motion) {
-    return motion == 20 || motion == 30;
-}
-
 /// Whether the motion of this line, its own or the one in force, is an arc.
 bool makes_arc(const Block& block, const ModalState& state) {
     const int motion = block.code(GGroup::motion);
@@ -151,7 +147,7 @@ void check_arc(const Block& block, const ModalState& state) {
     }
 }
 
-void check_g10(const Block& block) {
+void check_grbl_g10(const Block& block) {
     constexpr int set_data = 100;
     if (block.code(GGroup::non_modal) != set_data) {
         return;
@@ -195,8 +191,9 @@ void check_grbl_text(std::string_view line) {
         if (c == '[' || c == '#' || c == '<' || c == 'O' || c == 'o' || c == '$' || c == '%') {
             refuse(column, fmt::format("Grbl does not know '{}' in a program (error 1)", c));
         }
-        if (++count > longest_line) {
-            refuse(column, fmt::format("a line for Grbl has at most {} characters (error 11)", longest_line));
+        if (++count > longest_grbl_line) {
+            refuse(column,
+                   fmt::format("a line for Grbl has at most {} characters (error 11)", longest_grbl_line));
         }
     }
 }
@@ -207,7 +204,7 @@ void apply_grbl_rules(const Block& block, const ModalState& state) {
     check_arc(block, state);
     check_tool_length(block);
     check_g92(block);
-    check_g10(block);
+    check_grbl_g10(block);
 }
 
 } // namespace millwright::gcode::internal

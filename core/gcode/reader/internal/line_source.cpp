@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t buffer_size = 128 * 1024;
 /// A longer line is cut; every dialect refuses far shorter ones.
-constexpr std::size_t longest_line = 64 * 1024;
+constexpr std::size_t longest_source_line = 64 * 1024;
 
 } // namespace
 
@@ -53,7 +53,7 @@ std::size_t LineSource::find_end() {
         const auto left = static_cast<std::size_t>(end_ - at_);
         const std::size_t end = end_of_line({at_, left});
         const bool whole = end < left && (at_[end] == '\n' || end + 1 < left);
-        if (whole || end >= longest_line || !fill()) {
+        if (whole || end >= longest_source_line || !fill()) {
             return end;
         }
     }
@@ -70,7 +70,7 @@ bool LineSource::next(std::string_view& line) {
         throw Error("has too many lines", name_);
     }
     ++line_number_;
-    if (end == rest.size() && end >= longest_line) {
+    if (end == rest.size() && end >= longest_source_line) {
         cut_ = true;
         line = {};
         skip_rest_of_line();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double unlimited_rpm = 1e30; // LinuxCNC's word for no limit in G96
 
-void forbid_with_compensation(const Run& run, const Block& block, MGroup group) {
+void forbid_m_code_with_compensation(const Run& run, const Block& block, MGroup group) {
     if (run.state.cutter.on()) {
         refuse(block.column_of(group), fmt::format("M{} while cutter compensation is on", block.code(group)));
     }
@@ -59,7 +59,7 @@ void wait_for_input(Run& run, const Block& block) {
 }
 
 void execute_input_output(Run& run, const Block& block, int code) {
-    forbid_with_compensation(run, block, MGroup::input_output);
+    forbid_m_code_with_compensation(run, block, MGroup::input_output);
     if (code == 66) {
         wait_for_input(run, block);
         return;
@@ -84,7 +84,7 @@ void load(Run& run, int row) {
 }
 
 void change_tool(Run& run, const Block& block) {
-    forbid_with_compensation(run, block, MGroup::tool_change);
+    forbid_m_code_with_compensation(run, block, MGroup::tool_change);
     run.out.post(CommandKind::start_change);
     run.out.send(CommandKind::stop_spindle_turning);
     run.state.spindle = SpindleTurning::stopped;
@@ -173,7 +173,7 @@ void set_speed_override(Run& run, bool on) {
 }
 
 void execute_override(Run& run, const Block& block, int code) {
-    forbid_with_compensation(run, block, MGroup::overrides);
+    forbid_m_code_with_compensation(run, block, MGroup::overrides);
     const bool on = code == 48 || (code != 49 && !exactly_equal(block.value_or('P', 1.0), 0.0));
     if (code == 48 || code == 49 || code == 50) {
         set_feed_override(run, on);

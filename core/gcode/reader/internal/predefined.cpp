@@ -1,4 +1,5 @@
 // LinuxCNC's predefined named parameters: what is in force, as numbers.
+#include "core/gcode/reader/internal/codes.h"
 #include "core/gcode/reader/internal/variables.h"
 
 #include <algorithm>
@@ -24,17 +25,8 @@ constexpr double yes(bool holds) {
     return holds ? 1.0 : 0.0;
 }
 
-double plane_code(Plane plane) {
-    constexpr std::array<double, 6> codes{170, 180, 190, 171, 181, 191};
-    return codes[static_cast<std::size_t>(plane)];
-}
-
 double side_code(CutterSide side) {
     return side == CutterSide::right ? 420 : side == CutterSide::left ? 410 : 400;
-}
-
-double system_code(int system) {
-    return system < 7 ? 530 + 10 * system : 584 + system;
 }
 
 bool any(const AxisValues& values) {
@@ -56,7 +48,7 @@ constexpr double version_minor = 0.0;
 const std::array<Entry, 50> entries{{
     {"_line", [](const Asked& a) -> double { return a.program.line; }},
     {"_motion_mode", [](const Asked& a) -> double { return a.state.motion; }},
-    {"_plane", [](const Asked& a) { return plane_code(a.state.plane); }},
+    {"_plane", [](const Asked& a) -> double { return plane_code(a.state.plane); }},
     {"_ccomp", [](const Asked& a) { return side_code(a.state.cutter.side); }},
     {"_metric", [](const Asked& a) { return yes(a.state.unit == LengthUnit::mm); }},
     {"_imperial", [](const Asked& a) { return yes(a.state.unit == LengthUnit::inch); }},
@@ -65,7 +57,7 @@ const std::array<Entry, 50> entries{{
     {"_inverse_time", [](const Asked& a) { return yes(a.state.feed_mode == FeedMode::inverse_time); }},
     {"_units_per_minute", [](const Asked& a) { return yes(a.state.feed_mode == FeedMode::per_minute); }},
     {"_units_per_rev", [](const Asked& a) { return yes(a.state.feed_mode == FeedMode::per_revolution); }},
-    {"_coord_system", [](const Asked& a) { return system_code(a.state.coordinate_system); }},
+    {"_coord_system", [](const Asked& a) -> double { return system_code(a.state.coordinate_system); }},
     {"_tool_offset", [](const Asked& a) { return yes(any(a.state.tool_offset)); }},
     {"_retract_r_plane", [](const Asked& a) { return yes(a.state.retract_to_r); }},
     {"_retract_old_z", [](const Asked& a) { return yes(!a.state.retract_to_r); }},

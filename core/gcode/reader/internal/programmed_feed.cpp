@@ -11,7 +11,7 @@ namespace {
 
 constexpr double seconds_a_minute = 60.0;
 
-double distance(const AxisValues& a, const AxisValues& b, std::initializer_list<Axis> axes) {
+double distance_along_axes(const AxisValues& a, const AxisValues& b, std::initializer_list<Axis> axes) {
     double sum = 0.0;
     for (const Axis axis : axes) {
         sum += square(b[axis] - a[axis]);
@@ -22,7 +22,7 @@ double distance(const AxisValues& a, const AxisValues& b, std::initializer_list<
 } // namespace
 
 double linear_distance(const AxisValues& a, const AxisValues& b) {
-    return distance(a, b, {Axis::x, Axis::y, Axis::z});
+    return distance_along_axes(a, b, {Axis::x, Axis::y, Axis::z});
 }
 
 void ProgrammedFeed::command(const Command& command, double unit) {
@@ -61,12 +61,12 @@ std::optional<double> ProgrammedFeed::times_a_minute() const {
 std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const AxisValues& to) const {
     double way = linear_distance(from, to);
     if (way <= same_place) {
-        way = distance(from, to, {Axis::u, Axis::v, Axis::w});
+        way = distance_along_axes(from, to, {Axis::u, Axis::v, Axis::w});
     }
     if (way > same_place) {
         return duration(way);
     }
-    way = distance(from, to, {Axis::a, Axis::b, Axis::c});
+    way = distance_along_axes(from, to, {Axis::a, Axis::b, Axis::c});
     if (way <= same_place) {
         return 0.0;
     }

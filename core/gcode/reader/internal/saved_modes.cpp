@@ -16,21 +16,12 @@ namespace millwright::gcode::internal {
 
 namespace {
 
-constexpr int plane_code(Plane plane) {
-    constexpr std::array<int, 6> codes{170, 180, 190, 171, 181, 191};
-    return codes[static_cast<std::size_t>(plane)];
-}
-
 constexpr int feed_mode_code(FeedMode mode) {
     return mode == FeedMode::inverse_time ? 930 : mode == FeedMode::per_revolution ? 950 : 940;
 }
 
 constexpr int path_code(PathMode mode) {
     return mode == PathMode::exact_path ? 610 : mode == PathMode::exact_stop ? 611 : 640;
-}
-
-constexpr int system_code(int system) {
-    return system < 7 ? 530 + 10 * system : 584 + system;
 }
 
 /// As LinuxCNC remembers it: not which offset.

@@ -69,7 +69,7 @@ void cut_pass(const Thread& t, double depth) {
     t.run.feed_override_enabled = true;
 }
 
-void check_words(const Block& block) {
+void check_threading_words(const Block& block) {
     const double i = block['I'];
     if (!(i < 0.0 || i > 0.0)) {
         refuse(block.column_of('I'), "I of G76 is not 0");
@@ -132,7 +132,7 @@ void make_threading(Run& run, const Block& block) {
     s.cutter.arc_forbidden = false;
     const AxisValues end = end_of_move(block, s);
     expect_ready(run, block, end);
-    check_words(block);
+    check_threading_words(block);
     s.motion = 760;
     const Thread t = thread_of(run, block, end);
     const double degression = std::max(1.0, block.value_or('R', 1.0));

@@ -18,10 +18,6 @@ bool one_of(int code, std::initializer_list<int> codes) {
     return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
-bool is_arc(int motion) {
-    return motion == 20 || motion == 30;
-}
-
 // ---- which motion
 
 /// Codes of group 0 that take the axis words for themselves: G10, G28, G30, G52, G92.
@@ -283,8 +279,8 @@ void check_uses(const Block& block) {
 
 void check_turns(const Block& block) {
     const double p = block['P'];
-    constexpr double whole_within = 0.001;
-    if (std::abs(p - std::round(p)) > whole_within) {
+    constexpr double p_whole_within = 0.001;
+    if (std::abs(p - std::round(p)) > p_whole_within) {
         refuse(block.column_of('P'), "P of an arc is a whole number of turns");
     }
     if (std::round(p) < 1.0) {

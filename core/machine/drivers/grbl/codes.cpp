@@ -9,7 +9,7 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::array errors = {
+constexpr std::array known_errors = {
     GrblCode{1, "a word does not begin with a letter", "write each word as a letter and a number"},
     GrblCode{2, "a word has no number, or one that cannot be read", "correct the number"},
     GrblCode{3, "this $ command does not exist", "look it up; $ alone lists the commands"},
@@ -53,7 +53,7 @@ constexpr std::array errors = {
     GrblCode{38, "the tool number is too large", "T goes up to 255"},
 };
 
-constexpr std::array alarms = {
+constexpr std::array known_alarms = {
     GrblCode{1,
              "a limit switch was hit and the machine stopped dead; its position is lost",
              "free the axis, then home"},
@@ -79,19 +79,19 @@ std::string explain(std::string_view kind, std::span<const GrblCode> codes, int 
 } // namespace
 
 std::span<const GrblCode> grbl_errors() {
-    return errors;
+    return known_errors;
 }
 
 std::span<const GrblCode> grbl_alarms() {
-    return alarms;
+    return known_alarms;
 }
 
 std::string explain_grbl_error(int number) {
-    return explain("error", errors, number);
+    return explain("error", known_errors, number);
 }
 
 std::string explain_grbl_alarm(int number) {
-    return explain("alarm", alarms, number);
+    return explain("alarm", known_alarms, number);
 }
 
 bool grbl_alarm_loses_position(int number) {

@@ -7,7 +7,7 @@ namespace millwright::machine {
 
 namespace {
 
-constexpr std::array settings = {
+constexpr std::array known_settings = {
     GrblSetting{0, "Step pulse length", "us", "how long a step pulse stays on; 3 at least"},
     GrblSetting{1, "Step idle delay", "ms", "motors stay powered so long after a motion; 255: always"},
     GrblSetting{2, "Step pulse invert", "mask", "step outputs that are active low; 1: X, 2: Y, 4: Z"},
@@ -47,7 +47,7 @@ constexpr std::array settings = {
 } // namespace
 
 std::span<const GrblSetting> grbl_settings() {
-    return settings;
+    return known_settings;
 }
 
 std::string_view grbl_reports_advice(int reports) {
@@ -60,8 +60,8 @@ std::string_view grbl_reports_advice(int reports) {
 }
 
 const GrblSetting* find_grbl_setting(int number) {
-    const auto* found = std::ranges::find(settings, number, &GrblSetting::number);
-    return found == settings.end() ? nullptr : found;
+    const auto* found = std::ranges::find(known_settings, number, &GrblSetting::number);
+    return found == known_settings.end() ? nullptr : found;
 }
 
 } // namespace millwright::machine

@@ -18,7 +18,7 @@ using pmac::PmacSession;
 namespace {
 
 /// On-line commands and words of buffers.
-constexpr std::array<std::string_view, 44> words{
+constexpr std::array<std::string_view, 44> command_words{
     "ABS",      "BLOCKSTART", "BLOCKSTOP", "CIRCLE1",     "CIRCLE2",  "CLEAR",     "CLOSE",      "CMD",
     "DELAY",    "DELETE",     "DISABLE",   "DISABLE PLC", "DWELL",    "ENABLE",    "ENABLE PLC", "ENDIF",
     "ENDWHILE", "ELSE",       "FRAX",      "GOSUB",       "GOTO",     "HM",        "HMZ",        "HOME",
@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 44> words{
     "OPEN PLC", "OPEN PROG",  "PSET",      "RAPID",       "RETURN",   "SEND",      "SIZE",       "STOP",
     "TYPE",     "UNDEFINE",   "VERSION",   "WHILE"};
 
-PmacSettings checked(PmacSettings settings) {
+PmacSettings checked_settings(PmacSettings settings) {
     std::set<char> letters;
     std::set<int> motors;
     for (const PmacAxis& axis : settings.axes) {
@@ -45,7 +45,7 @@ PmacSettings checked(PmacSettings settings) {
     return settings;
 }
 
-std::vector<std::string> lines_of(std::string_view text) {
+std::vector<std::string> nonempty_lines(std::string_view text) {
     std::vector<std::string> lines;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -62,8 +62,10 @@ std::vector<std::string> lines_of(std::string_view text) {
 } // namespace
 
 PmacDriver::PmacDriver(std::unique_ptr<Link> link, const Clock& clock, PmacSettings settings)
-    : SessionDriver(
-          std::move(link), clock, std::make_unique<PmacSession>(checked(settings)), internal::ConsoleWords()),
+    : SessionDriver(std::move(link),
+                    clock,
+                    std::make_unique<PmacSession>(checked_settings(settings)),
+                    internal::ConsoleWords()),
       settings_(std::move(settings)) {}
 
 PmacDriver::~PmacDriver() {
@@ -76,7 +78,7 @@ PmacSession& PmacDriver::talk() const {
 
 Capabilities PmacDriver::capabilities() const {
     Capabilities able;
-    able.words = words;
+    able.words = command_words;
     able.plans = able.overrides = able.jog = able.power = able.home = able.command = true;
     for (const PmacAxis& axis : settings_.axes) {
         able.axes.push_back({axis.letter, kinematics::AxisKind::rotary});
@@ -92,18 +94,18 @@ MachineLimits PmacDriver::limits() const {
 
 void PmacDriver::start(Work work) {
     expects(work.listing != nullptr, "a PMAC is given a program's text");
-    const std::vector<std::string> lines = lines_of(work.listing->text);
+    const std::vector<std::string> lines = nonempty_lines(work.listing->text);
     const Turn turn(*this);
     talk().start(lines, turn.now());
 }
 
 int PmacDriver::command(const std::string& lines) {
     const Turn turn(*this);
-    return talk().command(lines_of(lines), false);
+    return talk().command(nonempty_lines(lines), false);
 }
 
 bool PmacDriver::needs_rest(const std::string& lines) {
-    const std::vector<std::string> all = lines_of(lines);
+    const std::vector<std::string> all = nonempty_lines(lines);
     return !std::all_of(all.begin(), all.end(), pmac::only_asks) &&
            !std::all_of(all.begin(), all.end(), [](const std::string& line) {
                return pmac::only_stops(line) || pmac::only_kills(line);

@@ -19,11 +19,11 @@ namespace millwright::machine {
 
 namespace {
 
-using emulated::Task;
+using emulated::LinuxCncTask;
 using emulated::TaskMode;
 using kinematics::AxisPositions;
 
-constexpr std::string_view letters = "XYZABC"; // in the order of ABS_ACT_POS
+constexpr std::string_view position_letters = "XYZABC"; // in the order of ABS_ACT_POS
 
 std::string upper(std::string_view text) {
     std::string result;
@@ -42,7 +42,7 @@ std::string_view take_word(std::string_view& text) {
     return word;
 }
 
-std::optional<double> number(std::string_view word) {
+std::optional<double> number_of_word(std::string_view word) {
     double value = 0.0;
     const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool whole = read.ec == std::errc{} && read.ptr == word.data() + word.size();
@@ -60,7 +60,7 @@ std::optional<bool> on_or_off(std::string_view word) {
 class LinuxCncEmulator::Body {
 public:
     explicit Body(LinuxCncEmulatorOptions options)
-        : options_(std::move(options)), task_(std::make_unique<Task>(options_.model)) {
+        : options_(std::move(options)), task_(std::make_unique<LinuxCncTask>(options_.model)) {
         if (options_.homed) {
             task_->set_estop(false);
             task_->set_power(true);
@@ -87,20 +87,20 @@ public:
     std::string take_output() { return std::exchange(output_, {}); }
     void power_cycle() {
         LinuxCncTruth truth = task_->truth();
-        task_ = std::make_unique<Task>(options_.model, task_->time(), std::move(truth));
+        task_ = std::make_unique<LinuxCncTask>(options_.model, task_->time(), std::move(truth));
         known_ = enabled_ = verbose_ = false;
         echo_ = true;
         input_.clear();
         output_.clear();
     }
 
-    [[nodiscard]] Task& task() { return *task_; }
+    [[nodiscard]] LinuxCncTask& task() { return *task_; }
 
 private:
     using Setter = std::function<bool(std::string_view)>; ///< false: refused
 
     LinuxCncEmulatorOptions options_;
-    std::unique_ptr<Task> task_;
+    std::unique_ptr<LinuxCncTask> task_;
     std::string input_, output_;
     bool known_ = false, enabled_ = false, verbose_ = false, echo_ = true;
 
@@ -151,8 +151,8 @@ private:
 
     bool set_machine(const std::string& subject, std::string_view words) {
         const std::map<std::string, Setter> setters = {
-            {"ESTOP", [this](std::string_view to) { return switched(to, &Task::set_estop); }},
-            {"MACHINE", [this](std::string_view to) { return switched(to, &Task::set_power); }},
+            {"ESTOP", [this](std::string_view to) { return switched(to, &LinuxCncTask::set_estop); }},
+            {"MACHINE", [this](std::string_view to) { return switched(to, &LinuxCncTask::set_power); }},
             {"TELEOP_ENABLE", [](std::string_view to) { return on_or_off(to).has_value(); }},
             {"MODE", [this](std::string_view to) { return set_mode(upper(to)); }},
             {"OPEN", [this](std::string_view to) { return done([&] { task_->open(std::string(to)); }); }},
@@ -175,7 +175,7 @@ private:
         return true;
     }
 
-    bool switched(std::string_view to, void (Task::*how)(bool)) {
+    bool switched(std::string_view to, void (LinuxCncTask::*how)(bool)) {
         const auto on = on_or_off(to);
         return on && done([&] { ((*task_).*how)(*on); });
     }
@@ -200,8 +200,8 @@ private:
 
     bool jog(std::string_view words) {
         const auto which = axis(take_word(words));
-        const auto speed = number(take_word(words));
-        const auto way = number(words);
+        const auto speed = number_of_word(take_word(words));
+        const auto way = number_of_word(words);
         if (!which || !speed || !way || !(std::abs(*speed) > 0.0) || !(*way > 0.0)) {
             return false;
         }
@@ -211,7 +211,7 @@ private:
 
     bool set_feed_override(std::string_view words) {
         constexpr double most = 200.0;
-        const auto percent = number(words);
+        const auto percent = number_of_word(words);
         const bool usable = percent && *percent >= 0.0 && *percent <= most;
         return usable && done([&] { task_->set_feed_override(static_cast<int>(*percent)); });
     }
@@ -261,10 +261,10 @@ private:
 
     [[nodiscard]] std::string six(const AxisPositions& position) const {
         std::string text;
-        for (const char letter : letters) {
+        for (const char letter : position_letters) {
             const int n = task_->model().axis_index(letter);
             const double raw = n >= 0 && n < position.size() ? position[n] : 0.0;
-            const bool rotary = letters.find(letter) > 2;
+            const bool rotary = position_letters.find(letter) > 2;
             text += (text.empty() ? "" : " ") + fixed(rotary ? to_degrees(raw) : raw, 4);
         }
         return text;
@@ -273,7 +273,7 @@ private:
 
 LinuxCncEmulator::LinuxCncEmulator(LinuxCncEmulatorOptions options) {
     expects(options.model != nullptr, "an emulated LinuxCNC has a machine");
-    for (const char letter : letters.substr(0, 3)) {
+    for (const char letter : position_letters.substr(0, 3)) {
         expects(options.model->axis_index(letter) >= 0, "a LinuxCNC's machine has X, Y and Z");
     }
     body_ = std::make_unique<Body>(std::move(options));

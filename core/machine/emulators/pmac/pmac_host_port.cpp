@@ -12,7 +12,7 @@ namespace {
 enum Register {
     interrupt_control,
     command_vector,
-    status,
+    card_status,
     interrupt_vector,
     data_high = 5,
     data_middle,
@@ -22,7 +22,7 @@ enum Register {
     acknowledge
 };
 
-constexpr std::uint8_t nobody = 0xFF, readable = 1, writable = 2;
+constexpr std::uint8_t readable = 1, writable = 2;
 constexpr int compare_input = 5; // EQU1
 
 } // namespace
@@ -37,7 +37,7 @@ public:
         case command_vector:
         case interrupt_vector:
             return kept_[static_cast<std::size_t>(offset)];
-        case status:
+        case card_status:
             return static_cast<std::uint8_t>((from_card_.empty() ? 0 : readable) | (to_card_ ? 0 : writable));
         case data_high:
         case data_middle:
@@ -48,7 +48,7 @@ public:
         case controller_1:
             return interrupts_.read(offset - controller_0);
         default:
-            return nobody;
+            return no_card;
         }
     }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view heading_words = "# millwright-stream 1 period_s ";
 constexpr std::size_t longest_line = 256;
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> words_between_spaces(std::string_view line) {
     std::vector<std::string_view> words;
     while (!line.empty()) {
         const std::size_t end = std::min(line.find(' '), line.size());
@@ -27,7 +27,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     return words;
 }
 
-std::optional<double> number(std::string_view word) {
+std::optional<double> number_in_record(std::string_view word) {
     double value = 0.0;
     const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
     const bool whole = read.ec == std::errc{} && read.ptr == word.data() + word.size();
@@ -70,8 +70,8 @@ void StreamEmulator::take(std::string_view line) {
         return;
     }
     std::vector<double> sample;
-    for (const std::string_view word : words_of(line)) {
-        const auto value = number(word);
+    for (const std::string_view word : words_between_spaces(line)) {
+        const auto value = number_in_record(word);
         if (!value) {
             bad(line, "this is no number");
             return;
@@ -93,8 +93,8 @@ void StreamEmulator::take_heading(std::string_view line) {
     period_ = 0.0;
     axes_.clear();
     const bool known = line.starts_with(heading_words);
-    const auto words = words_of(known ? line.substr(heading_words.size()) : std::string_view());
-    const auto period = words.empty() ? std::nullopt : number(words.front());
+    const auto words = words_between_spaces(known ? line.substr(heading_words.size()) : std::string_view());
+    const auto period = words.empty() ? std::nullopt : number_in_record(words.front());
     if (!period || !(*period > 0.0) || words.size() < 3 || words.size() % 2 == 0) {
         bad(line, "this is no heading of a coordinate stream");
         return;

@@ -44,7 +44,7 @@ template <class Which> bool has_open(const fs::path& process, const Which& is_it
     return std::ranges::any_of(entries_of(process / "fd"), is_it);
 }
 
-std::string name_of(const fs::path& process) {
+std::string process_name(const fs::path& process) {
     return fmt::format("{} (process {})", first_line(process / "comm"), process.filename().string());
 }
 
@@ -71,7 +71,7 @@ std::vector<std::string> holders_of_far_end(const fs::path& near_end) {
     std::vector<std::string> found;
     for (const fs::path& process : processes()) {
         if (holds_far_end(process, near_end)) {
-            found.push_back(name_of(process));
+            found.push_back(process_name(process));
         }
     }
     return found;
@@ -93,7 +93,7 @@ std::vector<std::string> others_with(const fs::path& port) {
                    its.st_rdev == wanted.st_rdev;
         });
         if (open && process.filename() != self && !holds_far_end(process, device)) {
-            found.push_back(name_of(process));
+            found.push_back(process_name(process));
         }
     }
     return found;

@@ -20,7 +20,7 @@ double chord_of_deviation(double radius, double deviation) {
     return to_degrees(2.0 * std::acos(ratio));
 }
 
-Vec2 turned(const Vec2& v, double deg) {
+Vec2 turned_by(const Vec2& v, double deg) {
     const double c = std::cos(from_degrees(deg));
     const double s = std::sin(from_degrees(deg));
     return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
@@ -42,7 +42,7 @@ double chord_deg(const Run& run, double radius, double chord) {
     return std::clamp(deg, least_chord_deg, 180.0);
 }
 
-void follow(Run& run, const std::vector<Vec2>& points) {
+void follow_points(Run& run, const std::vector<Vec2>& points) {
     for (const Vec2& point : points) {
         if (run.pen.down()) {
             run.pen.draw(run.units.plotter(point));
@@ -56,7 +56,7 @@ void arc(Run& run, const Vec2& centre, double sweep_deg, double chord) {
     if (run.refuses_if_lost()) {
         return;
     }
-    follow(run, arc_points(run, centre, run.at(), sweep_deg, chord));
+    follow_points(run, arc_points(run, centre, run.at(), sweep_deg, chord));
 }
 
 /// The arc from the pen through `middle` to `end`; the straight line where the three are on one.
@@ -70,7 +70,7 @@ void three_point_arc(Run& run, const Vec2& middle, const Vec2& end, double chord
     const double cross = m.x() * e.y() - m.y() * e.x();
     constexpr double nearly_straight = 1e-9; // sine of the angle at the start
     if (!(std::abs(cross) > nearly_straight * m.norm() * e.norm())) {
-        follow(run, {end});
+        follow_points(run, {end});
         return;
     }
     // Centre of the circle through 0, m and e.
@@ -89,7 +89,7 @@ void three_point_arc(Run& run, const Vec2& middle, const Vec2& end, double chord
         return;
     }
     points.back() = end;
-    follow(run, points);
+    follow_points(run, points);
 }
 
 } // namespace
@@ -116,7 +116,7 @@ arc_points(Run& run, const Vec2& centre, const Vec2& start, double sweep_deg, do
     std::vector<Vec2> points;
     points.reserve(static_cast<std::size_t>(count));
     for (int n = 1; n <= count; ++n) {
-        points.push_back(centre + turned(spoke, sweep_deg * n / count));
+        points.push_back(centre + turned_by(spoke, sweep_deg * n / count));
     }
     return points;
 }

@@ -13,16 +13,16 @@ namespace millwright::plot::internal {
 namespace {
 
 constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
-constexpr Arguments numbers = Arguments::numbers;
+constexpr Arguments number_arguments = Arguments::numbers;
 
 constexpr CommandRow moving(std::string_view name, Count count, Handler follow) {
-    return {.name = name, .arguments = numbers, .count = count, .follow = follow, .moves = true};
+    return {.name = name, .arguments = number_arguments, .count = count, .follow = follow, .moves = true};
 }
 constexpr CommandRow setting(std::string_view name, Count count, Handler follow) {
-    return {.name = name, .arguments = numbers, .count = count, .follow = follow};
+    return {.name = name, .arguments = number_arguments, .count = count, .follow = follow};
 }
 constexpr CommandRow placing(std::string_view name, Count count, Handler follow) {
-    return {.name = name, .arguments = numbers, .count = count, .follow = follow, .places = true};
+    return {.name = name, .arguments = number_arguments, .count = count, .follow = follow, .places = true};
 }
 constexpr CommandRow
 written(std::string_view name, Arguments arguments, Count count, Handler follow, bool moves) {
@@ -41,7 +41,7 @@ constexpr std::string_view a_device = "how the plotter itself works";
 constexpr std::string_view a_line_end = "ends and joins of thick lines mean nothing to a cutter";
 constexpr std::string_view a_text = "a text for the plotter's display";
 
-constexpr std::array rows = {
+constexpr std::array command_rows = {
     moving("AA", {3, 4}, arc_absolute),
     left_out("AC", "hatch lines are counted from P1"),
     left_out("AD", a_font),
@@ -168,15 +168,15 @@ constexpr std::array rows = {
 };
 
 constexpr std::uint8_t no_row = 255;
-static_assert(rows.size() < no_row);
+static_assert(command_rows.size() < no_row);
 
 /// The row of each pair of letters.
 constexpr auto row_of = [] {
     std::array<std::uint8_t, 26 * 26> table{};
     table.fill(no_row);
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-        const auto first = static_cast<std::size_t>(rows[n].name[0] - 'A');
-        const auto second = static_cast<std::size_t>(rows[n].name[1] - 'A');
+    for (std::size_t n = 0; n < command_rows.size(); ++n) {
+        const auto first = static_cast<std::size_t>(command_rows[n].name[0] - 'A');
+        const auto second = static_cast<std::size_t>(command_rows[n].name[1] - 'A');
         table[first * 26 + second] = static_cast<std::uint8_t>(n);
     }
     return table;
@@ -186,7 +186,7 @@ constexpr auto row_of = [] {
 
 const CommandRow* find_command(std::string_view name) {
     const auto row = row_of[static_cast<std::size_t>((name[0] - 'A') * 26 + (name[1] - 'A'))];
-    return row == no_row ? nullptr : &rows[row];
+    return row == no_row ? nullptr : &command_rows[row];
 }
 
 Arguments arguments_of(std::string_view name) {
@@ -195,7 +195,7 @@ Arguments arguments_of(std::string_view name) {
 }
 
 std::span<const CommandRow> all_commands() {
-    return rows;
+    return command_rows;
 }
 
 } // namespace millwright::plot::internal

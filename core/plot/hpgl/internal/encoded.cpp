@@ -143,7 +143,7 @@ private:
     std::optional<std::string> wrong_;
 };
 
-void follow(Run& run, const Step& step) {
+void follow_step(Run& run, const Step& step) {
     if (step.kind == Step::Kind::pen) {
         run.pen.select(step.pen);
         return;
@@ -174,7 +174,7 @@ void encoded_polyline(Run& run, const Given& given) {
         }
     }
     for (const Step& step : steps) {
-        follow(run, step);
+        follow_step(run, step);
     }
 }
 

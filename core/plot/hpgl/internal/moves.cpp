@@ -5,7 +5,7 @@
 namespace millwright::plot::internal {
 namespace {
 
-void follow(Run& run, const Given& given, bool relative) {
+void follow_pairs(Run& run, const Given& given, bool relative) {
     for (std::size_t n = 0; n + 1 < given.count(); n += 2) {
         if (relative) {
             run.pen.step(run.units.plotter_step(given.point(n)));
@@ -20,23 +20,23 @@ void follow(Run& run, const Given& given, bool relative) {
 
 // A refused one leaves the mode as it was.
 void plot_absolute(Run& run, const Given& given) {
-    follow(run, given, false);
+    follow_pairs(run, given, false);
     run.modes.relative = run.modes.relative && run.pen.refused();
 }
 
 void plot_relative(Run& run, const Given& given) {
-    follow(run, given, true);
+    follow_pairs(run, given, true);
     run.modes.relative = run.modes.relative || !run.pen.refused();
 }
 
 void pen_up(Run& run, const Given& given) {
     run.pen.lift();
-    follow(run, given, run.modes.relative);
+    follow_pairs(run, given, run.modes.relative);
 }
 
 void pen_down(Run& run, const Given& given) {
     run.pen.lower();
-    follow(run, given, run.modes.relative);
+    follow_pairs(run, given, run.modes.relative);
 }
 
 } // namespace millwright::plot::internal

@@ -40,7 +40,7 @@ void draw_edges(Run& run, const Polygon& polygon) {
     run.pen.place(home);
 }
 
-double pen_width(const Run& run) {
+double chosen_pen_width(const Run& run) {
     const auto known = run.plot.pens.find(run.pen.number().value_or(0));
     const double width = known == run.plot.pens.end() ? 0.0 : known->second.width / run.settings.unit.x;
     return width > 0.0 ? width : usual_pen_width;
@@ -50,7 +50,9 @@ HatchSettings hatch_settings(const Run& run) {
     const Filling& filling = run.modes.filling;
     const bool solid = filling.type <= 2;
     HatchSettings settings;
-    settings.pitch = solid ? pen_width(run) : filling.spacing > 0.0 ? filling.spacing : 0.01 * run.diagonal();
+    settings.pitch = solid                   ? chosen_pen_width(run)
+                     : filling.spacing > 0.0 ? filling.spacing
+                                             : 0.01 * run.diagonal();
     settings.angle = solid ? 0.0 : from_degrees(filling.angle_deg);
     settings.cross = filling.type == 4;
     settings.origin = run.units.p1();

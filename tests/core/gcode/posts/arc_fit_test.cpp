@@ -39,7 +39,7 @@ Program along(const std::function<Vec3(double)>& curve, int feeds, double speed 
     return program;
 }
 
-Vec3 circle(double radius, double turn) {
+Vec3 point_on_circle(double radius, double turn) {
     return {radius * std::cos(turn), radius * std::sin(turn), 0.0};
 }
 
@@ -97,7 +97,7 @@ double distance_between(const Program& program, const FittedArc& arc) {
 }
 
 TEST(ArcFit, FindsACircle) {
-    const Program program = along([](double t) { return circle(20.0, 1.5 * pi * t); }, 120);
+    const Program program = along([](double t) { return point_on_circle(20.0, 1.5 * pi * t); }, 120);
     const auto arcs = arcs_of(program, 0.01);
     ASSERT_EQ(arcs.size(), 1U);
     EXPECT_EQ(arcs[0].first, 1);
@@ -109,7 +109,7 @@ TEST(ArcFit, FindsACircle) {
 }
 
 TEST(ArcFit, TurnsTheOtherWayToo) {
-    const auto arcs = arcs_of(along([](double t) { return circle(20.0, -pi * t); }, 60), 0.01);
+    const auto arcs = arcs_of(along([](double t) { return point_on_circle(20.0, -pi * t); }, 60), 0.01);
     ASSERT_EQ(arcs.size(), 1U);
     EXPECT_NEAR(arcs[0].sweep, -pi, 1e-4);
 }
@@ -119,7 +119,7 @@ TEST(ArcFit, FindsCirclesInEveryPlane) {
          {std::pair{Plane::xy, 0}, std::pair{Plane::yz, 1}, std::pair{Plane::xz, 2}}) {
         const Program program = along(
             [shift = shift](double t) {
-                const Vec3 p = circle(15.0, 2.0 * t);
+                const Vec3 p = point_on_circle(15.0, 2.0 * t);
                 Vec3 turned;
                 for (int n = 0; n < 3; ++n) {
                     turned[(n + shift) % 3] = p[n];
@@ -137,7 +137,7 @@ TEST(ArcFit, FindsCirclesInEveryPlane) {
 TEST(ArcFit, FindsAHelixWhereThatIsAllowed) {
     const Program program = along(
         [](double t) {
-            Vec3 p = circle(20.0, 4.0 * t);
+            Vec3 p = point_on_circle(20.0, 4.0 * t);
             p.z() = 5.0 * t;
             return p;
         },
@@ -151,7 +151,8 @@ TEST(ArcFit, FindsAHelixWhereThatIsAllowed) {
 }
 
 TEST(ArcFit, MakesNoArcOfAPolygonThatIsNone) {
-    EXPECT_TRUE(arcs_of(along([](double t) { return circle(20.0, 2.0 * pi * t); }, 8), 0.01).empty());
+    EXPECT_TRUE(
+        arcs_of(along([](double t) { return point_on_circle(20.0, 2.0 * pi * t); }, 8), 0.01).empty());
     EXPECT_TRUE(arcs_of(along(
                             [](double t) -> Vec3 {
                                 return {100.0 * t, 20.0 * t, 0.0};
@@ -162,7 +163,7 @@ TEST(ArcFit, MakesNoArcOfAPolygonThatIsNone) {
 }
 
 TEST(ArcFit, GoesOverNoChangeOfFeedOrRole) {
-    Program program = along([](double t) { return circle(20.0, pi * t); }, 60);
+    Program program = along([](double t) { return point_on_circle(20.0, pi * t); }, 60);
     for (std::size_t n = 31; n < program.blocks.size(); ++n) {
         program.blocks[n].duration *= 2.0;
     }
@@ -170,7 +171,7 @@ TEST(ArcFit, GoesOverNoChangeOfFeedOrRole) {
     ASSERT_EQ(arcs.size(), 2U);
     EXPECT_EQ(arcs[0].last, 30);
     EXPECT_EQ(arcs[1].first, 31);
-    program = along([](double t) { return circle(20.0, pi * t); }, 60);
+    program = along([](double t) { return point_on_circle(20.0, pi * t); }, 60);
     program.blocks[20].role = MoveRole::plunge;
     arcs = arcs_of(program, 0.01);
     ASSERT_EQ(arcs.size(), 2U);
@@ -179,7 +180,7 @@ TEST(ArcFit, GoesOverNoChangeOfFeedOrRole) {
 }
 
 TEST(ArcFit, GoesOverNoCommentOrSwitch) {
-    Program program = along([](double t) { return circle(20.0, pi * t); }, 60);
+    Program program = along([](double t) { return point_on_circle(20.0, pi * t); }, 60);
     Block note = program.blocks[30];
     note.kind = BlockKind::comment;
     program.blocks.insert(program.blocks.begin() + 31, note);
@@ -190,15 +191,15 @@ TEST(ArcFit, GoesOverNoCommentOrSwitch) {
 }
 
 TEST(ArcFit, MakesNoGiantArcsAndNoHairs) {
-    EXPECT_TRUE(arcs_of(along([](double t) { return circle(5000.0, 0.02 * t); }, 40), 0.01).empty());
-    EXPECT_TRUE(arcs_of(along([](double t) { return circle(900.0, 0.01 * t); }, 40), 0.05).empty());
-    EXPECT_TRUE(arcs_of(along([](double t) { return circle(0.0005, 3.0 * t); }, 40), 0.05).empty());
+    EXPECT_TRUE(arcs_of(along([](double t) { return point_on_circle(5000.0, 0.02 * t); }, 40), 0.01).empty());
+    EXPECT_TRUE(arcs_of(along([](double t) { return point_on_circle(900.0, 0.01 * t); }, 40), 0.05).empty());
+    EXPECT_TRUE(arcs_of(along([](double t) { return point_on_circle(0.0005, 3.0 * t); }, 40), 0.05).empty());
 }
 
 TEST(ArcFit, ArcsByRadiusStayBelowHalfATurn) {
     PostFormat by_radius;
     by_radius.arcs->centre = ArcCentre::radius;
-    const Program program = along([](double t) { return circle(20.0, 1.9 * pi * t); }, 200);
+    const Program program = along([](double t) { return point_on_circle(20.0, 1.9 * pi * t); }, 200);
     const auto arcs = arcs_of(program, 0.01, by_radius);
     ASSERT_GE(arcs.size(), 2U);
     for (const FittedArc& arc : arcs) {
@@ -220,7 +221,7 @@ TEST(ArcFit, StaysWithinTheToleranceOnRandomCurves) {
         constexpr int feeds = 90;
         for (int k = 0; k <= feeds; ++k) {
             const double t = static_cast<double>(k) / feeds;
-            Vec3 p = circle(radius * (1.0 + bulge * t * t), 4.0 * t);
+            Vec3 p = point_on_circle(radius * (1.0 + bulge * t * t), 4.0 * t);
             p += Vec3(noise * unit(random), noise * unit(random), rise * t);
             points.push_back(p);
         }
@@ -241,12 +242,12 @@ TEST(ArcFit, StaysWithinTheToleranceOnRandomCurves) {
 TEST(ArcFit, SaysThatAControlHasNone) {
     PostFormat format;
     format.arcs.reset();
-    const Program program = along([](double t) { return circle(20.0, t); }, 20);
+    const Program program = along([](double t) { return point_on_circle(20.0, t); }, 20);
     EXPECT_THROW((void)fit_arcs(program, axis_wording(program), format, 0.01), Error);
 }
 
 TEST(ArcFit, OneLineStandsForAllItsBlocks) {
-    Program program = along([](double t) { return circle(20.0, pi * t); }, 60);
+    Program program = along([](double t) { return point_on_circle(20.0, pi * t); }, 60);
     test::add_block(program, BlockKind::end);
     const ReleasedText text = release(program, router(), PostFormat{}, {.arc_tolerance = 0.01});
     EXPECT_EQ(text.arcs, 1);

@@ -32,7 +32,7 @@ PostFormat post_named(const std::string& name) {
 }
 
 /// Everything that a program can hold, in a few blocks.
-Program small_program(const kinematics::MachineModel& machine) {
+Program program_with_everything(const kinematics::MachineModel& machine) {
     Program program = test::empty_program(machine);
     const bool turns = machine.axis_count() > 3;
     const auto at = [&](double x, double y, double z, double a = 0.0, double c = 0.0) {
@@ -77,7 +77,7 @@ TEST(Release, WritesTheSmallProgramAsBefore) {
         const auto machine = test::machine(machine_for(post));
         const PostFormat format = post_named(post);
         const ReleasedText text =
-            release(small_program(machine), machine, format, {.text = {.name = "PART"}});
+            release(program_with_everything(machine), machine, format, {.text = {.name = "PART"}});
         const std::string golden = "tests/golden/posts/" + post + ".txt";
         if (wish != nullptr && std::string(wish) == "update") {
             write_file(golden, text.listing.text);
@@ -209,7 +209,7 @@ TEST(Release, WritesArcsInEveryManner) {
 }
 
 /// The message that a program is refused with.
-std::string refusal(const Program& program, const std::string& machine, const PostFormat& format) {
+std::string release_refusal(const Program& program, const std::string& machine, const PostFormat& format) {
     try {
         (void)release(program, test::machine(machine), format);
     } catch (const Error& error) {
@@ -222,27 +222,27 @@ TEST(Release, RefusesWhatAControlCannotDo) {
     const auto machine = test::machine("router-xyz");
     PostFormat format;
     format.blocks.coolant_on.clear();
-    EXPECT_EQ(refusal(small_program(machine), "router-xyz", format),
+    EXPECT_EQ(release_refusal(program_with_everything(machine), "router-xyz", format),
               "block 3: coolant on cannot be written for LinuxCNC");
     format = PostFormat{};
     format.lines.longest = 24;
-    EXPECT_EQ(refusal(small_program(machine), "router-xyz", format),
+    EXPECT_EQ(release_refusal(program_with_everything(machine), "router-xyz", format),
               "block 8: its line would have 26 characters, and LinuxCNC takes 24");
     format = post_named("grbl");
     Program program = test::empty_program(machine);
     test::add_move(program, kinematics::AxisPositions(Vec3(1.0, 0.0, 0.0)), 1e5);
-    EXPECT_EQ(refusal(program, "router-xyz", format),
+    EXPECT_EQ(release_refusal(program, "router-xyz", format),
               "block 1: its feed, mm a minute, is too small to be written");
 }
 
 TEST(Release, RefusesALineThatTheControlDoesNotKnow) {
     PostFormat format = post_named("grbl");
     format.blocks.head = {"G21 G90 G64 P0.01"};
-    EXPECT_THAT(refusal(small_program(test::machine("router-xyz")), "router-xyz", format),
+    EXPECT_THAT(release_refusal(program_with_everything(test::machine("router-xyz")), "router-xyz", format),
                 HasSubstr("Grbl does not know G64"));
     format = post_named("heidenhain");
     format.blocks.head = {"CYCL DEF 7.0 DATUM SHIFT"};
-    EXPECT_THAT(refusal(small_program(test::machine("ac-table")), "ac-table", format),
+    EXPECT_THAT(release_refusal(program_with_everything(test::machine("ac-table")), "ac-table", format),
                 HasSubstr("only 9 and 32"));
 }
 

@@ -9,7 +9,7 @@
 namespace millwright::gcode {
 namespace {
 
-std::string printed(const AxisValues& target) {
+std::string printed_move(const AxisValues& target) {
     std::string text;
     CanonPrinter printer([&](std::string_view piece) { text += piece; });
     Move move;
@@ -30,7 +30,7 @@ TEST(CanonPrinter, WritesFourDecimalsRoundedAsTheExactValueIs) {
         t[Axis::y] = (tie(random) + 0.5) / 1e4; // nearly half way between two texts
         t[Axis::z] = std::nextafter((tie(random) + 0.5) / 1e4, sign(random) * 1e9);
         t[Axis::a] = tie(random) / 1e4;
-        ASSERT_EQ(printed(t),
+        ASSERT_EQ(printed_move(t),
                   fmt::format("    1 N..... STRAIGHT_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f}, 0.0000, 0.0000)\n",
                               t[Axis::x],
                               t[Axis::y],
@@ -40,7 +40,8 @@ TEST(CanonPrinter, WritesFourDecimalsRoundedAsTheExactValueIs) {
     for (const double value : {0.0, -0.0, 1e-5, -1e-5, -5e-5, 9.99995, -9.99995, 0.99999, 123456789.0}) {
         AxisValues t{};
         t[Axis::x] = value;
-        EXPECT_EQ(printed(t).substr(27, fmt::format("{:.4f}", value).size()), fmt::format("{:.4f}", value));
+        EXPECT_EQ(printed_move(t).substr(27, fmt::format("{:.4f}", value).size()),
+                  fmt::format("{:.4f}", value));
     }
 }
 

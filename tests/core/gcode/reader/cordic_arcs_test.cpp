@@ -21,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-CordicProgram compiled(const std::string& text, const CordicProgramSettings& settings) {
+CordicProgram compiled_arcs(const std::string& text, const CordicProgramSettings& settings) {
     CordicProgramBuilder builder("part.ngc", settings);
     Interpreter program(text, "part.ngc", ReaderSettings{}, builder);
     program.run();
@@ -119,7 +119,7 @@ TEST(CordicArcs, StayWithinTheToleranceInEveryFormatOrAreRefusedWithTheirPlace) 
         if (trial.settings.chord_tolerance < 1e-6 * trial.radius) {
             continue; // thousands of chords tell nothing more
         }
-        const CordicProgram program = compiled(text_of(trial), trial.settings);
+        const CordicProgram program = compiled_arcs(text_of(trial), trial.settings);
         if (!program.faults.empty()) {
             ++refused;
             EXPECT_GE(program.faults[0].place.line, 2) << described(trial);
@@ -148,18 +148,19 @@ TEST(CordicArcs, StayWithinTheToleranceInEveryFormatOrAreRefusedWithTheirPlace) 
     EXPECT_GT(divided, 300);
 }
 
-CordicProgram circle(double radius, const cordic::NumberFormat& format, CordicProgramSettings settings = {}) {
+CordicProgram
+compiled_circle(double radius, const cordic::NumberFormat& format, CordicProgramSettings settings = {}) {
     settings.format = format;
     settings.acceleration = 50.0;
-    return compiled(fmt::format("G21 G90\nF60\n G2 X0 Y0 I{} J0\nM2\n", radius), settings);
+    return compiled_arcs(fmt::format("G21 G90\nF60\n G2 X0 Y0 I{} J0\nM2\n", radius), settings);
 }
 
 TEST(CordicArcs, AreRefusedWhereTheFormatCannotHoldTheirPoints) {
     CordicProgramSettings fine;
     fine.chord_tolerance = 1e-7;
-    for (const CordicProgram& program : {circle(10.0, cordic::fixed_format(24, 8), fine),
-                                         circle(10.0, cordic::fixed_format(8, 8)),
-                                         circle(0.002, cordic::fixed_format(8, 8))}) {
+    for (const CordicProgram& program : {compiled_circle(10.0, cordic::fixed_format(24, 8), fine),
+                                         compiled_circle(10.0, cordic::fixed_format(8, 8)),
+                                         compiled_circle(0.002, cordic::fixed_format(8, 8))}) {
         ASSERT_EQ(program.faults.size(), 1U);
         EXPECT_EQ(program.faults[0].place.line, 3);
         EXPECT_EQ(program.faults[0].place.column, 2);
@@ -177,7 +178,7 @@ TEST(CordicArcs, OfCoarseAnglesAreMadeInPartsAndStayOnTheirCircles) {
                           Case{120.0, cordic::fixed_format(9, 15)},
                           Case{120.0, cordic::binary32},
                           Case{10.0, cordic::fixed_format(12, 20)}}) {
-        const CordicProgram program = circle(c.radius, c.format);
+        const CordicProgram program = compiled_circle(c.radius, c.format);
         ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
         cordic::Processor processor({}, program.image);
         processor.run(10'000'000);
@@ -192,13 +193,13 @@ TEST(CordicArcs, OfCoarseAnglesAreMadeInPartsAndStayOnTheirCircles) {
 TEST(CordicArcs, ThatEndAsRotatedAreRefusedWhereRoundingLeadsThemAstray) {
     CordicProgramSettings rotated;
     rotated.arc_end = ArcEnd::rotated;
-    EXPECT_TRUE(circle(10.0, cordic::binary64, rotated).faults.empty());
-    const CordicProgram program = circle(10.0, cordic::fixed_format(12, 16), rotated);
+    EXPECT_TRUE(compiled_circle(10.0, cordic::binary64, rotated).faults.empty());
+    const CordicProgram program = compiled_circle(10.0, cordic::fixed_format(12, 16), rotated);
     ASSERT_EQ(program.faults.size(), 1U);
     EXPECT_EQ(program.faults[0].place.line, 3);
     EXPECT_THAT(program.faults[0].message, HasSubstr("rounding in q12.16 leads this arc"));
     rotated.chord_tolerance = 0.1;
-    const CordicProgram small = circle(0.003, cordic::fixed_format(8, 6), rotated);
+    const CordicProgram small = compiled_circle(0.003, cordic::fixed_format(8, 6), rotated);
     ASSERT_EQ(small.faults.size(), 1U);
     EXPECT_THAT(small.faults[0].message,
                 HasSubstr("q8.6 cannot turn the chords of an arc of radius 0.003 mm"));
@@ -207,14 +208,14 @@ TEST(CordicArcs, ThatEndAsRotatedAreRefusedWhereRoundingLeadsThemAstray) {
 TEST(CordicArcs, MayDriftWhereThatIsWhatAPersonWantsToSee) {
     CordicProgramSettings drifting;
     drifting.lets_arcs_drift = true;
-    const CordicProgram program = circle(10.0, cordic::fixed_format(12, 16), drifting);
+    const CordicProgram program = compiled_circle(10.0, cordic::fixed_format(12, 16), drifting);
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     cordic::Processor processor({}, program.image);
     processor.run(10'000'000);
     EXPECT_GT(farthest(processor, {10.0, 0.0, 10.0}), 0.001);
     EXPECT_EQ(std::ranges::count(processor.published(), cordic::Opcode::g01, &cordic::Published::opcode), 1);
     drifting.chord_tolerance = 1e-7; // chords of 0.00026 rad, where the format has steps of 0.0039
-    const CordicProgram still = circle(10.0, cordic::fixed_format(24, 8), drifting);
+    const CordicProgram still = compiled_circle(10.0, cordic::fixed_format(24, 8), drifting);
     ASSERT_EQ(still.faults.size(), 1U);
     EXPECT_THAT(still.faults[0].message, HasSubstr("rad, is less than q24.8 can tell"));
 }
@@ -222,7 +223,7 @@ TEST(CordicArcs, MayDriftWhereThatIsWhatAPersonWantsToSee) {
 TEST(CordicArcs, SmallerThanTheFormatCanTellAreLeftOutWithAWarning) {
     CordicProgramSettings coarse;
     coarse.chord_tolerance = 0.1;
-    const CordicProgram program = circle(0.003, cordic::fixed_format(8, 6), coarse);
+    const CordicProgram program = compiled_circle(0.003, cordic::fixed_format(8, 6), coarse);
     EXPECT_TRUE(program.faults.empty());
     ASSERT_EQ(program.warnings.size(), 1U);
     EXPECT_EQ(program.warnings[0].place.line, 3);
@@ -233,7 +234,7 @@ TEST(CordicArcs, SmallerThanTheFormatCanTellAreLeftOutWithAWarning) {
 TEST(CordicArcs, OfSpeedsThatTheFormatTakesForZeroAreRefused) {
     CordicProgramSettings settings;
     settings.format = cordic::fixed_format(16, 8);
-    const CordicProgram program = compiled("G21 G90\nG1 X5 F0.01\nM2\n", settings);
+    const CordicProgram program = compiled_arcs("G21 G90\nG1 X5 F0.01\nM2\n", settings);
     ASSERT_EQ(program.faults.size(), 1U);
     EXPECT_EQ(program.faults[0].place.line, 2);
     EXPECT_EQ(program.faults[0].place.column, 7);
@@ -245,7 +246,7 @@ TEST(CordicArcs, OfSpeedsThatTheFormatTakesForZeroAreRefused) {
 TEST(CordicArcs, StayOnTheirCircleForAMillionChords) {
     CordicProgramSettings settings;
     settings.format = cordic::binary64;
-    const CordicProgram program = compiled("G21 F600\nG3 X0 Y0 I-10 J0 P4300\nM2\n", settings);
+    const CordicProgram program = compiled_arcs("G21 F600\nG3 X0 Y0 I-10 J0 P4300\nM2\n", settings);
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     cordic::Processor processor({}, program.image);
     processor.run(1'000'000'000);

@@ -1,5 +1,6 @@
 #include "core/gcode/reader/cordic_program.h"
 
+#include "core/base/units.h"
 #include "core/cordic/assembler.h"
 #include "core/cordic/disassembler.h"
 #include "core/cordic/processor.h"
@@ -19,9 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double pi = 3.14159265358979323846;
-
-CordicProgram compiled(const std::string& text, const CordicProgramSettings& settings = {}) {
+CordicProgram compiled_program(const std::string& text, const CordicProgramSettings& settings = {}) {
     CordicProgramBuilder builder("part.ngc", settings);
     ReaderSettings reading;
     reading.any_tool = true;
@@ -56,7 +55,7 @@ std::string instructions(const CordicProgram& program) {
 }
 
 TEST(CordicCompiler, MakesTheInstructionsOfTable21FromALine) {
-    const CordicProgram program = compiled("G21 G0 X3 Y4\nM2\n");
+    const CordicProgram program = compiled_program("G21 G0 X3 Y4\nM2\n");
     EXPECT_TRUE(program.faults.empty());
     EXPECT_EQ(instructions(program), "MOV Vmax, 50\nMOV Amax, 500\nMOV XI, 3\nMOV YJ, 4\nG00\nM02\n");
 }
@@ -65,7 +64,8 @@ TEST(CordicCompiler, MakesTheInstructionsOfTable21FromAnArc) {
     CordicProgramSettings settings;
     settings.arc_end = ArcEnd::rotated;
     settings.chord_tolerance = 5.0;
-    const CordicProgram program = compiled("G21 G0 X0 Y100\nF600 G90.1 G2 X100 Y100 I50 J50\nM2\n", settings);
+    const CordicProgram program =
+        compiled_program("G21 G0 X0 Y100\nF600 G90.1 G2 X100 Y100 I50 J50\nM2\n", settings);
     EXPECT_TRUE(program.faults.empty());
     // 90 degrees clockwise about (50, 50), 70.71 long: 5 mm allow chords of 43 degrees, so there are 3.
     EXPECT_THAT(instructions(program),
@@ -93,7 +93,7 @@ TEST(CordicCompiler, ChoosesChordsWithinTheToleranceAndNotMoreThanNeeded) {
 }
 
 TEST(CordicCompiler, LandsArcsExactlyOnTheProgrammedEnd) {
-    const CordicProgram program = compiled("G21 F600 G3 X0 Y0 I-5 J0\nG2 X-3 Y1 R4\nM2\n");
+    const CordicProgram program = compiled_program("G21 F600 G3 X0 Y0 I-5 J0\nG2 X-3 Y1 R4\nM2\n");
     const cordic::Processor processor = run(program);
     ASSERT_EQ(processor.published().size(), program.points.size());
     const auto end = processor.set_point(processor.published().back());
@@ -106,8 +106,8 @@ TEST(CordicCompiler, LandsArcsExactlyOnTheProgrammedEnd) {
 
 TEST(CordicCompiler, TurnsBothWaysAsIsoSays) {
     for (const bool clockwise : {true, false}) {
-        const CordicProgram program = compiled(std::string("G21 G0 X10 Y0\nF600 ") +
-                                               (clockwise ? "G2" : "G3") + " X10 Y0 I-10 J0\nM2\n");
+        const CordicProgram program = compiled_program(std::string("G21 G0 X10 Y0\nF600 ") +
+                                                       (clockwise ? "G2" : "G3") + " X10 Y0 I-10 J0\nM2\n");
         const cordic::Processor processor = run(program);
         const auto second = processor.set_point(processor.published()[2]);
         EXPECT_EQ(second.y < 0.0, clockwise);
@@ -123,7 +123,7 @@ TEST(CordicCompiler, TurnsBothWaysAsIsoSays) {
 }
 
 TEST(CordicCompiler, AppliesUnitsOffsetsAndRotation) {
-    const CordicProgram program = compiled("G20 G10 L2 P1 X1 Y2 R90\nG54 G0 X1 Y0\nM2\n");
+    const CordicProgram program = compiled_program("G20 G10 L2 P1 X1 Y2 R90\nG54 G0 X1 Y0\nM2\n");
     ASSERT_EQ(program.points.size(), 1U);
     EXPECT_NEAR(program.points[0].x, 25.4, 1e-9);
     EXPECT_NEAR(program.points[0].y, 76.2, 1e-9);
@@ -156,7 +156,7 @@ TEST(CordicCompiler, SaysWithLineAndColumnWhatTheProcessorCannotDo) {
         CordicProgramSettings settings;
         settings.format = cordic::fixed_format(8, 24);
         settings.acceleration = 100.0;
-        const CordicProgram program = compiled(c.text, settings);
+        const CordicProgram program = compiled_program(c.text, settings);
         ASSERT_EQ(program.faults.size(), 1U) << c.text;
         EXPECT_EQ(program.faults[0].place.line, 2) << c.text;
         EXPECT_EQ(program.faults[0].place.column, c.column) << c.text << program.faults[0].message;
@@ -168,7 +168,7 @@ TEST(CordicCompiler, MakesLinesInSpaceAndHelicesOfWhatRises) {
     CordicProgramSettings settings;
     settings.format = cordic::binary64;
     const CordicProgram program =
-        compiled("G21 F600 G0 Z5\nG1 X3 Z1\nG1 Y2\nG3 X3 Y2 Z-3 I-3 J0\nM2\n", settings);
+        compiled_program("G21 F600 G0 Z5\nG1 X3 Z1\nG1 Y2\nG3 X3 Y2 Z-3 I-3 J0\nM2\n", settings);
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     const cordic::Processor processor = run(program);
     ASSERT_EQ(processor.published().size(), program.points.size());
@@ -197,7 +197,7 @@ TEST(CordicCompiler, MakesChordsOfArcsInTheOtherPlanes) {
     CordicProgramSettings settings;
     settings.format = cordic::binary64;
     const CordicProgram program =
-        compiled("G21 F600 G0 X5\nG18 G3 X-5 Z0 I-5 K0\nG19 G2 Y5 Z-5 J0 K-5\nM2\n", settings);
+        compiled_program("G21 F600 G0 X5\nG18 G3 X-5 Z0 I-5 K0\nG19 G2 Y5 Z-5 J0 K-5\nM2\n", settings);
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     const cordic::Processor processor = run(program);
     ASSERT_EQ(processor.published().size(), program.points.size());
@@ -227,7 +227,7 @@ TEST(CordicCompiler, RefusesAnArcOfTooManyChordsInAnyPlane) {
     CordicProgramSettings settings;
     settings.chord_tolerance = 1e-13;
     for (const char* text : {"G21 F600\nG2 X8 I4\nM2\n", "G21 F600\nG18 G2 X8 I4\nM2\n"}) {
-        const CordicProgram program = compiled(text, settings);
+        const CordicProgram program = compiled_program(text, settings);
         ASSERT_EQ(program.faults.size(), 1U) << text;
         EXPECT_EQ(program.faults[0].place.line, 2);
         EXPECT_THAT(program.faults[0].message, HasSubstr("chords"));
@@ -236,8 +236,8 @@ TEST(CordicCompiler, RefusesAnArcOfTooManyChordsInAnyPlane) {
 
 // 0.1 mm a turn at 1200 and 2400 turns a minute, then mm a minute, then 2 a minute (inverse time).
 TEST(CordicCompiler, KnowsFeedsARevolutionAMinuteAndOfInverseTime) {
-    const CordicProgram program =
-        compiled("G21 S1200 M3\nG95 F0.1 G1 X5\nS2400\nG1 X10\nG94 F300\nG1 X15\nG93 G1 X20 F2\nM2\n");
+    const CordicProgram program = compiled_program(
+        "G21 S1200 M3\nG95 F0.1 G1 X5\nS2400\nG1 X10\nG94 F300\nG1 X15\nG93 G1 X20 F2\nM2\n");
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     ASSERT_EQ(program.points.size(), 4U);
     EXPECT_NEAR(program.points[0].speed, 2.0, 1e-12);
@@ -253,10 +253,10 @@ TEST(CordicCompiler, MakesOneInstructionOfAHelixOfManyTurns) {
     settings.format = cordic::binary64;
     settings.chord_tolerance = 0.01;
     const auto code_of = [&](const std::string& helix) {
-        return compiled(head + helix + "M2\n", settings).image.code.size();
+        return compiled_program(head + helix + "M2\n", settings).image.code.size();
     };
     EXPECT_EQ(code_of("G2 X3 Y0 Z-3 I-3 P1\n"), code_of("G2 X3 Y0 Z-75 I-3 P25\n"));
-    const CordicProgram clockwise = compiled(head + "G2 X3 Y0 Z-3 I-3 P1\nM2\n", settings);
+    const CordicProgram clockwise = compiled_program(head + "G2 X3 Y0 Z-3 I-3 P1\nM2\n", settings);
     const cordic::Processor processor = run(clockwise);
     EXPECT_EQ(processor.published()[1].opcode, cordic::Opcode::g02z);
     EXPECT_LT(processor.set_point(processor.published()[1]).y, 0.0);
@@ -264,7 +264,7 @@ TEST(CordicCompiler, MakesOneInstructionOfAHelixOfManyTurns) {
 
 // The old sense of rotation would be told the new speed first.
 TEST(CordicCompiler, ReversesTheSpindleInOneCommand) {
-    const CordicProgram program = compiled("M3 S1000\nS500 M4\nM4 S400\nS300\nM5 S200\nM2\n");
+    const CordicProgram program = compiled_program("M3 S1000\nS500 M4\nM4 S400\nS300\nM5 S200\nM2\n");
     const cordic::Processor processor = run(program);
     std::string all;
     for (const auto& command : processor.commanded()) {
@@ -274,8 +274,9 @@ TEST(CordicCompiler, ReversesTheSpindleInOneCommand) {
 }
 
 TEST(CordicCompiler, WarnsOfCornersThatItDoesNotGoThroughAsAskedFor) {
-    const CordicProgram program = compiled("G21 F600 G61\nG1 X1\n  G61.1 G1 X2\nG64 P0.05 Q0.1\nG1 X3\n"
-                                           "G64\nG1 X4\nG61.1\nG81 X5 Z-1 R1\nM2\n");
+    const CordicProgram program =
+        compiled_program("G21 F600 G61\nG1 X1\n  G61.1 G1 X2\nG64 P0.05 Q0.1\nG1 X3\n"
+                         "G64\nG1 X4\nG61.1\nG81 X5 Z-1 R1\nM2\n");
     ASSERT_TRUE(program.faults.empty());
     ASSERT_EQ(program.warnings.size(), 3U) << "G61 and G64 without P ask for nothing that it does not do";
     EXPECT_EQ(to_text(program.warnings[0]).find("part.ngc:3:3: the CORDIC processor passes through corners"),
@@ -285,8 +286,8 @@ TEST(CordicCompiler, WarnsOfCornersThatItDoesNotGoThroughAsAskedFor) {
 }
 
 TEST(CordicCompiler, MakesCommandsOfMCodesSpindleSpeedAndDwell) {
-    const CordicProgram program =
-        compiled("G21 T3 M6\nS8000 M3\nM7\nM8\nG0 X1\nG4 P0.25\nS500\nM0\nM1\nM9\nM4\nM5\nM123\nM30\n");
+    const CordicProgram program = compiled_program(
+        "G21 T3 M6\nS8000 M3\nM7\nM8\nG0 X1\nG4 P0.25\nS500\nM0\nM1\nM9\nM4\nM5\nM123\nM30\n");
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     const cordic::Processor processor = run(program);
     std::string all;
@@ -305,7 +306,7 @@ TEST(CordicCompiler, StartsWhereTheMachineStands) {
     settings.format = cordic::binary64;
     settings.start[Axis::x] = 30.0;
     settings.start[Axis::z] = 40.0;
-    const CordicProgram program = compiled("G21 F600 G0 X33 Y4 Z40\nM2\n", settings);
+    const CordicProgram program = compiled_program("G21 F600 G0 X33 Y4 Z40\nM2\n", settings);
     const cordic::Processor processor = run(program);
     const auto set = processor.set_point(processor.published()[0]);
     EXPECT_NEAR(set.vx, 0.6 * 50.0, 1e-5);
@@ -317,7 +318,7 @@ TEST(CordicCompiler, StartsWhereTheMachineStands) {
 TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {
     CordicProgramSettings settings;
     settings.format = cordic::fixed_format(16, 8);
-    const CordicProgram program = compiled("G21 G0 X1\nG0 X1\nG0 X1.001\nG0 X2\nM2\n", settings);
+    const CordicProgram program = compiled_program("G21 G0 X1\nG0 X1\nG0 X1.001\nG0 X2\nM2\n", settings);
     ASSERT_EQ(program.warnings.size(), 2U);
     EXPECT_EQ(program.warnings[0].place.line, 2);
     EXPECT_THAT(program.warnings[0].message, HasSubstr("without length"));
@@ -327,24 +328,24 @@ TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {
 }
 
 TEST(CordicCompiler, WarnsOfAnArcThatEndsAHairBehindItsStart) {
-    const CordicProgram hair = compiled("G21 F600 G0 X100\n G3 X100 Y0.00009 I-100 J0\nM2\n");
+    const CordicProgram hair = compiled_program("G21 F600 G0 X100\n G3 X100 Y0.00009 I-100 J0\nM2\n");
     ASSERT_EQ(hair.warnings.size(), 1U);
     EXPECT_EQ(hair.warnings[0].place.line, 2);
     EXPECT_EQ(hair.warnings[0].place.column, 2);
     EXPECT_THAT(hair.warnings[0].message, HasSubstr("the arc ends 9e-05 mm, 9e-07 rad, behind its start"));
-    const CordicProgram arc = compiled("G21 F600 G0 X100\nG3 X100 Y0.00011 I-100 J0\nM2\n");
+    const CordicProgram arc = compiled_program("G21 F600 G0 X100\nG3 X100 Y0.00011 I-100 J0\nM2\n");
     EXPECT_TRUE(arc.warnings.empty());
     EXPECT_EQ(arc.points.size(), 2U) << "an arc of one chord behind the way to its start";
     for (const char* circle :
          {"G3 X100 Y0 I-100 J0\nM2\n", "G2 I-33.3 J12.7\nM2\n", "G18 G3 I-7.1 K-3\nM2\n"}) {
-        EXPECT_TRUE(compiled(std::string("G21 F600 G0 X100\n") + circle).warnings.empty()) << circle;
+        EXPECT_TRUE(compiled_program(std::string("G21 F600 G0 X100\n") + circle).warnings.empty()) << circle;
     }
 }
 
 TEST(CordicCompiler, SaysOnceWhatIsWrongInManyPlaces) {
     CordicProgramSettings settings;
     settings.format = cordic::fixed_format(8, 24); // Amax of 500 mm/s2 does not fit
-    const CordicProgram program = compiled("G21 F600\nG1 X1\nG1 X2\nG1 X300\nG1 X4\nM2\n", settings);
+    const CordicProgram program = compiled_program("G21 F600\nG1 X1\nG1 X2\nG1 X300\nG1 X4\nM2\n", settings);
     ASSERT_EQ(program.faults.size(), 2U);
     EXPECT_EQ(program.faults[0].place.line, 2);
     EXPECT_THAT(program.faults[0].message,
@@ -362,7 +363,7 @@ std::string zigzag(int lines) {
 }
 
 TEST(CordicCompiler, GoesOnInFurtherPagesOfTheRom) {
-    const CordicProgram program = compiled(zigzag(10'000));
+    const CordicProgram program = compiled_program(zigzag(10'000));
     ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
     EXPECT_EQ(cordic::page_count(program.image.code.size()), 4U);
     const cordic::Processor processor = run(program);
@@ -377,7 +378,7 @@ TEST(CordicCompiler, GoesOnInFurtherPagesOfTheRom) {
 TEST(CordicCompiler, RefusesAProgramBeyondTheRom) {
     CordicProgramSettings settings;
     settings.rom_pages = 2;
-    const CordicProgram program = compiled(zigzag(10'000), settings);
+    const CordicProgram program = compiled_program(zigzag(10'000), settings);
     ASSERT_FALSE(program.faults.empty());
     EXPECT_THAT(program.faults.back().message,
                 HasSubstr("needs 4 pages of 32768 bytes, the program ROM has 2"));
@@ -409,7 +410,7 @@ TEST(CordicCompiler, KeepsRandomProgramsNearTheExactPath) {
         }
         CordicProgramSettings settings;
         settings.format = format;
-        const CordicProgram program = compiled(text + "M2\n", settings);
+        const CordicProgram program = compiled_program(text + "M2\n", settings);
         ASSERT_TRUE(program.faults.empty()) << program.faults[0].message;
         const cordic::Processor processor = run(program);
         ASSERT_EQ(processor.published().size(), program.points.size());
@@ -422,16 +423,16 @@ TEST(CordicCompiler, KeepsRandomProgramsNearTheExactPath) {
 TEST(CordicCompiler, RefusesDirectionsThatSoFewIterationsDoNotReachWithTheirPlace) {
     CordicProgramSettings few;
     few.processor.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, 2);
-    const CordicProgram made = compiled("G21 F60\nG1 X10 Y5\n  G1 X-40 Y5\nM2\n", few);
+    const CordicProgram made = compiled_program("G21 F60\nG1 X10 Y5\n  G1 X-40 Y5\nM2\n", few);
     ASSERT_EQ(made.faults.size(), 1U);
     EXPECT_EQ(made.faults[0].place.line, 3);
     EXPECT_EQ(made.faults[0].place.column, 3);
     EXPECT_THAT(made.faults[0].message, testing::HasSubstr("a direction that 2 iterations do not reach"));
-    const CordicProgram arc = compiled("G21 F60\nG2 X0 Y0 I10 J0\nM2\n", few);
+    const CordicProgram arc = compiled_program("G21 F60\nG2 X0 Y0 I10 J0\nM2\n", few);
     ASSERT_FALSE(arc.faults.empty());
     EXPECT_EQ(arc.faults[0].place.line, 2);
     few.processor.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, 4);
-    EXPECT_TRUE(compiled("G21 F60\nG1 X10 Y5\n  G1 X-40 Y5\nM2\n", few).faults.empty());
+    EXPECT_TRUE(compiled_program("G21 F60\nG1 X10 Y5\n  G1 X-40 Y5\nM2\n", few).faults.empty());
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "core/gcode/reader/tool_table.h"
+#include "tests/core/gcode/reader/thesis_programs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,23 +16,22 @@
 namespace millwright::gcode {
 namespace {
 
+using test::thesis_plate;
+using test::thesis_simple;
+using test::thesis_space;
 using testing::HasSubstr;
 
-const std::string simple = "assets/samples/gcode/thesis-simple.ngc";
-const std::string space = "assets/samples/gcode/thesis-3d.ngc";
-const std::string plate = "assets/samples/gcode/thesis-plate.ngc";
-
-CutProgram read(const std::string& text, const CutProgramSettings& settings = {}) {
+CutProgram read_cut(const std::string& text, const CutProgramSettings& settings = {}) {
     return read_cut_program(text, "part.ngc", settings);
 }
 
 CutProgram by_chords(const std::string& file) {
-    return read(read_file(file), {.chord_length = 1.0});
+    return read_cut(read_file(file), {.chord_length = 1.0});
 }
 
-Diagnostic refusal(const std::string& text, const CutProgramSettings& settings = {}) {
+Diagnostic cut_refusal(const std::string& text, const CutProgramSettings& settings = {}) {
     try {
-        (void)read(text, settings);
+        (void)read_cut(text, settings);
     } catch (const Error& error) {
         return error.diagnostic();
     }
@@ -49,19 +49,19 @@ std::vector<std::size_t> points_of(const CutProgram& program) {
 
 // Lengths, chords and times that the listings of the thesis of 2006 have.
 TEST(CutPrograms, OfTheThesisHaveTheirWaysAndTimes) {
-    const CutProgram a = by_chords(simple);
+    const CutProgram a = by_chords(thesis_simple);
     EXPECT_NEAR(plot::lengths(a.path).cut, 74.0, 1e-4);
     EXPECT_NEAR(plot::lengths(a.path).travel, 28.2842, 1e-4);
     EXPECT_NEAR(a.feed_time, 148.0, 1e-6);
     EXPECT_EQ(points_of(a), (std::vector<std::size_t>{5}));
 
-    const CutProgram b = by_chords(space);
+    const CutProgram b = by_chords(thesis_space);
     EXPECT_NEAR(plot::lengths(b.path).cut, 438.2848, 0.02); // chords are shorter than their arcs
     EXPECT_NEAR(plot::lengths(b.path).travel, 80.2905, 1e-4);
     EXPECT_NEAR(b.feed_time, 81.828, 2e-3);
     EXPECT_EQ(points_of(b), (std::vector<std::size_t>{5, 41 + 15 + 27 + 17 + 1}));
 
-    const CutProgram c = by_chords(plate);
+    const CutProgram c = by_chords(thesis_plate);
     EXPECT_NEAR(plot::lengths(c.path).cut, 579.8006, 0.06);
     EXPECT_NEAR(plot::lengths(c.path).travel, 106.2665, 1e-4);
     EXPECT_NEAR(c.feed_time, 1159.601, 0.12);
@@ -69,7 +69,7 @@ TEST(CutPrograms, OfTheThesisHaveTheirWaysAndTimes) {
 }
 
 TEST(CutPrograms, TellsOfAHeightThatIsNotNamedAndCountsNoWayDownToIt) {
-    const CutProgram program = read("G21 G90\nG0 X1 Y1\nG1 X2 F100\nM2\n");
+    const CutProgram program = read_cut("G21 G90\nG0 X1 Y1\nG1 X2 F100\nM2\n");
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].place.line, 3);
     EXPECT_THAT(program.notices[0].message, HasSubstr("no height is named before this feed"));
@@ -78,25 +78,26 @@ TEST(CutPrograms, TellsOfAHeightThatIsNotNamedAndCountsNoWayDownToIt) {
     EXPECT_NEAR(named_lengths(program).cut, 1.0, 1e-9);
     EXPECT_NEAR(named_lengths(program).travel, std::sqrt(2.0), 1e-9);
 
-    const CutProgram named = read("G21 G90\nG0 Z0\nG0 X1 Y1\nG1 X2 F100\nM2\n");
+    const CutProgram named = read_cut("G21 G90\nG0 Z0\nG0 X1 Y1\nG1 X2 F100\nM2\n");
     EXPECT_TRUE(named.notices.empty());
     EXPECT_NEAR(named_lengths(named).cut, 1.0, 1e-9);
 }
 
 TEST(CutPrograms, TellHowFarFeedsAreTakenForTravel) {
     const std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 X30 F100\nY40\nG0 X0\nG1 Z-1\nX10\nG0 Z0\nM2\n";
-    const CutProgram program = read(text);
+    const CutProgram program = read_cut(text);
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].place.line, 3);
     EXPECT_THAT(program.notices[0].message, HasSubstr("70.000 mm of feeds at or above z 0.000 mm"));
-    EXPECT_TRUE(read(text, {.safe_height = 5.0}).notices.empty()) << "a person said so";
-    EXPECT_EQ(read(text, {.safe_height = 5.0}).strokes.size(), 2U);
-    EXPECT_TRUE(read(read_file(plate)).notices.empty());
+    EXPECT_TRUE(read_cut(text, {.safe_height = 5.0}).notices.empty()) << "a person said so";
+    EXPECT_EQ(read_cut(text, {.safe_height = 5.0}).strokes.size(), 2U);
+    EXPECT_TRUE(read_cut(read_file(thesis_plate)).notices.empty());
 }
 
 TEST(CutPrograms, StrokesOfTheThesisAreClosedOutlinesAtOneHeight) {
-    for (const auto& [file, z] : {std::pair(simple, -10.0), std::pair(space, 0.0), std::pair(plate, -2.0)}) {
-        const CutProgram program = read(read_file(file));
+    for (const auto& [file, z] :
+         {std::pair(thesis_simple, -10.0), std::pair(thesis_space, 0.0), std::pair(thesis_plate, -2.0)}) {
+        const CutProgram program = read_cut(read_file(file));
         EXPECT_EQ(program.safe_height, 10.0) << file;
         EXPECT_FALSE(program.uneven) << file;
         ASSERT_EQ(program.levels.size(), 1U) << file;
@@ -110,7 +111,7 @@ TEST(CutPrograms, StrokesOfTheThesisAreClosedOutlinesAtOneHeight) {
 
 TEST(CutPrograms, ArcsKeepTheToleranceThatWasAskedFor) {
     for (const double tolerance : {0.2, 0.02, 0.002}) {
-        const CutProgram program = read(read_file(plate), {.chord_tolerance = tolerance});
+        const CutProgram program = read_cut(read_file(thesis_plate), {.chord_tolerance = tolerance});
         const std::vector<Vec2>& hole = program.strokes[1].points; // around 50, 50
         double farthest = 0.0;
         for (std::size_t n = 1; n < hole.size(); ++n) {
@@ -123,9 +124,9 @@ TEST(CutPrograms, ArcsKeepTheToleranceThatWasAskedFor) {
 
 // Before N5 the 3D program of the thesis has no height: across at zero would be through what lies there.
 TEST(CutPrograms, BeginWhereAllThreeAxesAreNamed) {
-    EXPECT_EQ(read(read_file(space)).path.front(), (plot::CutPoint{.at = {10, 10, 10}}));
-    EXPECT_EQ(read(read_file(simple)).path.front(), (plot::CutPoint{.at = {10, 10, 0}}));
-    const CutProgram low = read("G0 X10 Y20\nG1 Z-1 F60\nX30\nG0 Z8\nX0\nM2\n");
+    EXPECT_EQ(read_cut(read_file(thesis_space)).path.front(), (plot::CutPoint{.at = {10, 10, 10}}));
+    EXPECT_EQ(read_cut(read_file(thesis_simple)).path.front(), (plot::CutPoint{.at = {10, 10, 0}}));
+    const CutProgram low = read_cut("G0 X10 Y20\nG1 Z-1 F60\nX30\nG0 Z8\nX0\nM2\n");
     ASSERT_GE(low.path.size(), 3U);
     EXPECT_EQ(low.path[0], (plot::CutPoint{.at = {10, 20, 8}}));
     EXPECT_EQ(low.path[1], (plot::CutPoint{{10, 20, 0}, 1.0, plot::CutMove::plunge}));
@@ -135,23 +136,24 @@ TEST(CutPrograms, BeginWhereAllThreeAxesAreNamed) {
 TEST(CutPrograms, FeedsAtTheHeightOfTravelAreInTheAir) {
     const std::string text =
         "G0 X0 Y0 Z5\nX10\nG1 Z-1 F60\nX20 F120\nZ5\nX40 F600\nZ-1 F60\nX50 F120\nZ5\nM2\n";
-    const CutProgram program = read(text);
+    const CutProgram program = read_cut(text);
     EXPECT_EQ(points_of(program), (std::vector<std::size_t>{2, 2}));
     EXPECT_EQ(std::ranges::count_if(program.path,
                                     [](const plot::CutPoint& point) {
                                         return point.move == plot::CutMove::rapid && point.speed > 0.0;
                                     }),
               1);
-    EXPECT_EQ(points_of(read(text, {.safe_height = 6.0})), (std::vector<std::size_t>{2, 2, 2}));
-    EXPECT_THAT(refusal(text, {.safe_height = -2.0}).message,
+    EXPECT_EQ(points_of(read_cut(text, {.safe_height = 6.0})), (std::vector<std::size_t>{2, 2, 2}));
+    EXPECT_THAT(cut_refusal(text, {.safe_height = -2.0}).message,
                 HasSubstr("nothing to cut in it below z -2.000"));
     // A pen plotter's: all in one plane.
-    EXPECT_EQ(points_of(read("G0 Z0\nG0 X5 Y5\nX0\nG1 X10 F60\nY10\nM2\n")), (std::vector<std::size_t>{3}));
+    EXPECT_EQ(points_of(read_cut("G0 Z0\nG0 X5 Y5\nX0\nG1 X10 F60\nY10\nM2\n")),
+              (std::vector<std::size_t>{3}));
 }
 
 TEST(CutPrograms, HeightsAndToolsAreLevels) {
-    const CutProgram program = read("T3 M6\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX10 F300\nZ-2 F30\nX0 F200\nG0 Z5\n"
-                                    "T7 M6\nG0 X3\nG1 Z-1 F90\nX20\nG0 Z5\nX1\nM2\n");
+    const CutProgram program = read_cut("T3 M6\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX10 F300\nZ-2 F30\nX0 F200\nG0 Z5\n"
+                                        "T7 M6\nG0 X3\nG1 Z-1 F90\nX20\nG0 Z5\nX1\nM2\n");
     ASSERT_EQ(program.levels.size(), 3U);
     EXPECT_EQ(program.levels[0], (CutLevel{1, 3, -1.0, 5.0, 1.0}));
     EXPECT_EQ(program.levels[1], (CutLevel{2, 3, -2.0, from_mm_per_min(200.0), 0.5}));
@@ -164,7 +166,7 @@ TEST(CutPrograms, HeightsAndToolsAreLevels) {
 
 TEST(CutPrograms, HolesAreDotsAtTheirDeepest) {
     const CutProgram program =
-        read("G0 X0 Y0 Z5\nG81 X5 Y5 Z-3 R1 F60\nX9\nG80\nG0 X20\nG1 Z1\nZ-1\nZ0\nZ-2\nG0 Z5\nX0\nM2\n");
+        read_cut("G0 X0 Y0 Z5\nG81 X5 Y5 Z-3 R1 F60\nX9\nG80\nG0 X20\nG1 Z1\nZ-1\nZ0\nZ-2\nG0 Z5\nX0\nM2\n");
     EXPECT_EQ(points_of(program), (std::vector<std::size_t>{1, 1, 1}));
     EXPECT_EQ(program.strokes[0].points[0], Vec2(5, 5));
     EXPECT_EQ(program.strokes[2].points[0], Vec2(20, 5));
@@ -174,7 +176,7 @@ TEST(CutPrograms, HolesAreDotsAtTheirDeepest) {
 }
 
 TEST(CutPrograms, HeightsThatChangeAlongACutAreToldWithTheLine) {
-    const CutProgram program = read("G0 X0 Y0 Z5\nX1\nG1 Z0 F60\nX10 Z-2\nX20\nG0 Z5\nM2\n");
+    const CutProgram program = read_cut("G0 X0 Y0 Z5\nX1\nG1 Z0 F60\nX10 Z-2\nX20\nG0 Z5\nM2\n");
     ASSERT_TRUE(program.uneven);
     EXPECT_EQ(program.uneven->place.line, 4);
     EXPECT_EQ(program.uneven->message, "this cut goes from z 0.000 to -2.000 mm");
@@ -184,7 +186,7 @@ TEST(CutPrograms, HeightsThatChangeAlongACutAreToldWithTheLine) {
 
 TEST(CutPrograms, WhatHasNoMeaningAsAPathIsRefusedWithItsLine) {
     const auto at_line = [](const std::string& text) {
-        const Diagnostic found = refusal(text);
+        const Diagnostic found = cut_refusal(text);
         return std::to_string(found.place.line) + ": " + found.message;
     };
     EXPECT_EQ(at_line("G0 X0 Y0 Z5\nG1 Z-1 F60\nG1 X10 A90\nM2\n"), "3: the machine 'X, Y, Z' has no axis A");
@@ -198,16 +200,17 @@ TEST(CutPrograms, WhatHasNoMeaningAsAPathIsRefusedWithItsLine) {
 // Without a diameter the contour itself was cut.
 TEST(CutPrograms, CompensationNeedsTheToolsDiameter) {
     const std::string text = "T1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F100\nG41 D1 X10\nX20\nY10\nG40 X30\nM2\n";
-    const Diagnostic found = refusal(text);
+    const Diagnostic found = cut_refusal(text);
     EXPECT_EQ(found.place.line, 4);
     EXPECT_THAT(found.hint, HasSubstr("--tools"));
     CutProgramSettings settings;
     settings.tools = parse_tool_table("T1 P1 D4\n", "tools.tbl");
-    EXPECT_EQ(read(text, settings).strokes[0].points[1], Vec2(10, 2));
+    EXPECT_EQ(read_cut(text, settings).strokes[0].points[1], Vec2(10, 2));
 }
 
 TEST(CutPrograms, WhatAPathHasNoRecordOfIsToldOnce) {
-    const CutProgram program = read("S8000 M3\nM8\nG0 X0 Y0 Z5\nG4 P2\nG1 Z-1 F60\nG4 P0.5\nX5\nM0\nM2\n");
+    const CutProgram program =
+        read_cut("S8000 M3\nM8\nG0 X0 Y0 Z5\nG4 P2\nG1 Z-1 F60\nG4 P0.5\nX5\nM0\nM2\n");
     EXPECT_EQ(program.spindle_rpm, 8000.0);
     EXPECT_EQ(program.dwell_time, 2.5);
     std::string told;
@@ -225,7 +228,7 @@ TEST(CutPrograms, AnArcOfTooManyChordsIsRefusedWithItsLine) {
     const std::string text = "G0 X0 Y0 Z5\nX1\nG1 Z-1 F9\nG2 X1 Y0 I900000\nM2\n";
     for (const CutProgramSettings& settings :
          {CutProgramSettings{.chord_length = 0.001}, CutProgramSettings{.chord_tolerance = 1e-12}}) {
-        const Diagnostic found = refusal(text, settings);
+        const Diagnostic found = cut_refusal(text, settings);
         EXPECT_EQ(found.place.line, 4);
         EXPECT_EQ(found.message, "this arc would have more than ten million chords");
     }

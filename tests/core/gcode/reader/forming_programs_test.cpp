@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/machine_program.h"
 #include "tests/core/gcode/reader/read_program.h"
+#include "tests/core/gcode/reader/thesis_programs.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>
@@ -17,18 +18,18 @@
 namespace millwright::gcode {
 namespace {
 
-const std::string simple = "assets/samples/gcode/thesis-simple.ngc";
-const std::string space = "assets/samples/gcode/thesis-3d.ngc";
-const std::string plate = "assets/samples/gcode/thesis-plate.ngc";
+using test::thesis_plate;
+using test::thesis_simple;
+using test::thesis_space;
 
-Vec3 xyz(const AxisValues& at) {
+Vec3 xyz_of(const AxisValues& at) {
     return {at[Axis::x], at[Axis::y], at[Axis::z]};
 }
 
 /// Along the move, arcs as arcs.
 double length_of(const Vec3& from, const Move& move) {
     if (move.kind != MoveKind::arc) {
-        return (xyz(move.target) - from).norm();
+        return (xyz_of(move.target) - from).norm();
     }
     return std::abs(move.sweep) * std::hypot(from.x() - move.centre_1, from.y() - move.centre_2);
 }
@@ -40,7 +41,7 @@ std::vector<double> lengths_of(const std::string& file) {
     Vec3 at = Vec3::Zero();
     for (const Move& move : read.moves) {
         const double length = length_of(at, move);
-        at = xyz(move.target);
+        at = xyz_of(move.target);
         if (length > 0.0) { // G00 in the head goes nowhere
             lengths.push_back(length);
         }
@@ -48,7 +49,7 @@ std::vector<double> lengths_of(const std::string& file) {
     return lengths;
 }
 
-MachineProgram on_table(const std::string& text, std::optional<double> chord_length) {
+MachineProgram program_on_table(const std::string& text, std::optional<double> chord_length) {
     const kinematics::MachineModel table = millwright::test::machine("router-xyz");
     MachineProgramSettings settings;
     settings.chord_length = chord_length;
@@ -91,10 +92,11 @@ void expect_lengths(const std::string& file, const std::vector<double>& expected
 }
 
 TEST(FormingPrograms, MovesHaveTheirLengths) {
-    expect_lengths(simple, {14.1421, 10, 12, 10, 12, 10, 20, 14.1421});
+    expect_lengths(thesis_simple, {14.1421, 10, 12, 10, 12, 10, 20, 14.1421});
     expect_lengths(
-        space, {14.1421, 10, 10, 80, 80, 80, 80, 10, 36.1484, 10, 40.8786, 14.6198, 26.0319, 16.7545, 10});
-    expect_lengths(plate,
+        thesis_space,
+        {14.1421, 10, 10, 80, 80, 80, 80, 10, 36.1484, 10, 40.8786, 14.6198, 26.0319, 16.7545, 10});
+    expect_lengths(thesis_plate,
                    {14.7648,
                     10,
                     12,
@@ -115,15 +117,18 @@ TEST(FormingPrograms, MovesHaveTheirLengths) {
 }
 
 TEST(FormingPrograms, FeedsTakeTheirTime) {
-    EXPECT_NEAR(feed_time(on_table(read_file(simple), {})), 148.0, 1e-6);
-    EXPECT_NEAR(feed_time(on_table(read_file(space), {})), 81.828, 1e-2); // chords are a little shorter
-    EXPECT_NEAR(feed_time(on_table(read_file(plate), {})), 1159.601, 0.2);
+    EXPECT_NEAR(feed_time(program_on_table(read_file(thesis_simple), {})), 148.0, 1e-6);
+    EXPECT_NEAR(feed_time(program_on_table(read_file(thesis_space), {})),
+                81.828,
+                1e-2); // chords are a little shorter
+    EXPECT_NEAR(feed_time(program_on_table(read_file(thesis_plate), {})), 1159.601, 0.2);
 }
 
 TEST(FormingPrograms, ArcsAreCutByTheRuleOfTheThesis) {
-    EXPECT_EQ(chords_of(on_table(read_file(space), 1.0)), (std::vector<int>{41, 15, 27, 17}));
-    EXPECT_EQ(chords_of(on_table(read_file(plate), 1.0)), (std::vector<int>{32, 32, 32, 32, 50, 50}));
-    const MachineProgram read = on_table(read_file(plate), 1.0);
+    EXPECT_EQ(chords_of(program_on_table(read_file(thesis_space), 1.0)), (std::vector<int>{41, 15, 27, 17}));
+    EXPECT_EQ(chords_of(program_on_table(read_file(thesis_plate), 1.0)),
+              (std::vector<int>{32, 32, 32, 32, 50, 50}));
+    const MachineProgram read = program_on_table(read_file(thesis_plate), 1.0);
     const Vec3 end = read.program.blocks.back().target;
     EXPECT_NEAR(end.x(), 65.619, 1e-12);
 }
@@ -131,7 +136,7 @@ TEST(FormingPrograms, ArcsAreCutByTheRuleOfTheThesis) {
 TEST(FormingPrograms, WorkedExampleHasEighteenChordsOfTwoPointTwoTwoDegrees) {
     // Counter-clockwise, as the 40 degrees of the thesis ask for; it prints G02.
     const MachineProgram read =
-        on_table("G21 G90 G00 X37.5 Y27.88\nG03 X25.24 Y39.8 I-22.5 J-10.88 F500\nM2\n", 1.0);
+        program_on_table("G21 G90 G00 X37.5 Y27.88\nG03 X25.24 Y39.8 I-22.5 J-10.88 F500\nM2\n", 1.0);
     const std::vector<Vec2> printed{{37.0611, 28.7444},
                                     {36.5890, 29.5912},
                                     {36.0845, 30.4190},
@@ -171,7 +176,7 @@ TEST(FormingPrograms, WorkedExampleHasEighteenChordsOfTwoPointTwoTwoDegrees) {
 }
 
 TEST(FormingPrograms, ArcsByToleranceStayWithinIt) {
-    const MachineProgram read = on_table(read_file(plate), {});
+    const MachineProgram read = program_on_table(read_file(thesis_plate), {});
     const Vec2 corner(13.0, 90.0);
     Vec3 at = Vec3::Zero();
     double farthest = 0.0;

@@ -18,7 +18,7 @@ test::ReadProgram read_grbl(const std::string& text) {
     return test::read_all(text, grbl());
 }
 
-std::string refusal(const std::string& text) {
+std::string grbl_refusal(const std::string& text) {
     const auto program = read_grbl(text);
     return program.errors.empty() ? std::string() : program.errors.front().message;
 }
@@ -31,35 +31,35 @@ TEST(Grbl, TakesItsSubset) {
 }
 
 TEST(Grbl, NeedsNoEnd) {
-    EXPECT_EQ(refusal("G0 X1"), "");
+    EXPECT_EQ(grbl_refusal("G0 X1"), "");
 }
 
 TEST(Grbl, KeepsTheFeedWhenItsModeIsSetAgain) {
-    EXPECT_EQ(refusal("G94 F100\nG94 G1 X1\n"), "");
+    EXPECT_EQ(grbl_refusal("G94 F100\nG94 G1 X1\n"), "");
     EXPECT_THAT(test::error_of("G94 F100\nG94 G1 X1"), HasSubstr("feed of zero"));
 }
 
 TEST(Grbl, RefusesWhatItDoesNotKnowByItsOwnErrorNumbers) {
-    EXPECT_THAT(refusal("G81 X1 Z-1 R1"), HasSubstr("G81 (error 20)"));
-    EXPECT_THAT(refusal("G41 D1"), HasSubstr("G41 (error 20)"));
-    EXPECT_THAT(refusal("G43 H1"), HasSubstr("G43 (error 20)"));
-    EXPECT_THAT(refusal("G64"), HasSubstr("G64 (error 20)"));
-    EXPECT_THAT(refusal("M6"), HasSubstr("M6 (error 20)"));
-    EXPECT_THAT(refusal("G59.1"), HasSubstr("(error 23)"));
-    EXPECT_THAT(refusal("G90.1"), HasSubstr("(error 20)"));
-    EXPECT_THAT(refusal("G92.2"), HasSubstr("(error 20)"));
-    EXPECT_THAT(refusal("M98 P1"), HasSubstr("M98 (error 20)"));
-    EXPECT_THAT(refusal("T256"), HasSubstr("(error 38)"));
-    EXPECT_THAT(refusal("G0 A5"), HasSubstr("A words (error 20)"));
-    EXPECT_THAT(refusal("G0 X[1+1]"), HasSubstr("(error 1)"));
-    EXPECT_THAT(refusal("#1=5"), HasSubstr("(error 1)"));
-    EXPECT_THAT(refusal("O1 call"), HasSubstr("(error 1)"));
-    EXPECT_THAT(refusal("G1 F1\nG2 I5"), HasSubstr("(error 26)"));
-    EXPECT_THAT(refusal("G1 F1\nG2 X1 Y1 I.5 J.5 P2"), HasSubstr("(error 36)"));
+    EXPECT_THAT(grbl_refusal("G81 X1 Z-1 R1"), HasSubstr("G81 (error 20)"));
+    EXPECT_THAT(grbl_refusal("G41 D1"), HasSubstr("G41 (error 20)"));
+    EXPECT_THAT(grbl_refusal("G43 H1"), HasSubstr("G43 (error 20)"));
+    EXPECT_THAT(grbl_refusal("G64"), HasSubstr("G64 (error 20)"));
+    EXPECT_THAT(grbl_refusal("M6"), HasSubstr("M6 (error 20)"));
+    EXPECT_THAT(grbl_refusal("G59.1"), HasSubstr("(error 23)"));
+    EXPECT_THAT(grbl_refusal("G90.1"), HasSubstr("(error 20)"));
+    EXPECT_THAT(grbl_refusal("G92.2"), HasSubstr("(error 20)"));
+    EXPECT_THAT(grbl_refusal("M98 P1"), HasSubstr("M98 (error 20)"));
+    EXPECT_THAT(grbl_refusal("T256"), HasSubstr("(error 38)"));
+    EXPECT_THAT(grbl_refusal("G0 A5"), HasSubstr("A words (error 20)"));
+    EXPECT_THAT(grbl_refusal("G0 X[1+1]"), HasSubstr("(error 1)"));
+    EXPECT_THAT(grbl_refusal("#1=5"), HasSubstr("(error 1)"));
+    EXPECT_THAT(grbl_refusal("O1 call"), HasSubstr("(error 1)"));
+    EXPECT_THAT(grbl_refusal("G1 F1\nG2 I5"), HasSubstr("(error 26)"));
+    EXPECT_THAT(grbl_refusal("G1 F1\nG2 X1 Y1 I.5 J.5 P2"), HasSubstr("(error 36)"));
 }
 
 TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
-    const auto arc = [](const std::string& words) { return refusal("G1 F1\n" + words); };
+    const auto arc = [](const std::string& words) { return grbl_refusal("G1 F1\n" + words); };
     EXPECT_THAT(arc("G2 Z1 I1"), HasSubstr("(error 32)"));
     EXPECT_THAT(arc("G18 G2 Y1 I1"), HasSubstr("(error 32)"));
     EXPECT_THAT(arc("G2 X1"), HasSubstr("(error 35)"));
@@ -72,21 +72,21 @@ TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
 }
 
 TEST(Grbl, RefusesAToolLengthOrTheEndOfG92BesideAMotion) {
-    EXPECT_THAT(refusal("G43.1 G1 Z1 F100"), HasSubstr("G43.1 and G1 both use axis words"));
-    EXPECT_THAT(refusal("G49 G0"), HasSubstr("(error 24)"));
-    EXPECT_THAT(refusal("G49 X1"), HasSubstr("Grbl does nothing with axis words beside G49"));
-    EXPECT_THAT(refusal("G92 X1\nG92.1 G0 X1"), HasSubstr("Grbl moves by the old G92"));
-    EXPECT_EQ(refusal("G43.1 G80 Z1\nG49 G80\nG92.1 G80"), "");
+    EXPECT_THAT(grbl_refusal("G43.1 G1 Z1 F100"), HasSubstr("G43.1 and G1 both use axis words"));
+    EXPECT_THAT(grbl_refusal("G49 G0"), HasSubstr("(error 24)"));
+    EXPECT_THAT(grbl_refusal("G49 X1"), HasSubstr("Grbl does nothing with axis words beside G49"));
+    EXPECT_THAT(grbl_refusal("G92 X1\nG92.1 G0 X1"), HasSubstr("Grbl moves by the old G92"));
+    EXPECT_EQ(grbl_refusal("G43.1 G80 Z1\nG49 G80\nG92.1 G80"), "");
 }
 
 TEST(Grbl, RefusesOffsetsByItsOwnErrorNumbers) {
-    EXPECT_THAT(refusal("G10 L2 P1"), HasSubstr("(error 26)"));
-    EXPECT_THAT(refusal("G10 X1"), HasSubstr("(error 28)"));
-    EXPECT_THAT(refusal("G10 L2 P7 X1"), HasSubstr("(error 29)"));
-    EXPECT_THAT(refusal("G10 L2 P-1 X1"), HasSubstr("(error 4)"));
-    EXPECT_THAT(refusal("G10 L3 P1 X1"), HasSubstr("(error 20)"));
-    EXPECT_THAT(refusal("G10 L2 P1 X1 R5"), HasSubstr("(error 20)"));
-    EXPECT_THAT(refusal("G10 L20 P1 X1 R5"), HasSubstr("(error 36)"));
+    EXPECT_THAT(grbl_refusal("G10 L2 P1"), HasSubstr("(error 26)"));
+    EXPECT_THAT(grbl_refusal("G10 X1"), HasSubstr("(error 28)"));
+    EXPECT_THAT(grbl_refusal("G10 L2 P7 X1"), HasSubstr("(error 29)"));
+    EXPECT_THAT(grbl_refusal("G10 L2 P-1 X1"), HasSubstr("(error 4)"));
+    EXPECT_THAT(grbl_refusal("G10 L3 P1 X1"), HasSubstr("(error 20)"));
+    EXPECT_THAT(grbl_refusal("G10 L2 P1 X1 R5"), HasSubstr("(error 20)"));
+    EXPECT_THAT(grbl_refusal("G10 L20 P1 X1 R5"), HasSubstr("(error 36)"));
 }
 
 /// LinuxCNC reads F before the unit changes.
@@ -118,15 +118,15 @@ TEST(Grbl, LeavesTheAxisWordOfAToolLengthToIt) {
 /// They are not sent.
 TEST(Grbl, ReadsOverPercentSigns) {
     EXPECT_EQ(read_grbl("%\nG0 X1\n% (again)\nG0 X2\n %\n").moves.size(), 2U);
-    EXPECT_EQ(refusal("%\nG0 X1\n%\n"), "");
-    EXPECT_THAT(refusal("G0 X1 %"), HasSubstr("'%' in a program (error 1)"));
-    EXPECT_THAT(refusal("%O1000"), HasSubstr("'%' in a program (error 1)"));
-    EXPECT_THAT(refusal("%\n%\n"), HasSubstr("there is nothing in the program"));
+    EXPECT_EQ(grbl_refusal("%\nG0 X1\n%\n"), "");
+    EXPECT_THAT(grbl_refusal("G0 X1 %"), HasSubstr("'%' in a program (error 1)"));
+    EXPECT_THAT(grbl_refusal("%O1000"), HasSubstr("'%' in a program (error 1)"));
+    EXPECT_THAT(grbl_refusal("%\n%\n"), HasSubstr("there is nothing in the program"));
 }
 
 TEST(Grbl, CountsTheCharactersThatItKeeps) {
-    EXPECT_EQ(refusal("G0 X1" + std::string(200, ' ') + "(" + std::string(200, 'c') + ")"), "");
-    EXPECT_THAT(refusal("G0 X" + std::string(90, '0')), HasSubstr("(error 11)"));
+    EXPECT_EQ(grbl_refusal("G0 X1" + std::string(200, ' ') + "(" + std::string(200, 'c') + ")"), "");
+    EXPECT_THAT(grbl_refusal("G0 X" + std::string(90, '0')), HasSubstr("(error 11)"));
 }
 
 } // namespace

@@ -32,13 +32,13 @@ std::string program_of(const Lines& lines) {
     return numbered(all);
 }
 
-std::vector<WrittenStep> read(const Lines& lines) {
+std::vector<WrittenStep> read_klartext(const Lines& lines) {
     WrittenTextRules rules;
     rules.work_offset[Axis::z] = 100.0;
     return read_written_klartext(program_of(lines), "a.h", rules);
 }
 
-std::string error_of(const std::string& text) {
+std::string klartext_error(const std::string& text) {
     try {
         (void)read_written_klartext(text, "a.h", {});
     } catch (const Error& error) {
@@ -48,11 +48,12 @@ std::string error_of(const std::string& text) {
 }
 
 std::string error_in(const std::string& line) {
-    return error_of(program_of({line}));
+    return klartext_error(program_of({line}));
 }
 
 TEST(Klartext, ReadsStraightBlocks) {
-    const auto steps = read({"L X+3 Y+4 R0 F600", "L Z-2.5 FMAX", "L A+10 C-5 R0 F50", "L Z+7 R0 FMAX M91"});
+    const auto steps =
+        read_klartext({"L X+3 Y+4 R0 F600", "L Z-2.5 FMAX", "L A+10 C-5 R0 F50", "L Z+7 R0 FMAX M91"});
     ASSERT_EQ(steps.size(), 4U);
     EXPECT_EQ(steps[0].kind, StepKind::feed);
     EXPECT_EQ(steps[0].target[Axis::x], 3.0);
@@ -66,16 +67,16 @@ TEST(Klartext, ReadsStraightBlocks) {
 }
 
 TEST(Klartext, ReadsSwitches) {
-    const auto steps = read({"; M30",
-                             "TOOL CALL 1 Z S9000",
-                             "M4",
-                             "M8",
-                             "CYCL DEF 9.0 DWELL TIME",
-                             "CYCL DEF 9.1 DWELL 1.5",
-                             "STOP",
-                             "M9",
-                             "M5",
-                             "M30"});
+    const auto steps = read_klartext({"; M30",
+                                      "TOOL CALL 1 Z S9000",
+                                      "M4",
+                                      "M8",
+                                      "CYCL DEF 9.0 DWELL TIME",
+                                      "CYCL DEF 9.1 DWELL 1.5",
+                                      "STOP",
+                                      "M9",
+                                      "M5",
+                                      "M30"});
     ASSERT_EQ(steps.size(), 7U);
     EXPECT_EQ(steps[0].value, -9000.0);
     EXPECT_EQ(steps[2].kind, StepKind::dwell);
@@ -85,15 +86,15 @@ TEST(Klartext, ReadsSwitches) {
 }
 
 TEST(Klartext, KnowsWhenTheTipIsKept) {
-    const auto steps = read({"L X+1 FMAX",
-                             "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
-                             "L X+2 FMAX",
-                             "FUNCTION RESET TCPM",
-                             "L X+3 FMAX",
-                             "M128",
-                             "L X+4 FMAX",
-                             "M129",
-                             "L X+5 FMAX"});
+    const auto steps = read_klartext({"L X+1 FMAX",
+                                      "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",
+                                      "L X+2 FMAX",
+                                      "FUNCTION RESET TCPM",
+                                      "L X+3 FMAX",
+                                      "M128",
+                                      "L X+4 FMAX",
+                                      "M129",
+                                      "L X+5 FMAX"});
     const std::vector<bool> tip{false, true, false, true, false};
     for (std::size_t n = 0; n < tip.size(); ++n) {
         EXPECT_EQ(steps[n].tip, tip[n]);
@@ -122,16 +123,17 @@ TEST(Klartext, RefusesWhatItDoesNotKnowWithItsPlace) {
                 HasSubstr("tip control is switched by"));
     EXPECT_THAT(error_in("FUNCTION MODE MILL"), HasSubstr("tip control is switched by"));
     EXPECT_THAT(error_in(""), HasSubstr("read"));
-    EXPECT_THAT(error_of("0 BEGIN PGM A MM\n2 END PGM A MM\n"), HasSubstr("a.h:2:1: the block number is 1"));
-    EXPECT_THAT(error_of("0 BEGIN PGM A MM\n\n"), HasSubstr("a.h:2:1: an empty line"));
-    EXPECT_THAT(error_of("0 BEGIN PGM A MM\n"), HasSubstr("does not end with END PGM"));
-    EXPECT_THAT(error_of("0 BEGIN PGM A MM\n1 END PGM B MM\n"), HasSubstr("names another program"));
-    EXPECT_THAT(error_of("0 BEGIN PGM A CM\n"), HasSubstr("lengths are in MM or INCH"));
-    EXPECT_THAT(error_of("0 L X+1 FMAX\n"), HasSubstr("begins with BEGIN PGM"));
-    EXPECT_THAT(error_of("0 BEGIN PGM A MM\n1 END PGM A MM\n2 M30\n"),
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n2 END PGM A MM\n"),
+                HasSubstr("a.h:2:1: the block number is 1"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n\n"), HasSubstr("a.h:2:1: an empty line"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n"), HasSubstr("does not end with END PGM"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n1 END PGM B MM\n"), HasSubstr("names another program"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A CM\n"), HasSubstr("lengths are in MM or INCH"));
+    EXPECT_THAT(klartext_error("0 L X+1 FMAX\n"), HasSubstr("begins with BEGIN PGM"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n1 END PGM A MM\n2 M30\n"),
                 HasSubstr("nothing stands behind END PGM"));
-    EXPECT_THAT(error_of(""), HasSubstr("does not end with END PGM"));
-    EXPECT_THAT(error_of(program_of({"M128", "L Z+1 FMAX M91"})),
+    EXPECT_THAT(klartext_error(""), HasSubstr("does not end with END PGM"));
+    EXPECT_THAT(klartext_error(program_of({"M128", "L Z+1 FMAX M91"})),
                 HasSubstr("M91 needs tip control to be off"));
 }
 

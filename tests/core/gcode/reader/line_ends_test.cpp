@@ -16,7 +16,7 @@ namespace millwright::gcode {
 namespace {
 
 /// Letter by letter.
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> lines_letter_by_letter(const std::string& text) {
     std::vector<std::string> lines;
     std::string line;
     for (std::size_t n = 0; n < text.size(); ++n) {
@@ -55,7 +55,7 @@ TEST(LineEnds, AreFoundWhereverTheyStand) {
             const std::string_view rest = std::string_view(text).substr(at);
             found.emplace_back(rest.substr(0, end_of_line(rest)));
         }
-        EXPECT_EQ(found, lines_of(text));
+        EXPECT_EQ(found, lines_letter_by_letter(text));
         const LineIndex index(text);
         ASSERT_EQ(index.count(), std::ssize(found));
         for (std::size_t n = 0; n < found.size(); ++n) {
@@ -77,7 +77,7 @@ struct Printed {
     friend bool operator==(const Printed&, const Printed&) = default;
 };
 
-Printed printed(const std::filesystem::path& file) {
+Printed printed_file(const std::filesystem::path& file) {
     Printed result;
     CanonPrinter printer([&](std::string_view text) { result.canon += text; });
     ReaderSettings settings;
@@ -106,7 +106,7 @@ TEST(LineEnds, OfAnyComputerMakeTheSameProgram) {
     const test::ScratchFolder folder;
     const auto file = folder / "part.ngc";
     write_file(file, text);
-    const Printed expected = printed(file);
+    const Printed expected = printed_file(file);
     ASSERT_EQ(expected.errors.size(), 1U);
     EXPECT_NE(expected.errors[0].find("part.ngc:40006:11"), std::string::npos) << expected.errors[0];
     for (const std::string end : {"\r", "\r\n"}) {
@@ -115,7 +115,7 @@ TEST(LineEnds, OfAnyComputerMakeTheSameProgram) {
             other += c == '\n' ? end : std::string(1, c);
         }
         write_file(file, other);
-        EXPECT_EQ(printed(file), expected);
+        EXPECT_EQ(printed_file(file), expected);
     }
 }
 

@@ -11,7 +11,7 @@
 namespace millwright::gcode::internal {
 namespace {
 
-std::vector<std::string> lines_of(LineSource& source) {
+std::vector<std::string> lines_of_source(LineSource& source) {
     std::vector<std::string> lines;
     for (std::string_view line; source.next(line);) {
         lines.emplace_back(line);
@@ -28,7 +28,7 @@ protected:
 
 TEST(LineSource, GivesLinesWithoutTheirEnds) {
     LineSource source("one\n\nthree", "text");
-    EXPECT_EQ(lines_of(source), (std::vector<std::string>{"one", "", "three"}));
+    EXPECT_EQ(lines_of_source(source), (std::vector<std::string>{"one", "", "three"}));
     EXPECT_EQ(source.line_number(), 3);
 }
 
@@ -37,7 +37,7 @@ TEST(LineSource, ComesBackToAPlace) {
     std::string_view line;
     ASSERT_TRUE(source.next(line));
     const auto place = source.position();
-    EXPECT_EQ(lines_of(source).size(), 2U);
+    EXPECT_EQ(lines_of_source(source).size(), 2U);
     source.go_to(place);
     ASSERT_TRUE(source.next(line));
     EXPECT_EQ(line, "two");

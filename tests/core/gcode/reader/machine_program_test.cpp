@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-MachineProgram read(const std::string& text, const std::string& machine = "ac-table") {
+MachineProgram read_on_machine(const std::string& text, const std::string& machine = "ac-table") {
     const kinematics::MachineModel model = test::machine(machine);
     MachineProgramBuilder builder(model, "part.ngc");
     Interpreter interpreter(text, "part.ngc", {}, builder);
@@ -36,23 +36,23 @@ std::vector<Block> moves_of(const MachineProgram& read) {
     return moves;
 }
 
-Vec3 xyz(const Block& block) {
+Vec3 xyz_target(const Block& block) {
     return block.target.head<3>(); // of X Y Z A C
 }
 
 TEST(MachineProgram, MovesAtTheFeedOfTheProgram) {
-    const auto moves = moves_of(read("G21 G90 G94\nG0 X5\nG1 X15 F600\nM2\n"));
+    const auto moves = moves_of(read_on_machine("G21 G90 G94\nG0 X5\nG1 X15 F600\nM2\n"));
     ASSERT_EQ(moves.size(), 2U);
     EXPECT_EQ(moves[0].kind, BlockKind::rapid);
     EXPECT_EQ(moves[1].kind, BlockKind::feed);
     EXPECT_DOUBLE_EQ(moves[1].duration, 1.0);
     EXPECT_DOUBLE_EQ(moves[1].feed, 10.0);
-    EXPECT_EQ(xyz(moves[1]), Vec3(15, 0, 0));
+    EXPECT_EQ(xyz_target(moves[1]), Vec3(15, 0, 0));
 }
 
 TEST(MachineProgram, KnowsThePathModeOfEveryMove) {
-    const auto moves = moves_of(
-        read("G20 G90 F10\nG1 X1\nG64 P0.1\nX2\nG61\nX3\nG61.1\nX4\nG64\nX5\nG64 P0.02 G21\nX6\nM2\n"));
+    const auto moves = moves_of(read_on_machine(
+        "G20 G90 F10\nG1 X1\nG64 P0.1\nX2\nG61\nX3\nG61.1\nX4\nG64\nX5\nG64 P0.02 G21\nX6\nM2\n"));
     ASSERT_EQ(moves.size(), 6U);
     EXPECT_EQ(moves[0].path, std::nullopt);
     EXPECT_EQ(moves[1].path, (PathControl{PathMode::continuous, 2.54}));
@@ -63,7 +63,7 @@ TEST(MachineProgram, KnowsThePathModeOfEveryMove) {
 }
 
 TEST(MachineProgram, KeepsTheLineOfEveryBlock) {
-    const auto moves = moves_of(read("G21\n\n(nothing)\nG1 X1 F60\nG2 X3 I1\nM2\n"));
+    const auto moves = moves_of(read_on_machine("G21\n\n(nothing)\nG1 X1 F60\nG2 X3 I1\nM2\n"));
     ASSERT_GT(moves.size(), 3U);
     EXPECT_EQ(moves[0].source_line, 4);
     for (std::size_t n = 1; n < moves.size(); ++n) {
@@ -72,33 +72,34 @@ TEST(MachineProgram, KeepsTheLineOfEveryBlock) {
 }
 
 TEST(MachineProgram, TakesInchesFeedsInInchesToo) {
-    const auto moves = moves_of(read("G20\nG1 X1 F60\nM2\n"));
-    EXPECT_NEAR(xyz(moves[0]).x(), 25.4, 1e-12);
+    const auto moves = moves_of(read_on_machine("G20\nG1 X1 F60\nM2\n"));
+    EXPECT_NEAR(xyz_target(moves[0]).x(), 25.4, 1e-12);
     EXPECT_NEAR(moves[0].duration, 1.0, 1e-12);
 }
 
 TEST(MachineProgram, AppliesOffsetsAndRotation) {
-    const auto moves = moves_of(read("G21\nG10 L2 P1 X5 Y0 Z0 R90\nG54\nG1 X10 Y0 F60\nM2\n"));
-    EXPECT_LT((xyz(moves.back()) - Vec3(5, 10, 0)).norm(), 1e-9);
-    const auto shifted = moves_of(read("G21\nG1 X4 F60\nG92 X0\nG1 X10\nM2\n"));
-    EXPECT_NEAR(xyz(shifted.back()).x(), 14.0, 1e-9);
-    const auto unchanged = moves_of(read("G21\nG10 L2 P1 X5 R30\nG54\nG1 X10 Y3 F60\nG20\nG1 Z1\nM2\n"));
-    EXPECT_LT((xyz(unchanged[1]) - xyz(unchanged[0]) - Vec3(0, 0, 25.4)).norm(), 1e-9);
+    const auto moves = moves_of(read_on_machine("G21\nG10 L2 P1 X5 Y0 Z0 R90\nG54\nG1 X10 Y0 F60\nM2\n"));
+    EXPECT_LT((xyz_target(moves.back()) - Vec3(5, 10, 0)).norm(), 1e-9);
+    const auto shifted = moves_of(read_on_machine("G21\nG1 X4 F60\nG92 X0\nG1 X10\nM2\n"));
+    EXPECT_NEAR(xyz_target(shifted.back()).x(), 14.0, 1e-9);
+    const auto unchanged =
+        moves_of(read_on_machine("G21\nG10 L2 P1 X5 R30\nG54\nG1 X10 Y3 F60\nG20\nG1 Z1\nM2\n"));
+    EXPECT_LT((xyz_target(unchanged[1]) - xyz_target(unchanged[0]) - Vec3(0, 0, 25.4)).norm(), 1e-9);
 }
 
 TEST(MachineProgram, FollowsArcsWithinTheChordTolerance) {
-    const MachineProgram program = read("G21 G17\nG0 X10\nG3 X10 Y0 I-10 F600\nM2\n");
+    const MachineProgram program = read_on_machine("G21 G17\nG0 X10\nG3 X10 Y0 I-10 F600\nM2\n");
     const auto moves = moves_of(program);
     constexpr double radius = 10.0;
     ASSERT_GT(moves.size(), 20U);
     double duration = 0.0;
     for (std::size_t n = 1; n < moves.size(); ++n) {
-        EXPECT_NEAR(xyz(moves[n]).norm(), radius, 1e-9);
-        const Vec3 middle = (xyz(moves[n]) + xyz(moves[n - 1])) / 2.0;
+        EXPECT_NEAR(xyz_target(moves[n]).norm(), radius, 1e-9);
+        const Vec3 middle = (xyz_target(moves[n]) + xyz_target(moves[n - 1])) / 2.0;
         EXPECT_GE(middle.norm(), radius - 0.002 - 1e-9);
         duration += moves[n].duration;
     }
-    EXPECT_EQ(xyz(moves.back()), Vec3(10, 0, 0));
+    EXPECT_EQ(xyz_target(moves.back()), Vec3(10, 0, 0));
     EXPECT_NEAR(duration, 2.0 * pi, 1e-3);
     EXPECT_NEAR(program.length, 10.0 + 2.0 * pi * radius, 2e-2);
 }
@@ -107,15 +108,15 @@ TEST(MachineProgram, TurnsHelicesInEveryPlane) {
     for (const auto& [text, axis] : {std::pair{"G17\nG1 X0 F60\nG2 X20 I10 Z6", 2},
                                      std::pair{"G18\nG1 X0 F60\nG2 Z20 K10 Y6", 1},
                                      std::pair{"G19\nG1 X0 F60\nG2 Y20 J10 X6", 0}}) {
-        const auto moves = moves_of(read(std::string("G21\n") + text + "\nM2\n"));
-        const auto middle = xyz(moves[moves.size() / 2]);
+        const auto moves = moves_of(read_on_machine(std::string("G21\n") + text + "\nM2\n"));
+        const auto middle = xyz_target(moves[moves.size() / 2]);
         EXPECT_NEAR(middle[axis], 3.0, 0.2) << text;
-        EXPECT_EQ(xyz(moves.back())[axis], 6.0) << text;
+        EXPECT_EQ(xyz_target(moves.back())[axis], 6.0) << text;
     }
 }
 
 TEST(MachineProgram, FollowsABezierCurve) {
-    const auto moves = moves_of(read("G21 G17\nG5 I0 J30 P0 Q-30 X40 Y10 F600\nM2\n"));
+    const auto moves = moves_of(read_on_machine("G21 G17\nG5 I0 J30 P0 Q-30 X40 Y10 F600\nM2\n"));
     const std::array<Vec3, 4> p{Vec3(0, 0, 0), Vec3(0, 30, 0), Vec3(40, -20, 0), Vec3(40, 10, 0)};
     const auto curve = [&](double t) -> Vec3 {
         const double s = 1.0 - t;
@@ -127,7 +128,7 @@ TEST(MachineProgram, FollowsABezierCurve) {
         double nearest = 1e9;
         Vec3 a = p[0];
         for (const Block& move : moves) {
-            const Vec3 b = xyz(move);
+            const Vec3 b = xyz_target(move);
             const double t = std::clamp((at - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
             nearest = std::min(nearest, (a + t * (b - a) - at).norm());
             a = b;
@@ -137,15 +138,16 @@ TEST(MachineProgram, FollowsABezierCurve) {
 }
 
 TEST(MachineProgram, FeedsRotaryAxesInDegreesWhereNothingElseMoves) {
-    const auto moves = moves_of(read("G21\nG1 A30 F90\nG1 A60 X10 F600\nM2\n"));
+    const auto moves = moves_of(read_on_machine("G21\nG1 A30 F90\nG1 A60 X10 F600\nM2\n"));
     EXPECT_NEAR(moves[0].duration, 20.0, 1e-9);
     EXPECT_NEAR(moves[1].duration, 1.0, 1e-9);
     EXPECT_NEAR(moves[1].target[test::machine("ac-table").axis_index('A')], pi / 3.0, 1e-12);
 }
 
 TEST(MachineProgram, TakesFeedsARevolution) {
-    const auto moves = moves_of(read("G21 G90\nS1000 M3\nG95 F0.5\nG1 X10\nS2000\nG1 X20\nG20\nF0.1\nG1 "
-                                     "X2\nG21\nG94 F600\nG1 X40.8\nM2\n"));
+    const auto moves =
+        moves_of(read_on_machine("G21 G90\nS1000 M3\nG95 F0.5\nG1 X10\nS2000\nG1 X20\nG20\nF0.1\nG1 "
+                                 "X2\nG21\nG94 F600\nG1 X40.8\nM2\n"));
     ASSERT_EQ(moves.size(), 4U);
     EXPECT_NEAR(moves[0].duration, 1.2, 1e-9);
     EXPECT_NEAR(moves[1].duration, 0.6, 1e-9);
@@ -154,18 +156,18 @@ TEST(MachineProgram, TakesFeedsARevolution) {
 }
 
 TEST(MachineProgram, RefusesFeedsARevolutionWhereTheSpindleFollowsTheDiameter) {
-    const MachineProgram made = read("G21 G90\nG96 D3000 S100 M3\nG95 F0.5\nG1 X10\nM2\n");
+    const MachineProgram made = read_on_machine("G21 G90\nG96 D3000 S100 M3\nG95 F0.5\nG1 X10\nM2\n");
     ASSERT_EQ(made.faults.size(), 1U);
     EXPECT_EQ(made.faults[0].place.line, 4);
 }
 
 TEST(MachineProgram, TakesInverseTime) {
-    const auto moves = moves_of(read("G21 G93\nG1 X10 Y5 F30\nM2\n"));
+    const auto moves = moves_of(read_on_machine("G21 G93\nG1 X10 Y5 F30\nM2\n"));
     EXPECT_NEAR(moves[0].duration, 2.0, 1e-9);
 }
 
 TEST(MachineProgram, SaysOnceWhichAxisIsMissingAndLeavesTheMovesOut) {
-    const MachineProgram program = read("G21\nG0 X1\nG0 B5\nG0 B7\nG0 X2 B7\nM2\n");
+    const MachineProgram program = read_on_machine("G21\nG0 X1\nG0 B5\nG0 B7\nG0 X2 B7\nM2\n");
     ASSERT_EQ(program.faults.size(), 1U);
     EXPECT_EQ(program.faults[0].place.line, 3);
     EXPECT_THAT(program.faults[0].message, HasSubstr("no axis B"));
@@ -173,7 +175,7 @@ TEST(MachineProgram, SaysOnceWhichAxisIsMissingAndLeavesTheMovesOut) {
 }
 
 TEST(MachineProgram, PausesForToolsAndStops) {
-    const MachineProgram program = read("G21\nS900 M4\nG4 P1.5\nM0\nM5\nM8\nM9\nM30\n");
+    const MachineProgram program = read_on_machine("G21\nS900 M4\nG4 P1.5\nM0\nM5\nM8\nM9\nM30\n");
     std::vector<BlockKind> kinds;
     for (const Block& block : program.program.blocks) {
         kinds.push_back(block.kind);
@@ -190,7 +192,7 @@ TEST(MachineProgram, PausesForToolsAndStops) {
 }
 
 TEST(MachineProgram, SaysWhereItLeavesTheTravelAndGoesThere) {
-    const MachineProgram made = read(
+    const MachineProgram made = read_on_machine(
         "G21 G90 F100\nG0 X1\n\n  G1 Y1 X5000\nX6000 (again)\nG2 X0 Y9000 R8000\nG1 A9\nM2\n", "router-xyz");
     ASSERT_EQ(made.faults.size(), 1U);
     EXPECT_EQ(to_text(made.faults[0]), "part.ngc:7:4: the machine 'XYZ router' has no axis A");
@@ -212,33 +214,38 @@ std::vector<std::string> messages(const std::vector<Diagnostic>& of) {
 TEST(MachineProgram, NamesWhatItsBlocksCannotSay) {
     using ::testing::ElementsAre;
     const std::string program = "G21 G90 S500 M3\nG0 X0 Y0 Z5\nF50\n";
-    EXPECT_THAT(messages(read(program + "G38.2 Z-20\nG38.3 Z-21\nM2\n").lost),
+    EXPECT_THAT(messages(read_on_machine(program + "G38.2 Z-20\nG38.3 Z-21\nM2\n").lost),
                 ElementsAre(HasSubstr("part.ngc:4:1: nothing is probed")));
-    EXPECT_THAT(messages(read(program + "G33 Z-10 K1.5\nM2\n").lost), ElementsAre(HasSubstr("part.ngc:4")));
-    EXPECT_THAT(messages(read(program + "G33.1 Z-10 K1.5\nM2\n").lost), ElementsAre(HasSubstr("in step")));
-    EXPECT_THAT(messages(read(program + "G1 Z-10\nM8\nM2\n").lost), ElementsAre());
-    EXPECT_THAT(messages(read(program + "G1 Z-10\nM8\nM2\n").simplified), ElementsAre());
+    EXPECT_THAT(messages(read_on_machine(program + "G33 Z-10 K1.5\nM2\n").lost),
+                ElementsAre(HasSubstr("part.ngc:4")));
+    EXPECT_THAT(messages(read_on_machine(program + "G33.1 Z-10 K1.5\nM2\n").lost),
+                ElementsAre(HasSubstr("in step")));
+    EXPECT_THAT(messages(read_on_machine(program + "G1 Z-10\nM8\nM2\n").lost), ElementsAre());
+    EXPECT_THAT(messages(read_on_machine(program + "G1 Z-10\nM8\nM2\n").simplified), ElementsAre());
 }
 
 TEST(MachineProgram, NamesWhatItSaysInAnotherWayOnceEach) {
     using ::testing::ElementsAre;
-    EXPECT_THAT(messages(read("G21 G90\nM7\nG55\nG53 G0 Z0\nG53 G0 Z1\nG54\nG28\nM2\n").simplified),
-                ElementsAre(HasSubstr("mist (M7)"),
-                            HasSubstr("part.ngc:3:1: nobody told the offset of G55: it is taken for 0"),
-                            HasSubstr("part.ngc:4:1: G53"),
-                            HasSubstr("G28")));
-    EXPECT_THAT(messages(read("G21 G90\nM64 P1\nM65 P1\nM62 P2\nM67 E1 Q3\nG1 X1 F60\nM2\n").simplified),
-                ElementsAre(HasSubstr("part.ngc:2:1: outputs are not switched")));
-    EXPECT_THAT(messages(read("G21 G90\nM49\nM48\nM50 P0\nG1 X1 F60\nM2\n").simplified),
+    EXPECT_THAT(
+        messages(read_on_machine("G21 G90\nM7\nG55\nG53 G0 Z0\nG53 G0 Z1\nG54\nG28\nM2\n").simplified),
+        ElementsAre(HasSubstr("mist (M7)"),
+                    HasSubstr("part.ngc:3:1: nobody told the offset of G55: it is taken for 0"),
+                    HasSubstr("part.ngc:4:1: G53"),
+                    HasSubstr("G28")));
+    EXPECT_THAT(
+        messages(read_on_machine("G21 G90\nM64 P1\nM65 P1\nM62 P2\nM67 E1 Q3\nG1 X1 F60\nM2\n").simplified),
+        ElementsAre(HasSubstr("part.ngc:2:1: outputs are not switched")));
+    EXPECT_THAT(messages(read_on_machine("G21 G90\nM49\nM48\nM50 P0\nG1 X1 F60\nM2\n").simplified),
                 ElementsAre(HasSubstr("part.ngc:2:1: overrides")));
-    EXPECT_THAT(messages(read("G21 G90\nM48\nM50 P1\nM53 P1\nG97 S100\nG1 X1 F60\nM2\n").simplified),
-                ElementsAre());
+    EXPECT_THAT(
+        messages(read_on_machine("G21 G90\nM48\nM50 P1\nM53 P1\nG97 S100\nG1 X1 F60\nM2\n").simplified),
+        ElementsAre());
 }
 
 TEST(MachineProgram, WorkSystemsAreUnknownWhereNobodyToldTheirOffset) {
     using ::testing::ElementsAre;
     const auto said = [](const std::string& lines) {
-        return messages(read("G21 G90\n" + lines + "M2\n").simplified);
+        return messages(read_on_machine("G21 G90\n" + lines + "M2\n").simplified);
     };
     EXPECT_THAT(said("G10 L2 P2 X50 Y20 Z0\nG55\nG0 X1\n"), ElementsAre());
     EXPECT_THAT(said("G10 L2 P2 X0\nG55\n"), ElementsAre());
@@ -255,7 +262,7 @@ TEST(MachineProgram, WorkSystemsAreUnknownWhereNobodyToldTheirOffset) {
 TEST(MachineProgram, AStopSaysWhatTheCommentAboveItSays) {
     const auto stops = [](const std::string& lines) {
         std::vector<std::string> texts;
-        for (const Block& block : read("G21 G90\nG0 X1\n" + lines + "M2\n").program.blocks) {
+        for (const Block& block : read_on_machine("G21 G90\nG0 X1\n" + lines + "M2\n").program.blocks) {
             if (block.kind == BlockKind::pause) {
                 texts.push_back(block.text);
             }
@@ -273,9 +280,9 @@ TEST(MachineProgram, AStopSaysWhatTheCommentAboveItSays) {
 
 TEST(MachineProgram, NamesWhatWouldBeAnotherProgramWithoutIt) {
     using ::testing::ElementsAre;
-    EXPECT_THAT(messages(read("G21 G90\nM66 P0 L3 Q5\nG1 X1 F60\nM2\n").lost),
+    EXPECT_THAT(messages(read_on_machine("G21 G90\nM66 P0 L3 Q5\nG1 X1 F60\nM2\n").lost),
                 ElementsAre(HasSubstr("part.ngc:2:1: nothing waits for an input")));
-    EXPECT_THAT(messages(read("G21 G90\nG96 D2000 S100 M3\nG1 X1 F60\nM2\n").lost),
+    EXPECT_THAT(messages(read_on_machine("G21 G90\nG96 D2000 S100 M3\nG1 X1 F60\nM2\n").lost),
                 ElementsAre(HasSubstr("G96")));
 }
 

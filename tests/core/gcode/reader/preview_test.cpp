@@ -26,7 +26,8 @@ struct Read {
     double seconds = 0.0, length = 0.0;
 };
 
-Read read(const std::string& text, std::shared_ptr<const kinematics::MachineModel> machine = nullptr) {
+Read read_preview(const std::string& text,
+                  std::shared_ptr<const kinematics::MachineModel> machine = nullptr) {
     Read result;
     ReaderSettings settings;
     settings.any_tool = true;
@@ -70,7 +71,7 @@ std::string random_moves(int count) {
 
 TEST(Preview, KeepsEachMoveWithItsPlaceKindAndLine) {
     constexpr int moves = 70'000; // more than a chunk
-    const Read got = read(random_moves(moves));
+    const Read got = read_preview(random_moves(moves));
     ASSERT_EQ(got.path.point_count(), moves + 1);
     ASSERT_EQ(got.path.chunks.size(), 2U);
     std::mt19937 random(274);
@@ -86,7 +87,7 @@ TEST(Preview, KeepsEachMoveWithItsPlaceKindAndLine) {
 
 TEST(Preview, TakesAtMost32BytesAMoveWithItsCopyForTheGraphics) {
     constexpr int moves = 200'000;
-    const Read got = read(random_moves(moves));
+    const Read got = read_preview(random_moves(moves));
     constexpr std::size_t on_graphics = 8; // ui/render/path_drawer.h
     const std::size_t bytes = got.path.bytes() + got.execution.bytes() + on_graphics * moves;
     EXPECT_LE(static_cast<double>(bytes) / moves, 32.0);
@@ -94,8 +95,8 @@ TEST(Preview, TakesAtMost32BytesAMoveWithItsCopyForTheGraphics) {
 
 TEST(Preview, SaysWhatIsInForceAfterAnyStep) {
     const Read got =
-        read("G21 F100\nG1 X1\nM3 S500\nG20 G91\no100 repeat [3]\nF[#<_feed> + 1]\nX1\nG0 Z1\n"
-             "o100 endrepeat\nG10 L2 P2 X1 Y2\nG55 G92 X3\nG54 T4 M6\nM8\nG43.1 Z2\nG18\nM5\nM2\n");
+        read_preview("G21 F100\nG1 X1\nM3 S500\nG20 G91\no100 repeat [3]\nF[#<_feed> + 1]\nX1\nG0 Z1\n"
+                     "o100 endrepeat\nG10 L2 P2 X1 Y2\nG55 G92 X3\nG54 T4 M6\nM8\nG43.1 Z2\nG18\nM5\nM2\n");
     ASSERT_EQ(got.execution.count(), got.lines.size());
     for (Step step = 0; step < got.execution.count(); ++step) {
         const ModalState& is = got.states[step];
@@ -119,7 +120,7 @@ TEST(Preview, SaysWhatIsInForceAfterAnyStep) {
 }
 
 TEST(Preview, FindsTheFirstExecutionOfALine) {
-    const Read got = read("F100\no100 repeat [5]\nG1 X1\nX0\no100 endrepeat\n(behind)\nM2\n");
+    const Read got = read_preview("F100\no100 repeat [5]\nG1 X1\nX0\no100 endrepeat\n(behind)\nM2\n");
     for (std::int32_t line = 1; line <= 7; ++line) {
         const auto first = std::ranges::find(got.lines, line);
         const auto step = got.execution.step_of(line, line);
@@ -132,7 +133,7 @@ TEST(Preview, FindsTheFirstExecutionOfALine) {
 }
 
 TEST(Preview, FollowsArcsWithinTheTolerance) {
-    const Read got = read("G21 G90 F100\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 Z5\nM2\n");
+    const Read got = read_preview("G21 G90 F100\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 Z5\nM2\n");
     const auto [first, end] = got.path.points_of(2);
     ASSERT_GT(end - first, 40);
     double length = 0.0;
@@ -146,7 +147,7 @@ TEST(Preview, FollowsArcsWithinTheTolerance) {
 TEST(Preview, DrawsTheTipOnAFiveAxisMachine) {
     const auto machine = std::make_shared<const kinematics::MachineModel>(
         kinematics::read_machine("assets/machines/ac-table.json"));
-    const Read got = read("G21 G90 F100\nG1 X10 Y5 Z-3 A20 C-40\nM2\n", machine);
+    const Read got = read_preview("G21 G90 F100\nG1 X10 Y5 Z-3 A20 C-40\nM2\n", machine);
     kinematics::AxisPositions axes = kinematics::AxisPositions::Zero(machine->axis_count());
     const auto set = [&](char letter, double value) { axes[machine->axis_index(letter)] = value; };
     set('X', 10.0);
@@ -160,12 +161,12 @@ TEST(Preview, DrawsTheTipOnAFiveAxisMachine) {
 }
 
 TEST(Preview, TakesToolLengthOffsetsOutOfTheTip) {
-    const Read got = read("G21 G90 F100\nG43.1 Z50\nG1 X1 Z2\nM2\n");
+    const Read got = read_preview("G21 G90 F100\nG43.1 Z50\nG1 X1 Z2\nM2\n");
     EXPECT_LT((got.path.point(got.path.point_count() - 1).position() - Vec3(1.0, 0.0, 2.0)).norm(), 1e-5);
 }
 
 TEST(Preview, CoarseLevelsAreOffByNoMoreThanTheySay) {
-    const Read got = read(random_moves(3000));
+    const Read got = read_preview(random_moves(3000));
     const auto distance = [](const Vec3& p, const Vec3& a, const Vec3& b) {
         const double length = (b - a).squaredNorm();
         const double t = length > 0.0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
@@ -194,7 +195,7 @@ TEST(Preview, CoarseLevelsAreOffByNoMoreThanTheySay) {
 }
 
 TEST(Preview, TimeAndPlaceUndoEachOther) {
-    const Read got = read(random_moves(70'000));
+    const Read got = read_preview(random_moves(70'000));
     double sum = 0.0;
     for (const auto& chunk : got.path.chunks) {
         EXPECT_NEAR(chunk->start_time, sum, 1e-6 * got.seconds);

@@ -7,7 +7,7 @@
 #include <random>
 #include <string_view>
 
-namespace millwright::gcode::test {
+namespace millwright::test {
 
 namespace {
 
@@ -255,7 +255,7 @@ void machine_coordinates(Writer& w) {
 
 } // namespace
 
-std::string random_program(unsigned seed) {
+std::string random_program_text(unsigned seed) {
     using Make = void (*)(Writer&);
     constexpr std::array<Make, 24> makers{straight,
                                           straight,
@@ -329,4 +329,4 @@ std::string random_contour(unsigned seed) {
     return w.text();
 }
 
-} // namespace millwright::gcode::test
+} // namespace millwright::test

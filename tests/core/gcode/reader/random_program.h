@@ -4,12 +4,12 @@
 
 #include <string>
 
-namespace millwright::gcode::test {
+namespace millwright::test {
 
 /// Moves, arcs, cycles, offsets, expressions, loops and settings in any mixture.
-[[nodiscard]] std::string random_program(unsigned seed);
+[[nodiscard]] std::string random_program_text(unsigned seed);
 
 /// A contour of lines and arcs under cutter compensation, often one that the tool cannot follow.
 [[nodiscard]] std::string random_contour(unsigned seed);
 
-} // namespace millwright::gcode::test
+} // namespace millwright::test

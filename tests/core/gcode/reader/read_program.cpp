@@ -4,24 +4,24 @@
 
 #include <stdexcept>
 
-namespace millwright::gcode::test {
+namespace millwright::test {
 
 namespace {
 
-class Keeper final : public CanonSink {
+class CanonKeeper final : public gcode::CanonSink {
 public:
-    explicit Keeper(ReadProgram& into)
+    explicit CanonKeeper(ReadProgram& into)
         : into_(into), printer_([this](std::string_view text) { text_ += text; }) {}
 
-    void move(const Move& move, const SourceLine& now) override {
+    void move(const gcode::Move& move, const gcode::SourceLine& now) override {
         into_.moves.push_back(move);
         printer_.move(move, now);
     }
-    void curve(const Curve& curve, const SourceLine& now) override {
+    void curve(const gcode::Curve& curve, const gcode::SourceLine& now) override {
         into_.curves.push_back({{curve.points.begin(), curve.points.end()}, curve.order});
         printer_.curve(curve, now);
     }
-    void command(const Command& command, const SourceLine& now) override {
+    void command(const gcode::Command& command, const gcode::SourceLine& now) override {
         into_.commands.push_back({command, std::string(command.text)});
         into_.commands.back().command.text = {};
         printer_.command(command, now);
@@ -41,7 +41,7 @@ public:
 
 private:
     ReadProgram& into_;
-    CanonPrinter printer_;
+    gcode::CanonPrinter printer_;
     std::string text_;
 };
 
@@ -57,10 +57,10 @@ std::vector<std::string> ReadProgram::lines_of(std::string_view word) const {
     return found;
 }
 
-ReadProgram read_all(const std::string& text, const ReaderSettings& settings) {
+ReadProgram read_all(const std::string& text, const gcode::ReaderSettings& settings) {
     ReadProgram result;
-    Keeper keeper(result);
-    Interpreter program(text, "test.ngc", settings, keeper);
+    CanonKeeper keeper(result);
+    gcode::Interpreter program(text, "test.ngc", settings, keeper);
     program.run();
     keeper.finish();
     result.errors = program.errors();
@@ -69,7 +69,7 @@ ReadProgram read_all(const std::string& text, const ReaderSettings& settings) {
     return result;
 }
 
-ReadProgram read(const std::string& text, const ReaderSettings& settings) {
+ReadProgram read(const std::string& text, const gcode::ReaderSettings& settings) {
     return read_all(text + "\nM2\n", settings);
 }
 
@@ -79,13 +79,14 @@ std::vector<std::array<double, 3>> ends_of(const std::string& text) {
         throw std::runtime_error(to_text(program.errors.front()));
     }
     std::vector<std::array<double, 3>> ends;
-    for (const Move& move : program.moves) {
-        ends.push_back({move.target[Axis::x], move.target[Axis::y], move.target[Axis::z]});
+    for (const gcode::Move& move : program.moves) {
+        ends.push_back(
+            {move.target[gcode::Axis::x], move.target[gcode::Axis::y], move.target[gcode::Axis::z]});
     }
     return ends;
 }
 
-std::string error_of(const std::string& text, const ReaderSettings& settings) {
+std::string error_of(const std::string& text, const gcode::ReaderSettings& settings) {
     const ReadProgram program = read(text, settings);
     if (program.errors.empty()) {
         return {};
@@ -94,4 +95,4 @@ std::string error_of(const std::string& text, const ReaderSettings& settings) {
     return std::to_string(found.place.line) + ":" + std::to_string(found.place.column) + ": " + found.message;
 }
 
-} // namespace millwright::gcode::test
+} // namespace millwright::test

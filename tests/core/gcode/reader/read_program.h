@@ -7,26 +7,26 @@
 #include <string_view>
 #include <vector>
 
-namespace millwright::gcode::test {
+namespace millwright::test {
 
 /// A curve, with its points kept.
 struct KeptCurve {
-    std::vector<ControlPoint> points;
+    std::vector<gcode::ControlPoint> points;
     int order = 0;
 };
 
 struct KeptCommand {
-    Command command; ///< without its text
+    gcode::Command command; ///< without its text
     std::string text;
 };
 
 struct ReadProgram {
     std::vector<std::string> canon; ///< as rs274 prints it, without the numbers before each line
-    std::vector<Move> moves;
+    std::vector<gcode::Move> moves;
     std::vector<KeptCurve> curves;
     std::vector<KeptCommand> commands;
     std::vector<Diagnostic> errors;
-    ModalState state;
+    gcode::ModalState state;
     int lines = 0;
 
     /// The canonical lines that begin with `word`.
@@ -34,15 +34,15 @@ struct ReadProgram {
 };
 
 /// Reads `text` with M2 behind it.
-[[nodiscard]] ReadProgram read(const std::string& text, const ReaderSettings& settings = {});
+[[nodiscard]] ReadProgram read(const std::string& text, const gcode::ReaderSettings& settings = {});
 
 /// Reads `text` as it is.
-[[nodiscard]] ReadProgram read_all(const std::string& text, const ReaderSettings& settings = {});
+[[nodiscard]] ReadProgram read_all(const std::string& text, const gcode::ReaderSettings& settings = {});
 
 /// Where the moves of `text` end, X Y Z only. Throws std::runtime_error if the program is refused.
 [[nodiscard]] std::vector<std::array<double, 3>> ends_of(const std::string& text);
 
 /// The single error of `text` with M2 behind it, as line:column: message; empty if there is none.
-[[nodiscard]] std::string error_of(const std::string& text, const ReaderSettings& settings = {});
+[[nodiscard]] std::string error_of(const std::string& text, const gcode::ReaderSettings& settings = {});
 
-} // namespace millwright::gcode::test
+} // namespace millwright::test

@@ -1,5 +1,6 @@
 // What a model of the thesis's processor has to do, one test a promise, from the core of the arithmetic to
 // the programs that run on it. The folders' own tests go deeper.
+#include "core/base/units.h"
 #include "core/cordic/comparison.h"
 #include "core/cordic/disassembler.h"
 #include "core/cordic/fold.h"
@@ -35,8 +36,6 @@ using cordic::Kernel;
 using cordic::thesis_sequence;
 namespace golden = cordic::golden;
 
-constexpr double pi = 3.14159265358979323846;
-
 template <class Number> Kernel<FloatArithmetic<Number>> kernel() {
     return {FloatArithmetic<Number>(), thesis_sequence()};
 }
@@ -47,7 +46,7 @@ CordicProgramSettings in_binary64() {
     return settings;
 }
 
-CordicProgram compiled(const std::string& text, const CordicProgramSettings& settings) {
+CordicProgram compiled_thesis_program(const std::string& text, const CordicProgramSettings& settings) {
     CordicProgramBuilder builder("thesis.ngc", settings);
     Interpreter program(std::string_view(text), "thesis.ngc", {}, builder);
     program.run();
@@ -124,7 +123,7 @@ TEST(Thesis, PreAndPostMakeAnExactRoundTripThroughTheSectors) {
 }
 
 TEST(Thesis, SignOfZeroIsPositiveAndTheMatlabDefectIsASwitch) {
-    const CordicProgram program = compiled("G21 F30 G1 X8\nM2\n", in_binary64());
+    const CordicProgram program = compiled_thesis_program("G21 F30 G1 X8\nM2\n", in_binary64());
     EXPECT_NEAR(executed(program).set_point(executed(program).published()[0]).vx, 0.5, 2e-9);
     cordic::ProcessorSettings matlab;
     matlab.zero = cordic::SignOfZero::zero;
@@ -181,9 +180,11 @@ TEST(Thesis, ArcsOfAnyNumberOfChordsAndBothDirectionsReachTheirEnd) {
 
 TEST(Thesis, CompilerTakesAbsoluteAndIncrementalCentresAndRadiiAndReportsEndsThatDoNotMatch) {
     const CordicProgramSettings settings = in_binary64();
-    const CordicProgram relative = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", settings);
-    const CordicProgram absolute = compiled("G21 F60 G90.1 G0 X10 Y10\nG3 X5 Y5 I5 J10\nM2\n", settings);
-    const CordicProgram radius = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 R-5\nM2\n", settings);
+    const CordicProgram relative =
+        compiled_thesis_program("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", settings);
+    const CordicProgram absolute =
+        compiled_thesis_program("G21 F60 G90.1 G0 X10 Y10\nG3 X5 Y5 I5 J10\nM2\n", settings);
+    const CordicProgram radius = compiled_thesis_program("G21 F60 G0 X10 Y10\nG3 X5 Y5 R-5\nM2\n", settings);
     EXPECT_EQ(absolute.image, relative.image);
     EXPECT_EQ(radius.points.size(), relative.points.size());
     CordicProgramBuilder builder("thesis.ngc", settings);
@@ -195,7 +196,8 @@ TEST(Thesis, CompilerTakesAbsoluteAndIncrementalCentresAndRadiiAndReportsEndsTha
 }
 
 TEST(Thesis, TheLastChordLandsExactlyOnTheProgrammedEnd) {
-    const CordicProgram program = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", in_binary64());
+    const CordicProgram program =
+        compiled_thesis_program("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", in_binary64());
     const cordic::Processor processor = executed(program);
     const auto end = processor.set_point(processor.published().back());
     EXPECT_EQ(end.x, 5.0);
@@ -205,7 +207,8 @@ TEST(Thesis, TheLastChordLandsExactlyOnTheProgrammedEnd) {
 TEST(Thesis, ALineIs74ClocksOfCordicAndAChord111) {
     CordicProgramSettings settings = in_binary64();
     settings.arc_end = ArcEnd::rotated;
-    const CordicProgram program = compiled("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", settings);
+    const CordicProgram program =
+        compiled_thesis_program("G21 F60 G0 X10 Y10\nG3 X5 Y5 I-5 J0\nM2\n", settings);
     const cordic::Processor processor = executed(program);
     const auto chords = static_cast<std::int64_t>(processor.published().size()) - 1;
     EXPECT_EQ(processor.state().clocks.cordic, 74 + 111 * chords);
@@ -234,7 +237,7 @@ TEST(Thesis, SewingMissesItsDeadlineOnlyWhereTheComputationTakesLongerThanAStitc
 TEST(Thesis, ReferenceModelRunsSideBySideOverItsOwnPath) {
     const std::string path =
         "G21 G90.1 F60\nG1 X8\nY6\nX6\nG2 X4 Y4 I4 J6\nG1 X2\nG3 X0 Y2 I2 J2\nG1 Y0\nM2\n";
-    const CordicProgram program = compiled(path, in_binary64());
+    const CordicProgram program = compiled_thesis_program(path, in_binary64());
     const auto report = cordic::report_of(executed(program), program.points, 8e6);
     EXPECT_EQ(report.published, report.expected);
     EXPECT_LT(report.position_error, 1e-5);
@@ -245,7 +248,7 @@ TEST(Thesis, ReferenceModelRunsSideBySideOverItsOwnPath) {
 TEST(Thesis, TheExamplesOfTable21CompileToExactlyThoseInstructions) {
     const auto instructions = [](const std::string& text) {
         std::string names;
-        const CordicProgram program = compiled(text, in_binary64());
+        const CordicProgram program = compiled_thesis_program(text, in_binary64());
         for (std::span<const std::uint8_t> code(program.image.code); !code.empty();) {
             const auto found = cordic::decode(code, program.image.format);
             EXPECT_TRUE(found.has_value());
@@ -259,7 +262,8 @@ TEST(Thesis, TheExamplesOfTable21CompileToExactlyThoseInstructions) {
     EXPECT_EQ(instructions("G0 X5 Y5\nG0 X0 Y0\nM2\n"), "Vmax Amax XI YJ G00 XI YJ G00 M02 ");
     CordicProgramSettings rotated = in_binary64();
     rotated.arc_end = ArcEnd::rotated;
-    const CordicProgram arc = compiled("G21 F60 G90.1 G0 X0 Y100\nG2 X100 Y100 I50 J50\nM2\n", rotated);
+    const CordicProgram arc =
+        compiled_thesis_program("G21 F60 G90.1 G0 X0 Y100\nG2 X100 Y100 I50 J50\nM2\n", rotated);
     const std::string text = cordic::disassemble(arc.image);
     for (const char* wanted : {"MOV XI, 50", "MOV YJ, 50", "MOV Dz, ", "MOV N, ", "G02"}) {
         EXPECT_NE(text.find(wanted), std::string::npos) << wanted;
@@ -286,7 +290,7 @@ TEST(Thesis, ControlUnitBeginsAtZeroAndStopsWhereItsStackOfFourOverflowsOrIsEmpt
 TEST(Thesis, BusReadsWithAleThenPsenAndWritesWithAleThenWrAsAWaveform) {
     cordic::ProcessorSettings settings;
     settings.publishing = cordic::Publishing::bus;
-    const CordicProgram program = compiled("G0 X1\nM2\n", in_binary64());
+    const CordicProgram program = compiled_thesis_program("G0 X1\nM2\n", in_binary64());
     cordic::Processor processor(settings, program.image);
     cordic::VcdWriter waves(processor.format(), 8e6);
     bool addressed = false;
@@ -340,7 +344,8 @@ TEST(Thesis, FixedAndFloatVariantsHaveTheErrorsOfTheReport) {
 }
 
 TEST(Thesis, LogicIsScannedBesideTheMotionWithTimersAndInterlocks) {
-    const CordicProgram program = compiled("G21 F600\nM3 S100\nG1 X10\nM110\nG1 X0\nM30\n", in_binary64());
+    const CordicProgram program =
+        compiled_thesis_program("G21 F600\nM3 S100\nG1 X10\nM110\nG1 X0\nM30\n", in_binary64());
     cordic::Processor processor({}, program.image);
     cordic::Plc plc(cordic::assemble_plc("LD I0\nST HOLD\nLD U110\nTON T0, 200\nST FIN\n", "logic"));
     cordic::SupervisedSettings settings;
@@ -372,13 +377,13 @@ TEST(Thesis, ZeroLengthTinyAndHugeMovesEndInADefinedState) {
     CordicProgramSettings narrow;
     narrow.format = cordic::fixed_format(10, 6);
     narrow.acceleration = 100.0;
-    const CordicProgram still = compiled("G21 F60\nG1 X1\nG1 X1\nG1 X1.001\nM2\n", narrow);
+    const CordicProgram still = compiled_thesis_program("G21 F60\nG1 X1\nG1 X1\nG1 X1.001\nM2\n", narrow);
     EXPECT_EQ(still.warnings.size(), 2U);
     EXPECT_EQ(executed(still).published().size(), 1U);
-    const CordicProgram huge = compiled("G21 F60\nG1 X600\nM2\n", narrow);
+    const CordicProgram huge = compiled_thesis_program("G21 F60\nG1 X600\nM2\n", narrow);
     ASSERT_EQ(huge.faults.size(), 1U);
     EXPECT_EQ(huge.faults[0].place.column, 4);
-    const CordicProgram far = compiled("G21 F60\nG1 X-500\nG1 X500\nM2\n", narrow);
+    const CordicProgram far = compiled_thesis_program("G21 F60\nG1 X-500\nG1 X500\nM2\n", narrow);
     cordic::Processor processor({}, far.image);
     processor.run(10'000);
     EXPECT_EQ(processor.state().stop, cordic::Stop::overflow); // of the way, not of an end

@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string refusal(const std::function<void()>& what) {
+std::string driver_refusal(const std::function<void()>& what) {
     try {
         what();
     } catch (const Error& error) {
@@ -27,7 +27,7 @@ std::string refusal(const std::function<void()>& what) {
     return "nothing was refused";
 }
 
-MovedAxes router() {
+MovedAxes router_and_arm() {
     return {std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz")),
             kinematics::AxisPositions::Zero(3),
             1.0,
@@ -42,17 +42,17 @@ DriverChoice choice_of(DriverKind kind, std::string address = {}) {
     return choice;
 }
 
-constexpr std::array kinds{DriverKind::virtual_machine,
-                           DriverKind::grbl,
-                           DriverKind::linuxcnc,
-                           DriverKind::stream,
-                           DriverKind::cordic,
-                           DriverKind::pmac};
+constexpr std::array driver_kinds{DriverKind::virtual_machine,
+                                  DriverKind::grbl,
+                                  DriverKind::linuxcnc,
+                                  DriverKind::stream,
+                                  DriverKind::cordic,
+                                  DriverKind::pmac};
 
 TEST(MakeDriver, MakesEachKindUnderItsName) {
     SteadyClock clock;
-    for (const DriverKind kind : kinds) {
-        const auto driver = make_driver(choice_of(kind, "tcp:127.0.0.1:9"), router(), clock);
+    for (const DriverKind kind : driver_kinds) {
+        const auto driver = make_driver(choice_of(kind, "tcp:127.0.0.1:9"), router_and_arm(), clock);
         EXPECT_EQ(driver->name(), to_text(kind));
         EXPECT_EQ(driver_kind(driver->name()), kind);
         EXPECT_EQ(driver->status().state, DriverState::disconnected) << driver->name();
@@ -73,20 +73,21 @@ TEST(MakeDriver, TellsThatLinuxCncJogsThreeAxesAndOverridesTheFeedAlone) {
 TEST(MakeDriver, RefusesWhatItCannotMake) {
     SteadyClock clock;
     for (const DriverKind kind : {DriverKind::grbl, DriverKind::linuxcnc, DriverKind::stream}) {
-        EXPECT_THAT(refusal([&] { (void)make_driver(choice_of(kind), router(), clock); }),
+        EXPECT_THAT(driver_refusal([&] { (void)make_driver(choice_of(kind), router_and_arm(), clock); }),
                     HasSubstr("no port is named"));
     }
     for (const DriverKind kind : {DriverKind::virtual_machine, DriverKind::stream, DriverKind::cordic}) {
         const DriverChoice choice = choice_of(kind, "tcp:127.0.0.1:9");
-        EXPECT_THAT(refusal([&] { (void)make_driver(choice, {}, clock); }), HasSubstr("no machine yet"));
+        EXPECT_THAT(driver_refusal([&] { (void)make_driver(choice, {}, clock); }),
+                    HasSubstr("no machine yet"));
     }
     EXPECT_THAT(
-        refusal([&] { (void)make_driver(choice_of(DriverKind::pmac, "tcp:127.0.0.1:9"), {}, clock); }),
+        driver_refusal([&] { (void)make_driver(choice_of(DriverKind::pmac, "tcp:127.0.0.1:9"), {}, clock); }),
         HasSubstr("no arm"));
     DriverChoice axes = choice_of(DriverKind::linuxcnc, "tcp:127.0.0.1:9");
     axes.axes = "XYW";
-    EXPECT_THAT(refusal([&] { (void)make_driver(axes, {}, clock); }), HasSubstr("XYW"));
-    EXPECT_THAT(refusal([] { (void)driver_kind("marlin"); }), HasSubstr("marlin"));
+    EXPECT_THAT(driver_refusal([&] { (void)make_driver(axes, {}, clock); }), HasSubstr("XYW"));
+    EXPECT_THAT(driver_refusal([] { (void)driver_kind("marlin"); }), HasSubstr("marlin"));
 }
 
 TEST(MakeDriver, SendsAStreamIntoAFileFasterThanItsPeriod) {
@@ -94,7 +95,7 @@ TEST(MakeDriver, SendsAStreamIntoAFileFasterThanItsPeriod) {
     SteadyClock clock;
     DriverChoice choice = choice_of(DriverKind::stream, "file:" + (scratch / "out.txt").string());
     choice.period = 1.0; // paced, this would be an hour
-    const auto driver = make_driver(choice, router(), clock);
+    const auto driver = make_driver(choice, router_and_arm(), clock);
     driver->connect();
     (void)driver->command("G21 G91 G94 G1 X100 F1.7");
     while (driver->status().activity != Activity::none) {

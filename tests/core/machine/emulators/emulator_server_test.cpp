@@ -73,7 +73,7 @@ private:
     double silence_ = 0.0;
 };
 
-struct Bench {
+struct EmulatorServerBench {
     static constexpr double silence = 0.01;
     std::atomic<int> reads = 0; // outlives the server's thread
     WoundClock clock;
@@ -81,7 +81,7 @@ struct Bench {
     TimedEmulator* emulator = nullptr;
     std::unique_ptr<EmulatorServer> server;
 
-    Bench() {
+    EmulatorServerBench() {
         std::vector<std::unique_ptr<Link>> links;
         links.push_back(std::make_unique<WordLink>(reads));
         link = static_cast<WordLink*>(links.front().get());
@@ -111,7 +111,7 @@ struct Bench {
 
 // As the PMAC driver polls: a line every 20 ms, and its end as soon as the card has told the line's sum.
 TEST(EmulatorServer, RunsAtItsTrueSpeedForAHostThatAsksEveryTwoOfItsSilences) {
-    Bench bench;
+    EmulatorServerBench bench;
     for (int poll = 0; poll < 50; ++poll) {
         bench.link->say("#1P\x0E");
         bench.pass(1);
@@ -121,20 +121,20 @@ TEST(EmulatorServer, RunsAtItsTrueSpeedForAHostThatAsksEveryTwoOfItsSilences) {
     const auto [time, silence] = bench.time_and_silence();
     EXPECT_GT(time, 0.97);
     EXPECT_LT(time, 1.0 + 1e-9);
-    EXPECT_LT(silence, Bench::silence + 1e-9);
+    EXPECT_LT(silence, EmulatorServerBench::silence + 1e-9);
 }
 
 TEST(EmulatorServer, StandsStillForASilentHostAndDoesNotMakeUpForThat) {
-    Bench bench;
+    EmulatorServerBench bench;
     bench.pass(3000);
-    EXPECT_LT(bench.time_and_silence().first, Bench::silence + 1e-9);
+    EXPECT_LT(bench.time_and_silence().first, EmulatorServerBench::silence + 1e-9);
     for (int word = 0; word < 100; ++word) {
         bench.link->say("?");
         bench.pass(1);
     }
     const auto [time, silence] = bench.time_and_silence();
-    EXPECT_LT(time, Bench::silence + 0.05 + 0.1 + 1e-9); // no more than one short wait
-    EXPECT_LT(silence, Bench::silence + 1e-9);
+    EXPECT_LT(time, EmulatorServerBench::silence + 0.05 + 0.1 + 1e-9); // no more than one short wait
+    EXPECT_LT(silence, EmulatorServerBench::silence + 1e-9);
 }
 
 } // namespace

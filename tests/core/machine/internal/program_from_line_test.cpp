@@ -35,7 +35,7 @@ Job surface_job(const std::string& machine_name, const std::string& preset) {
 }
 
 /// Pockets in a plate, one below the other.
-Job router_job() {
+Job pocketing_job() {
     const auto router = test::machine("router-xyz");
     gcode::Program program = test::empty_program(router);
     test::add_block(program, BlockKind::spindle_on);
@@ -136,7 +136,7 @@ TEST(ProgramFromLine, ComesToEachLineFromAboveAndGoesOnAsTheProgramDoes) {
     std::mt19937 random(3);
     int begun = 0;
     for (const Job& job :
-         {surface_job("rotary-tilt-listing", "dome"), surface_job("ac-table", "two-bell"), router_job()}) {
+         {surface_job("rotary-tilt-listing", "dome"), surface_job("ac-table", "two-bell"), pocketing_job()}) {
         for (int line = 1; line <= job.listing->line_count(); ++line) {
             Job rest;
             try {
@@ -208,7 +208,7 @@ TEST(ProgramFromLine, GoesDownAsFastAsTheFileThatWasReadDoes) {
 }
 
 TEST(ProgramFromLine, RefusesLinesThatCannotBeBegun) {
-    const Job job = router_job();
+    const Job job = pocketing_job();
     const auto refusal = [&](int line, std::optional<double> clearance = {}) {
         try {
             RunFromSettings settings;

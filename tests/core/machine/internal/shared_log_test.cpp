@@ -14,28 +14,28 @@
 namespace millwright::machine::internal {
 namespace {
 
-constexpr int blocks = 100'000;
+constexpr int logged_blocks = 100'000;
 
-struct Bench {
+struct SharedLogBench {
     test::TemporaryFolder folder;
     test::ManualClock clock;
     JobLog file{folder.path(), "job"};
     LogRecord before;
     std::unique_ptr<SharedLog> log;
 
-    Bench() {
+    SharedLogBench() {
         LogStart start;
         start.axes = {{'X', kinematics::AxisKind::linear}};
-        start.blocks = blocks;
+        start.blocks = logged_blocks;
         file.write(start);
         before.position = kinematics::AxisPositions::Zero(1);
-        log = std::make_unique<SharedLog>(file, clock, clock.now(), blocks, before);
+        log = std::make_unique<SharedLog>(file, clock, clock.now(), logged_blocks, before);
     }
     [[nodiscard]] ReadLog read() const { return read_job_log(file.file()); }
 };
 
 TEST(SharedLog, AllowsASlowStreamBlockByBlock) {
-    Bench bench;
+    SharedLogBench bench;
     EXPECT_EQ(bench.log->allow(1), 1);
     for (int sent = 1; sent < 50; ++sent) {
         bench.clock.wait(0.2);
@@ -45,7 +45,7 @@ TEST(SharedLog, AllowsASlowStreamBlockByBlock) {
 }
 
 TEST(SharedLog, AllowsAFastStreamWhatItSendsInAFiftiethOfASecond) {
-    Bench bench;
+    SharedLogBench bench;
     int allowed = 0;
     for (int sent = 0; sent < 10'000; ++sent) {
         if (sent == allowed) {
@@ -62,14 +62,14 @@ TEST(SharedLog, AllowsAFastStreamWhatItSendsInAFiftiethOfASecond) {
 }
 
 TEST(SharedLog, NeverAllowsMoreThanThereIs) {
-    Bench bench;
-    EXPECT_EQ(bench.log->allow(blocks), blocks);
-    EXPECT_EQ(bench.read().allowed_blocks(), blocks);
-    EXPECT_EQ(bench.log->allow(1), blocks); // what is allowed stays so
+    SharedLogBench bench;
+    EXPECT_EQ(bench.log->allow(logged_blocks), logged_blocks);
+    EXPECT_EQ(bench.read().allowed_blocks(), logged_blocks);
+    EXPECT_EQ(bench.log->allow(1), logged_blocks); // what is allowed stays so
 }
 
 TEST(SharedLog, SaysInEachLineWhatWasExecutedBefore) {
-    Bench bench;
+    SharedLogBench bench;
     LogRecord executed = bench.before;
     executed.executed_blocks = 7;
     executed.line = 9;
@@ -86,7 +86,7 @@ TEST(SharedLog, SaysInEachLineWhatWasExecutedBefore) {
 }
 
 TEST(SharedLog, AllowsNothingMoreOnceItIsClosed) {
-    Bench bench;
+    SharedLogBench bench;
     EXPECT_EQ(bench.log->allow(3), 3);
     bench.log->close();
     EXPECT_EQ(bench.log->allow(4), 3);
@@ -115,7 +115,7 @@ private:
 };
 
 TEST(SharedLog, AllowsNothingThatItCannotWriteDown) {
-    Bench bench;
+    SharedLogBench bench;
     EXPECT_EQ(bench.log->allow(3), 3);
     {
         const FullDisk full;
@@ -126,7 +126,7 @@ TEST(SharedLog, AllowsNothingThatItCannotWriteDown) {
 }
 
 TEST(SharedLog, IsWrittenByTwoThreadsLineByLine) {
-    Bench bench;
+    SharedLogBench bench;
     std::jthread driver([&] {
         for (int n = 1; n <= 2000; ++n) {
             (void)bench.log->allow(50 * n);
@@ -140,7 +140,7 @@ TEST(SharedLog, IsWrittenByTwoThreadsLineByLine) {
     driver.join();
     const ReadLog read = bench.read(); // throws for a line that is none
     EXPECT_EQ(std::ranges::count(read.records, LogEvent::executed, &LogRecord::event), 2000);
-    EXPECT_EQ(read.allowed_blocks(), blocks);
+    EXPECT_EQ(read.allowed_blocks(), logged_blocks);
     EXPECT_TRUE(std::ranges::is_sorted(read.records, {}, &LogRecord::executed_blocks));
 }
 

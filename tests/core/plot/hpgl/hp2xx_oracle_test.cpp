@@ -21,7 +21,7 @@
 namespace millwright::plot {
 namespace {
 
-constexpr double tolerance = 0.05; // mm
+constexpr double hp2xx_tolerance = 0.05; // mm
 
 /// What hp2xx's simplified HPGL holds: vectors in plotter units.
 struct Drawing {
@@ -30,7 +30,7 @@ struct Drawing {
 };
 
 // hp2xx counts its output from the corner that it is given, in plotter units.
-constexpr double corner = -20000.0;
+constexpr double plotter_corner = -20000.0;
 constexpr double mm_per_unit = 0.025;
 
 Drawing drawing_in(const std::string& text, bool has_circles) {
@@ -47,7 +47,7 @@ Drawing drawing_in(const std::string& text, bool has_circles) {
         if (command.rfind("SP", 0) == 0) {
             pen = std::stoi(command.substr(2));
         } else if (std::sscanf(command.c_str(), "P%*1[UD]%lf,%lf", &x, &y) == 2) {
-            const Vec2 to = (Vec2(x, y) + Vec2(corner, corner)) * mm_per_unit;
+            const Vec2 to = (Vec2(x, y) + Vec2(plotter_corner, plotter_corner)) * mm_per_unit;
             // It draws the first chord of a circle once more at the end.
             const std::array<long, 4> vector = {std::lround(1e3 * at.x()),
                                                 std::lround(1e3 * at.y()),
@@ -99,15 +99,15 @@ protected:
         const auto box = extents(ours.strokes);
         const auto their_box = extents(theirs.strokes);
         ASSERT_TRUE(box && their_box);
-        EXPECT_LT((box->lower - their_box->lower).cwiseAbs().maxCoeff(), tolerance)
+        EXPECT_LT((box->lower - their_box->lower).cwiseAbs().maxCoeff(), hp2xx_tolerance)
             << box->lower.transpose() << " theirs " << their_box->lower.transpose();
-        EXPECT_LT((box->upper - their_box->upper).cwiseAbs().maxCoeff(), tolerance)
+        EXPECT_LT((box->upper - their_box->upper).cwiseAbs().maxCoeff(), hp2xx_tolerance)
             << box->upper.transpose() << " theirs " << their_box->upper.transpose();
         const std::map<int, double> lengths = lengths_of(ours.strokes);
         for (const auto& [pen, length] : theirs.length) {
             const auto known = lengths.find(pen);
             ASSERT_TRUE(known != lengths.end()) << "pen " << pen;
-            EXPECT_NEAR(known->second, length, tolerance) << "pen " << pen;
+            EXPECT_NEAR(known->second, length, hp2xx_tolerance) << "pen " << pen;
         }
         EXPECT_EQ(lengths.size(), theirs.length.size());
     }

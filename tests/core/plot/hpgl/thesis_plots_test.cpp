@@ -14,7 +14,7 @@ namespace {
 
 constexpr double printed = 1e-4; // mm
 
-Strokes strokes_of(const std::string& hpgl) {
+Strokes clean_strokes_of(const std::string& hpgl) {
     const Plot plot = read_hpgl(hpgl, "thesis.plt");
     EXPECT_TRUE(plot.diagnostics.empty()) << to_text(plot.diagnostics.front());
     return plot.strokes;
@@ -52,7 +52,7 @@ TEST(ThesisPlots, FirstExampleIsOneRunOfFourPoints) {
 }
 
 TEST(ThesisPlots, SecondExampleIsTwoPensWithOneRunEach) {
-    const Strokes strokes = strokes_of(test::second_example());
+    const Strokes strokes = clean_strokes_of(test::second_example());
     ASSERT_EQ(strokes.size(), 2U);
     EXPECT_EQ(strokes[0].pen, 0);
     EXPECT_EQ(strokes[1].pen, 1);
@@ -61,7 +61,7 @@ TEST(ThesisPlots, SecondExampleIsTwoPensWithOneRunEach) {
 }
 
 TEST(ThesisPlots, OutlineOfTheEngravingHasItsLength) {
-    const Strokes strokes = strokes_of(test::outline_fa());
+    const Strokes strokes = clean_strokes_of(test::outline_fa());
     ASSERT_EQ(strokes.size(), 1U);
     EXPECT_NEAR(draw_length(strokes), 14.4582, printed);
     expect_points(strokes[0],
@@ -69,11 +69,11 @@ TEST(ThesisPlots, OutlineOfTheEngravingHasItsLength) {
 }
 
 TEST(ThesisPlots, HatchesOfTheEngravingHaveTheirLengths) {
-    const Strokes fb = strokes_of(test::hatch_fb());
+    const Strokes fb = clean_strokes_of(test::hatch_fb());
     EXPECT_EQ(fb.size(), 6U);
     EXPECT_NEAR(draw_length(fb), 67.8, printed);
     expect_levels(fb, {2984, 3048, 3111, 3175, 3238, 3302});
-    const Strokes fcd = strokes_of(test::hatch_fc_fd());
+    const Strokes fcd = clean_strokes_of(test::hatch_fc_fd());
     ASSERT_EQ(fcd.size(), 13U);
     EXPECT_NEAR(draw_length(fcd), 230.35, printed);
     expect_levels(std::span(fcd).first(9), {2095, 2159, 2222, 2286, 2349, 2413, 2476, 2540, 2603});
@@ -84,10 +84,10 @@ TEST(ThesisPlots, HatchesOfTheEngravingHaveTheirLengths) {
 }
 
 TEST(ThesisPlots, PlotListingHasItsLengths) {
-    const Strokes first = strokes_of(test::listing_start());
+    const Strokes first = clean_strokes_of(test::listing_start());
     ASSERT_EQ(first.size(), 1U);
     EXPECT_NEAR(draw_length(first), 14.4114, printed);
-    const Strokes later = strokes_of(test::listing_later_part());
+    const Strokes later = clean_strokes_of(test::listing_later_part());
     ASSERT_EQ(later.size(), 2U);
     EXPECT_NEAR(length(later[0]), 8.9952, printed);
     EXPECT_NEAR((later[1].points.front() - later[0].points.back()).norm(), 2.7104, printed);

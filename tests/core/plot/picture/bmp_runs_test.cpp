@@ -1,5 +1,6 @@
 #include "core/base/error.h"
 #include "core/plot/picture/picture.h"
+#include "tests/core/plot/picture/made_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,28 +13,21 @@ namespace {
 using testing::HasSubstr;
 using Indices = std::vector<unsigned char>;
 
-void put(std::string& bytes, std::uint32_t value, int count) {
-    for (int n = 0; n < count; ++n) {
-        bytes.push_back(static_cast<char>(value));
-        value >>= 8U;
-    }
-}
-
 /// A BMP with a palette of grays n, of 4 or 8 bits.
 std::string bmp(int width, int height, int bits, std::uint32_t compression, const std::string& pixels) {
     const std::uint32_t colors = 1U << static_cast<unsigned>(bits);
     std::string bytes = "BM";
-    put(bytes, 0, 8);
-    put(bytes, 54 + 4 * colors, 4);
-    put(bytes, 40, 4);
-    put(bytes, static_cast<std::uint32_t>(width), 4);
-    put(bytes, static_cast<std::uint32_t>(height), 4);
-    put(bytes, 1, 2);
-    put(bytes, static_cast<std::uint32_t>(bits), 2);
-    put(bytes, compression, 4);
-    put(bytes, 0, 4 * 5);
+    append_little_endian(bytes, 0, 8);
+    append_little_endian(bytes, 54 + 4 * colors, 4);
+    append_little_endian(bytes, 40, 4);
+    append_little_endian(bytes, static_cast<std::uint32_t>(width), 4);
+    append_little_endian(bytes, static_cast<std::uint32_t>(height), 4);
+    append_little_endian(bytes, 1, 2);
+    append_little_endian(bytes, static_cast<std::uint32_t>(bits), 2);
+    append_little_endian(bytes, compression, 4);
+    append_little_endian(bytes, 0, 4 * 5);
     for (std::uint32_t n = 0; n < colors; ++n) {
-        put(bytes, n * 0x010101, 4);
+        append_little_endian(bytes, n * 0x010101, 4);
     }
     return bytes + pixels;
 }
@@ -58,7 +52,7 @@ Indices indices_of(const std::string& bytes) {
     return indices;
 }
 
-std::string error_of(const std::string& bytes) {
+std::string bmp_error(const std::string& bytes) {
     try {
         (void)read_picture(bytes, "runs.bmp", {});
     } catch (const Error& error) {
@@ -160,15 +154,16 @@ TEST(BmpRuns, JumpOverRowsAndEndBeforeTheTop) {
 }
 
 TEST(BmpRuns, SayWhereTheyAreWrong) {
-    EXPECT_THAT(error_of(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 5, 1, 0, 1}))),
+    EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 5, 1, 0, 1}))),
                 HasSubstr("the run at byte 1082 of the BMP ends at column 5 of 4"));
-    EXPECT_THAT(error_of(codes_bmp(4, 2, 8, of_bytes({0, 5, 1, 2, 3, 4, 5, 0}))),
+    EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 5, 1, 2, 3, 4, 5, 0}))),
                 HasSubstr("ends at column 5 of 4"));
-    EXPECT_THAT(error_of(codes_bmp(4, 2, 8, of_bytes({0, 2, 9, 0}))), HasSubstr("ends at column 9 of 4"));
-    EXPECT_THAT(error_of(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 3}))),
+    EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 2, 9, 0}))), HasSubstr("ends at column 9 of 4"));
+    EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 3}))),
                 HasSubstr("the BMP is cut off at byte 1083, before the code that ends it"));
-    EXPECT_THAT(error_of(codes_bmp(4, -2, 8, of_bytes({4, 1, 0, 1}))), HasSubstr("stored from the top down"));
-    EXPECT_THAT(error_of(codes_bmp(30'000, 30'000, 8, of_bytes({0, 1}))),
+    EXPECT_THAT(bmp_error(codes_bmp(4, -2, 8, of_bytes({4, 1, 0, 1}))),
+                HasSubstr("stored from the top down"));
+    EXPECT_THAT(bmp_error(codes_bmp(30'000, 30'000, 8, of_bytes({0, 1}))),
                 HasSubstr("cannot hold the 30000 x 30000 pixels of its head"));
 }
 

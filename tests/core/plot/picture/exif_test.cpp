@@ -44,14 +44,14 @@ std::string with_orientation(const std::string& jpeg, int orientation, bool litt
     return jpeg.substr(0, 2) + segment + jpeg.substr(2);
 }
 
-constexpr int columns = 40;
-constexpr int rows = 24;
+constexpr int exif_columns = 40;
+constexpr int exif_rows = 24;
 
 /// Squares of eight pixels in grays of their own, which JPEG keeps.
 std::string checkered() {
-    Samples samples{columns, rows, 1, {}};
-    for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) {
+    Samples samples{exif_columns, exif_rows, 1, {}};
+    for (int y = 0; y < exif_rows; ++y) {
+        for (int x = 0; x < exif_columns; ++x) {
             samples.values.push_back(static_cast<std::uint16_t>(16 * (x / 8 + 5 * (y / 8))));
         }
     }
@@ -66,10 +66,10 @@ TEST(ExifOrientation, LaysPicturesDownAsTheyWereSeen) {
             const Picture seen = read_picture(with_orientation(jpeg, n, little), "test").picture;
             const Orientation& is = orientations[static_cast<std::size_t>(n - 1)];
             const bool lies = is.row == Side::left || is.row == Side::right;
-            ASSERT_EQ(seen.width, lies ? rows : columns) << n;
-            ASSERT_EQ(seen.height, lies ? columns : rows) << n;
-            for (int r = 0; r < rows; ++r) {
-                for (int c = 0; c < columns; ++c) {
+            ASSERT_EQ(seen.width, lies ? exif_rows : exif_columns) << n;
+            ASSERT_EQ(seen.height, lies ? exif_columns : exif_rows) << n;
+            for (int r = 0; r < exif_rows; ++r) {
+                for (int c = 0; c < exif_columns; ++c) {
                     int x = 0;
                     int y = 0;
                     const auto put = [&](Side side, int from_it) {

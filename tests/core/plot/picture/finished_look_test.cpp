@@ -25,10 +25,10 @@ CutPath two_rows() {
     return path_of({{0.0, 0.0, 5.0}, {0.0, 0.0, -1.0}, {8.0, 0.0, -1.0}, {8.0, 0.8, -1.0}, {0.0, 0.8, -1.0}});
 }
 
-const ToolTip ball{TipKind::ball, 2.0};
+const ToolTip ball_tip{TipKind::ball, 2.0};
 
 TEST(FinishedLook, LeavesRidgesBetweenRows) {
-    const HeightField field = finished(two_rows(), ball, 500);
+    const HeightField field = finished(two_rows(), ball_tip, 500);
     // 8 + 2 mm along, so squares of 0.02 mm; the mouth begins at -1.
     EXPECT_NEAR(field.pitch, 0.02, 1e-12);
     const auto z = [&](double x, double y) {
@@ -45,9 +45,9 @@ TEST(FinishedLook, LeavesRidgesBetweenRows) {
 
 TEST(FinishedLook, IsTheSameOnAnyNumberOfThreads) {
     set_thread_count(1);
-    const HeightField one = finished(two_rows(), ball, 300);
+    const HeightField one = finished(two_rows(), ball_tip, 300);
     set_thread_count(7);
-    EXPECT_EQ(finished(two_rows(), ball, 300).z, one.z);
+    EXPECT_EQ(finished(two_rows(), ball_tip, 300).z, one.z);
     set_thread_count(0);
 }
 
@@ -57,9 +57,10 @@ TEST(FinishedLook, OfAThinPointIsNotEmpty) {
 }
 
 TEST(FinishedLook, RefusesPathsThatCutNothing) {
-    EXPECT_THROW(static_cast<void>(finished(path_of({{0.0, 0.0, 5.0}, {1.0, 0.0, 5.0}}), ball, 100)), Error);
-    EXPECT_THROW(static_cast<void>(finished({}, ball, 100)), Error);
-    EXPECT_THROW(static_cast<void>(finished(two_rows(), ball, 0)), Error);
+    EXPECT_THROW(static_cast<void>(finished(path_of({{0.0, 0.0, 5.0}, {1.0, 0.0, 5.0}}), ball_tip, 100)),
+                 Error);
+    EXPECT_THROW(static_cast<void>(finished({}, ball_tip, 100)), Error);
+    EXPECT_THROW(static_cast<void>(finished(two_rows(), ball_tip, 0)), Error);
 }
 
 /// Slopes that rise to the left, level, rise to the right.

@@ -51,6 +51,13 @@ void append(png_structp png, png_bytep bytes, std::size_t count) {
 
 } // namespace
 
+void append_little_endian(std::string& bytes, std::uint32_t value, int count) {
+    for (int n = 0; n < count; ++n) {
+        bytes.push_back(static_cast<char>(value));
+        value >>= 8U;
+    }
+}
+
 std::string png_of(const Samples& samples, const PngKind& kind) {
     std::string bytes;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -130,36 +137,28 @@ std::string jpeg_of(const Samples& samples, const JpegKind& kind) {
     return bytes;
 }
 
-namespace {
-
-void put(std::string& bytes, std::uint32_t value, int count) {
-    for (int n = 0; n < count; ++n) {
-        bytes.push_back(static_cast<char>(value));
-        value >>= 8U;
-    }
-}
-
-} // namespace
+namespace {} // namespace
 
 std::string bmp_of(const Samples& samples, int bits, bool top_down) {
     std::string bytes = "BM";
-    put(bytes, 0, 8);
-    put(bytes, 54, 4);
-    put(bytes, 40, 4);
-    put(bytes, static_cast<std::uint32_t>(samples.width), 4);
-    put(bytes, static_cast<std::uint32_t>(top_down ? -samples.height : samples.height), 4);
-    put(bytes, 1, 2);
-    put(bytes, static_cast<std::uint32_t>(bits), 2);
-    put(bytes, 0, 4 * 6);
+    append_little_endian(bytes, 0, 8);
+    append_little_endian(bytes, 54, 4);
+    append_little_endian(bytes, 40, 4);
+    append_little_endian(bytes, static_cast<std::uint32_t>(samples.width), 4);
+    append_little_endian(bytes, static_cast<std::uint32_t>(top_down ? -samples.height : samples.height), 4);
+    append_little_endian(bytes, 1, 2);
+    append_little_endian(bytes, static_cast<std::uint32_t>(bits), 2);
+    append_little_endian(bytes, 0, 4 * 6);
     for (int line = 0; line < samples.height; ++line) {
         const int row = top_down ? line : samples.height - 1 - line;
         for (int x = 0; x < samples.width; ++x) {
             for (int color = 2; color >= 0; --color) {
-                put(bytes,
+                append_little_endian(
+                    bytes,
                     samples.values[static_cast<std::size_t>((row * samples.width + x) * 3 + color)],
                     1);
             }
-            put(bytes, 0, bits / 8 - 3);
+            append_little_endian(bytes, 0, bits / 8 - 3);
         }
         while ((bytes.size() - 54) % 4 != 0) {
             bytes.push_back('\0');

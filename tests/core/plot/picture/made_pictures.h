@@ -37,6 +37,9 @@ struct JpegKind {
 /// 1, 3 or 4 channels of 8 bits: gray, RGB, inks.
 [[nodiscard]] std::string jpeg_of(const Samples& samples, const JpegKind& kind = {});
 
+/// The lowest `count` bytes of `value`, lowest first.
+void append_little_endian(std::string& bytes, std::uint32_t value, int count);
+
 /// 8 bits a channel, RGB; of `bits` 24 or 32, and upside down unless `top_down`.
 [[nodiscard]] std::string bmp_of(const Samples& samples, int bits, bool top_down);
 

@@ -10,7 +10,6 @@ constexpr int standard = 100; // percent
 constexpr int least = 10;
 constexpr int most = 200;
 constexpr int coarse = 10;
-constexpr double stale_time = 0.5; // s in which a report may still tell of the time before a byte
 
 constexpr char feed_standard = '\x90';  // then: +10, -10, +1, -1
 constexpr char rapid_standard = '\x95'; // then: 50, 25

@@ -10,6 +10,8 @@
 
 namespace millwright::machine::grbl {
 
+constexpr double stale_time = 0.5; ///< s in which a report may still tell of the time before a byte
+
 class OverrideSteps {
 public:
     /// The nearest that Grbl has: feed and spindle 10 to 200, rapid 100, 50 or 25 percent.

@@ -10,7 +10,7 @@ namespace millwright::machine::grbl {
 namespace {
 
 constexpr char jog_cancel_byte = '\x85';
-constexpr double repeat_time = 0.125; // s after which a cancel that had no effect is sent again
+constexpr double cancel_repeat_time = 0.125; // s after which a cancel that had no effect is sent again
 
 std::string jog_line(const internal::JogSlice& slice) {
     constexpr double seconds_per_minute = 60.0;
@@ -100,7 +100,7 @@ void Session::watch_jog(double now) {
     if (jog_until_ && now > *jog_until_) {
         stop_jog(now);
     }
-    if (jog_stopping_ && now - last_brake_ > repeat_time) {
+    if (jog_stopping_ && now - last_brake_ > cancel_repeat_time) {
         cancel_jog(now);
     }
 }

@@ -7,7 +7,6 @@ namespace {
 
 constexpr int report_inches = 13;
 constexpr double mm_per_inch = 25.4;
-constexpr double stale_time = 0.5; // s in which a report may still tell of the time before
 
 } // namespace
 

@@ -1,5 +1,7 @@
 #include "core/machine/emulators/grbl/internal/arcs.h"
 
+#include "core/machine/emulators/grbl/internal/error_codes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,8 +9,6 @@
 namespace millwright::machine::emulated {
 
 namespace {
-
-enum Fault { fine = 0, no_axis_in_plane = 32, bad_target = 33, bad_radius = 34, no_offset_in_plane = 35 };
 
 struct PlaneAxes {
     std::size_t first, second, normal;
@@ -19,7 +19,7 @@ PlaneAxes axes_of(int plane) {
 }
 
 struct Center {
-    int error = fine;
+    int error = error_code::none;
     double first = 0.0, second = 0.0; ///< seen from the beginning
     double radius = 0.0;
 };
@@ -27,11 +27,11 @@ struct Center {
 /// The two circles through both ends lie on either side of the chord; a negative radius means the longer way.
 Center center_by_radius(double x, double y, double radius, bool clockwise) {
     if (!(std::hypot(x, y) > 0.0)) {
-        return {.error = bad_target};
+        return {.error = error_code::bad_target};
     }
     const double square = 4.0 * radius * radius - x * x - y * y;
     if (square < 0.0) {
-        return {.error = bad_radius};
+        return {.error = error_code::bad_radius};
     }
     const double side = (clockwise == (radius > 0.0)) ? -1.0 : 1.0;
     const double height = side * std::sqrt(square) / std::hypot(x, y);
@@ -40,7 +40,7 @@ Center center_by_radius(double x, double y, double radius, bool clockwise) {
 
 Center center_by_offsets(const ArcWords& arc, const PlaneAxes& axes, double x, double y) {
     if (!arc.offset[axes.first] && !arc.offset[axes.second]) {
-        return {.error = no_offset_in_plane};
+        return {.error = error_code::no_offset_in_plane};
     }
     const double first = arc.offset[axes.first].value_or(0.0);
     const double second = arc.offset[axes.second].value_or(0.0);
@@ -50,7 +50,7 @@ Center center_by_offsets(const ArcWords& arc, const PlaneAxes& axes, double x, d
     constexpr double never_fine = 0.5;
     constexpr double fine_part = 0.001;
     if (difference > always_fine && (difference > never_fine || difference > fine_part * radius)) {
-        return {.error = bad_target};
+        return {.error = error_code::bad_target};
     }
     return {.first = first, .second = second, .radius = radius};
 }
@@ -60,13 +60,13 @@ Center center_by_offsets(const ArcWords& arc, const PlaneAxes& axes, double x, d
 ArcPoints arc_points(const ArcWords& arc) {
     const PlaneAxes axes = axes_of(arc.plane);
     if (!arc.has_axis[axes.first] && !arc.has_axis[axes.second]) {
-        return {.error = no_axis_in_plane, .points = {}};
+        return {.error = error_code::no_axis_in_plane, .points = {}};
     }
     const double x = arc.to[axes.first] - arc.from[axes.first];
     const double y = arc.to[axes.second] - arc.from[axes.second];
     const Center center =
         arc.radius ? center_by_radius(x, y, *arc.radius, arc.clockwise) : center_by_offsets(arc, axes, x, y);
-    if (center.error != fine) {
+    if (center.error != error_code::none) {
         return {.error = center.error, .points = {}};
     }
     constexpr double full = 2.0 * std::numbers::pi;

@@ -14,7 +14,6 @@ constexpr int search_rate = 25;
 constexpr int debounce_ms = 26;
 constexpr int pull_off = 27;
 constexpr int travel = 130;
-constexpr double seconds_per_minute = 60.0;
 
 } // namespace
 

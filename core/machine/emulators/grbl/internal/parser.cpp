@@ -2,6 +2,7 @@
 
 #include "core/base/numbers.h"
 #include "core/machine/emulators/grbl/internal/arcs.h"
+#include "core/machine/emulators/grbl/internal/error_codes.h"
 
 #include <fmt/format.h>
 
@@ -11,24 +12,6 @@ namespace millwright::machine::emulated {
 
 namespace {
 
-enum Fault {
-    fine = 0,
-    jog_with_other_words = 16,
-    no_such_command = 20,
-    no_feed = 22,
-    no_axes = 26,
-    bad_line_number = 27,
-    value_missing = 28,
-    no_such_offset = 29,
-    g53_without_line = 30,
-    axes_without_motion = 31,
-    bad_target = 33,
-    unused_words = 36,
-    wrong_length_axis = 37,
-    no_such_tool = 38
-};
-
-constexpr double mm_per_inch = 25.4;
 constexpr std::string_view axis_letters = "XYZ";
 
 class Parser {
@@ -51,7 +34,7 @@ public:
                                 &Parser::take_flow,
                                 &Parser::check_all_used}) {
             result_.error = (this->*step)();
-            if (result_.error != fine) {
+            if (result_.error != error_code::none) {
                 break;
             }
         }
@@ -65,11 +48,11 @@ public:
                             words_.cutter_off || words_.exact_path || words_.arc_distance ||
                             (words_.non_modal >= 0 && words_.non_modal != 530);
         const Modes before = result_.modes;
-        result_.error = others                                  ? jog_with_other_words
-                        : !words_.has_axes()                    ? no_axes
-                        : words_.value('F').value_or(0.0) > 0.0 ? fine
-                                                                : no_feed;
-        if (result_.error != fine) {
+        result_.error = others                                  ? error_code::bad_jog
+                        : !words_.has_axes()                    ? error_code::no_axes
+                        : words_.value('F').value_or(0.0) > 0.0 ? error_code::none
+                                                                : error_code::no_feed;
+        if (result_.error != error_code::none) {
             return result_;
         }
         (void)take_modes();
@@ -101,14 +84,14 @@ private:
         constexpr double greatest_tool = 255.0;
         use("NFST");
         if (words_.value('N').value_or(0.0) > greatest_line) {
-            return bad_line_number;
+            return error_code::bad_line_number;
         }
         if (words_.value('T').value_or(0.0) > greatest_tool) {
-            return no_such_tool;
+            return error_code::no_such_tool;
         }
         result_.line_number = static_cast<int>(words_.value('N').value_or(0.0));
         modes().tool = static_cast<int>(words_.value('T').value_or(modes().tool));
-        return fine;
+        return error_code::none;
     }
 
     int take_modes() {
@@ -131,7 +114,7 @@ private:
         if (words_.has_axes() && axis_use_ == AxisUse::none) {
             axis_use_ = AxisUse::motion;
         }
-        return fine;
+        return error_code::none;
     }
 
     /// In inverse time each move of a feed has its own F; else the last one counts.
@@ -143,14 +126,14 @@ private:
         const bool feeds = axis_use_ == AxisUse::motion && modes().motion != 0 && modes().motion != 800;
         if (modes().inverse_time) {
             modes().feed = words_.value('F').value_or(0.0);
-            return feeds && !words_.has('F') ? no_feed : fine;
+            return feeds && !words_.has('F') ? error_code::no_feed : error_code::none;
         }
         if (words_.has('F')) {
             modes().feed = *words_.value('F') * unit();
         } else if (was_inverse) {
             modes().feed = 0.0;
         }
-        return fine;
+        return error_code::none;
     }
 
     int take_switches() {
@@ -167,19 +150,19 @@ private:
             modes().mist = !words_.coolant_off && (modes().mist || words_.mist);
             add(Action::coolant);
         }
-        return fine;
+        return error_code::none;
     }
 
     int take_dwell() {
         if (words_.non_modal != 40) {
-            return fine;
+            return error_code::none;
         }
         if (!words_.has('P')) {
-            return value_missing;
+            return error_code::value_missing;
         }
         use("P");
         result_.tasks.push_back({.action = Action::dwell, .seconds = *words_.value('P')});
-        return fine;
+        return error_code::none;
     }
 
     int take_tool_length() {
@@ -188,20 +171,20 @@ private:
             modes().tool_length_offset = 0.0;
         } else if (words_.tool_length == 431) {
             if (words_.has('X') || words_.has('Y') || !words_.has('Z')) {
-                return wrong_length_axis;
+                return error_code::wrong_length_axis;
             }
             use("Z");
             modes().tool_length = true;
             modes().tool_length_offset = *words_.value('Z') * unit();
         }
-        return fine;
+        return error_code::none;
     }
 
     /// Where the axis words lead, in machine coordinates.
     int take_target() {
         target_ = modes().position;
         if (axis_use_ == AxisUse::none || axis_use_ == AxisUse::tool_length) {
-            return fine;
+            return error_code::none;
         }
         const Axes offset = work_offset(modes(), eeprom());
         for (std::size_t n = 0; n < target_.size(); ++n) {
@@ -214,7 +197,7 @@ private:
             const bool in_machine = words_.non_modal == 530; // in incremental mode too
             target_[n] = in_machine ? way : way + (modes().absolute ? offset[n] : target_[n]);
         }
-        return fine;
+        return error_code::none;
     }
 
     int take_non_modal() {
@@ -224,21 +207,22 @@ private:
         case 280:
         case 300:
             go_home(words_.non_modal == 280 ? eeprom().g28 : eeprom().g30);
-            return fine;
+            return error_code::none;
         case 281:
         case 301:
             (words_.non_modal == 281 ? eeprom().g28 : eeprom().g30) = modes().position;
             add(Action::store);
-            return fine;
+            return error_code::none;
         case 530:
-            return modes().motion == 0 || modes().motion == 10 ? fine : g53_without_line;
+            return modes().motion == 0 || modes().motion == 10 ? error_code::none
+                                                               : error_code::g53_without_line;
         case 920:
             return shift_coordinates();
         case 921:
             modes().g92 = {};
-            return fine;
+            return error_code::none;
         default:
-            return fine;
+            return error_code::none;
         }
     }
 
@@ -259,19 +243,19 @@ private:
 
     int set_offset() {
         if (!words_.has_axes()) {
-            return no_axes;
+            return error_code::no_axes;
         }
         if (!words_.has('P') || !words_.has('L')) {
-            return value_missing;
+            return error_code::value_missing;
         }
         const double which = *words_.value('P');
         const double how = *words_.value('L');
         if (which > 6.0) {
-            return no_such_offset;
+            return error_code::no_such_offset;
         }
         const bool known = exactly_equal(how, 2.0) || exactly_equal(how, 20.0);
         if (!known || words_.has('R')) {
-            return no_such_command;
+            return error_code::unsupported_command;
         }
         use("PL");
         const int slot = which < 1.0 ? modes().coordinates : static_cast<int>(which) - 1;
@@ -284,12 +268,12 @@ private:
             }
         }
         add(Action::store);
-        return fine;
+        return error_code::none;
     }
 
     int shift_coordinates() {
         if (!words_.has_axes()) {
-            return no_axes;
+            return error_code::no_axes;
         }
         const Axes offset = work_offset(modes(), eeprom());
         for (std::size_t n = 0; n < offset.size(); ++n) {
@@ -297,23 +281,23 @@ private:
                 modes().g92[n] += modes().position[n] - offset[n] - *word * unit();
             }
         }
-        return fine;
+        return error_code::none;
     }
 
     int take_motion() {
         if (modes().motion == 800 && axis_use_ == AxisUse::motion && words_.has_axes()) {
-            return axes_without_motion;
+            return error_code::axes_without_motion;
         }
         if (axis_use_ != AxisUse::motion || modes().motion == 800) {
-            return fine;
+            return error_code::none;
         }
         const bool arc = modes().motion == 20 || modes().motion == 30;
         const bool probe = modes().motion >= 382 && modes().motion <= 385;
         if (modes().motion != 0 && !(modes().feed > 0.0)) {
-            return no_feed;
+            return error_code::no_feed;
         }
         if (!words_.has_axes()) {
-            return arc || probe ? no_axes : fine;
+            return arc || probe ? error_code::no_axes : error_code::none;
         }
         Task task{.action = probe ? Action::probe : Action::move,
                   .points = {target_},
@@ -322,11 +306,11 @@ private:
                   .rate = modes().feed,
                   .probe = probe ? modes().motion : 0};
         if (probe && target_ == modes().position) {
-            return bad_target;
+            return error_code::bad_target;
         }
         if (arc) {
             const ArcPoints points = arc_points(arc_of_words());
-            if (points.error != fine) {
+            if (points.error != error_code::none) {
                 return points.error;
             }
             use("IJKR");
@@ -334,7 +318,7 @@ private:
         }
         result_.tasks.push_back(task);
         modes().position = target_;
-        return fine;
+        return error_code::none;
     }
 
     [[nodiscard]] ArcWords arc_of_words() const {
@@ -363,16 +347,16 @@ private:
         } else if (words_.flow == 20 || words_.flow == 300) {
             add(Action::end);
         }
-        return fine;
+        return error_code::none;
     }
 
     int check_all_used() {
         for (char letter = 'A'; letter <= 'Z'; ++letter) {
             if (words_.has(letter) && used_.find(letter) == std::string::npos) {
-                return unused_words;
+                return error_code::unused_words;
             }
         }
-        return fine;
+        return error_code::none;
     }
 };
 
@@ -402,12 +386,14 @@ Axes work_offset(const Modes& modes, const Eeprom& eeprom) {
 
 Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom) {
     const ReadWords read = read_words(line);
-    return read.error != fine ? failed(read.error, modes, eeprom) : Parser(read.words, modes, eeprom).line();
+    return read.error != error_code::none ? failed(read.error, modes, eeprom)
+                                          : Parser(read.words, modes, eeprom).line();
 }
 
 Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom) {
     const ReadWords read = read_words(line);
-    return read.error != fine ? failed(read.error, modes, eeprom) : Parser(read.words, modes, eeprom).jog();
+    return read.error != error_code::none ? failed(read.error, modes, eeprom)
+                                          : Parser(read.words, modes, eeprom).jog();
 }
 
 std::string modes_report(const Modes& modes, bool report_inches) {

@@ -14,7 +14,6 @@ constexpr int steps_per_mm = 100;
 constexpr int max_rate = 110;
 constexpr int max_acceleration = 120;
 constexpr int junction_deviation = 11;
-constexpr double seconds_per_minute = 60.0;
 constexpr double percent = 0.01;
 constexpr double straight = 0.999999; // cosine beyond which a corner is none, or a full turn
 

@@ -19,7 +19,6 @@ constexpr unsigned char spindle_stop = 0x9E;
 constexpr unsigned char toggle_flood = 0xA0;
 constexpr unsigned char toggle_mist = 0xA1;
 constexpr unsigned char first_extended = 0x80;
-constexpr double seconds_per_minute = 60.0;
 
 using OverrideFlags = std::bitset<override_bytes>;
 
@@ -133,8 +132,7 @@ void Controller::reset() {
 }
 
 void Controller::power_on() {
-    constexpr int homing_enabled = 22;
-    state_ = eeprom_.is_on(homing_enabled) ? State::alarm : State::idle;
+    state_ = eeprom_.is_on(homing_setting) ? State::alarm : State::idle;
     stepper_.stand_at({});
     modes_ = {};
     reset();

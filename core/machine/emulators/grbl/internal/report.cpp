@@ -8,14 +8,12 @@ namespace millwright::machine::emulated {
 
 namespace {
 
-constexpr double mm_per_inch = 25.4;
 constexpr int report_mask = 10;
-constexpr int report_inches = 13;
 constexpr unsigned machine_position_bit = 1;
 constexpr unsigned buffer_bit = 2;
 
 std::string length(double value, const Eeprom& eeprom) {
-    return eeprom.is_on(report_inches) ? fixed(value / mm_per_inch, 4) : fixed(value, 3);
+    return eeprom.is_on(report_inches_setting) ? fixed(value / mm_per_inch, 4) : fixed(value, 3);
 }
 
 Axes difference(const Axes& from, const Axes& subtract) {
@@ -42,7 +40,7 @@ std::string StatusReport::text(const Snapshot& now, const Eeprom& eeprom, bool b
     if (now.line_number > 0) {
         text += fmt::format("|Ln:{}", now.line_number);
     }
-    const double feed = eeprom.is_on(report_inches) ? now.feed / mm_per_inch : now.feed;
+    const double feed = eeprom.is_on(report_inches_setting) ? now.feed / mm_per_inch : now.feed;
     text += fmt::format("|FS:{:.0f},{:.0f}", feed, now.spindle_rpm);
     if (!now.pins.empty()) {
         text += "|Pn:" + now.pins;

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
+#include "core/machine/emulators/grbl/internal/error_codes.h"
 
 #include <fmt/format.h>
 
@@ -17,13 +18,7 @@ namespace millwright::machine::emulated {
 
 namespace {
 
-constexpr int fault_negative = 4;
-constexpr int fault_short_pulse = 6;
-constexpr int fault_no_homing = 10;
-constexpr int fault_unknown = 3;
 constexpr double shortest_pulse = 3.0; // us
-constexpr int soft_limits = 20;
-constexpr int homing = 22;
 constexpr std::array<std::string_view, 8> offset_names = {
     "G54", "G55", "G56", "G57", "G58", "G59", "G28", "G30"};
 
@@ -107,20 +102,20 @@ double Eeprom::setting(int number) const {
 int Eeprom::set(int number, double value) {
     const auto found = std::ranges::find(settings, number, &Setting::number);
     if (value < 0.0) {
-        return fault_negative;
+        return error_code::negative_value;
     }
     if (found == settings.end()) {
-        return fault_unknown;
+        return error_code::unknown_command;
     }
     if (number == 0 && value < shortest_pulse) {
-        return fault_short_pulse;
+        return error_code::short_step_pulse;
     }
-    if (number == soft_limits && value > 0.0 && !is_on(homing)) {
-        return fault_no_homing;
+    if (number == soft_limits_setting && value > 0.0 && !is_on(homing_setting)) {
+        return error_code::soft_limits_without_homing;
     }
     found->value = found->decimals == 0 ? std::floor(value) : value;
-    if (number == homing && !is_on(homing)) {
-        (void)set(soft_limits, 0.0);
+    if (number == homing_setting && !is_on(homing_setting)) {
+        (void)set(soft_limits_setting, 0.0);
     }
     return 0;
 }
@@ -132,8 +127,8 @@ Eeprom read_eeprom(const std::filesystem::path& file) {
     }
     const std::string text = read_file(file);
     std::string_view rest = text;
-    // Soft limits need homing, whichever comes first: $22 stands after $20 in the file.
-    (void)eeprom.set(homing, 1.0);
+    // Soft limits need homing_setting, whichever comes first: $22 stands after $20 in the file.
+    (void)eeprom.set(homing_setting, 1.0);
     bool homing_told = false;
     for (int line_number = 1; !rest.empty(); ++line_number) {
         const std::size_t length = std::min(rest.find('\n'), rest.size());
@@ -147,7 +142,7 @@ Eeprom read_eeprom(const std::filesystem::path& file) {
         }
     }
     if (!homing_told) {
-        (void)eeprom.set(homing, 0.0);
+        (void)eeprom.set(homing_setting, 0.0);
     }
     return eeprom;
 }

@@ -10,6 +10,14 @@ namespace millwright::machine::emulated {
 
 using Axes = std::array<double, 3>; ///< X, Y, Z; mm
 
+constexpr double seconds_per_minute = 60.0; // rates are per minute
+constexpr double mm_per_inch = 25.4;
+
+// Settings that several parts look at, by their number behind the $.
+constexpr int report_inches_setting = 13;
+constexpr int soft_limits_setting = 20;
+constexpr int homing_setting = 22;
+
 /// One of the numbers behind `$$`. Rates mm/min, accelerations mm/s^2, as Grbl shows them.
 struct Setting {
     int number = 0;

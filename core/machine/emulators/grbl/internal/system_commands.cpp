@@ -1,5 +1,6 @@
 // Lines that begin with $.
 #include "core/machine/emulators/grbl/internal/controller.h"
+#include "core/machine/emulators/grbl/internal/error_codes.h"
 
 #include <fmt/format.h>
 
@@ -7,46 +8,27 @@
 
 namespace millwright::machine::emulated {
 
-namespace {
-
-enum Fault {
-    fine = 0,
-    bad_number = 2,
-    unknown = 3,
-    homing_off = 5,
-    not_idle = 8,
-    door_is_open = 13,
-    outside_travel = 15,
-    bad_jog = 16
-};
-
-constexpr int homing_enabled = 22;
-constexpr int soft_limits = 20;
-
-} // namespace
-
 int Controller::system_command(std::string_view line) {
     const bool at_work = state_ == State::run || state_ == State::hold;
     if (line == "$") {
         say("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]\r\n");
-        return fine;
+        return error_code::none;
     }
     if (line.starts_with("$J")) {
-        return state_ != State::idle && state_ != State::jog ? not_idle
+        return state_ != State::idle && state_ != State::jog ? error_code::not_idle
                : line.starts_with("$J=")                     ? jog(line.substr(3))
-                                                             : bad_jog;
+                                                             : error_code::bad_jog;
     }
     if (line == "$$") {
         if (at_work) {
-            return not_idle;
+            return error_code::not_idle;
         }
         say(settings_report(eeprom_));
-        return fine;
+        return error_code::none;
     }
     if (line == "$G") {
-        constexpr int report_inches = 13;
-        say(modes_report(modes_, eeprom_.is_on(report_inches)) + "\r\n");
-        return fine;
+        say(modes_report(modes_, eeprom_.is_on(report_inches_setting)) + "\r\n");
+        return error_code::none;
     }
     if (line == "$C") {
         return check_mode();
@@ -54,13 +36,13 @@ int Controller::system_command(std::string_view line) {
     if (line == "$X") {
         return unlock();
     }
-    return state_ != State::idle && state_ != State::alarm ? not_idle : named_command(line);
+    return state_ != State::idle && state_ != State::alarm ? error_code::not_idle : named_command(line);
 }
 
 int Controller::named_command(std::string_view line) {
     if (line == "$#") {
         say(parameters_report(modes_, probe_, eeprom_));
-        return fine;
+        return error_code::none;
     }
     if (line.starts_with("$H")) {
         return home(line);
@@ -70,8 +52,8 @@ int Controller::named_command(std::string_view line) {
         say("[MSG:Sleeping]\r\n");
         state_ = State::sleep;
         answer_due_ = true;
-        acknowledge(fine);
-        return fine;
+        acknowledge(error_code::none);
+        return error_code::none;
     }
     if (line.starts_with("$I")) {
         return build_info(line);
@@ -87,58 +69,58 @@ int Controller::named_command(std::string_view line) {
 
 int Controller::jog(std::string_view line) {
     const Parsed parsed = parse_jog(line, modes_, eeprom_);
-    if (parsed.error != fine) {
+    if (parsed.error != error_code::none) {
         return parsed.error;
     }
-    if (eeprom_.is_on(soft_limits) && !inside_travel(parsed.modes.position)) {
-        return outside_travel;
+    if (eeprom_.is_on(soft_limits_setting) && !inside_travel(parsed.modes.position)) {
+        return error_code::outside_travel;
     }
     state_ = State::jog;
     line_owner_ = -1;
     line_number_ = 0;
     take_over(parsed);
-    return fine;
+    return error_code::none;
 }
 
 int Controller::check_mode() {
     if (state_ == State::check) {
         say("[MSG:Disabled]\r\n");
-        acknowledge(fine);
+        acknowledge(error_code::none);
         reset();
-        return fine;
+        return error_code::none;
     }
     if (state_ != State::idle) {
-        return not_idle;
+        return error_code::not_idle;
     }
     state_ = State::check;
     say("[MSG:Enabled]\r\n");
-    return fine;
+    return error_code::none;
 }
 
 int Controller::unlock() {
     if (state_ == State::alarm) {
         if (door_open_) {
-            return door_is_open;
+            return error_code::door_open;
         }
         say("[MSG:Caution: Unlocked]\r\n");
         state_ = State::idle;
     }
-    return fine;
+    return error_code::none;
 }
 
 int Controller::home(std::string_view line) {
     if (line != "$H") {
-        return unknown;
+        return error_code::unknown_command;
     }
-    if (!eeprom_.is_on(homing_enabled)) {
-        return homing_off;
+    if (!eeprom_.is_on(homing_setting)) {
+        return error_code::homing_off;
     }
     if (door_open_) {
-        return door_is_open;
+        return error_code::door_open;
     }
     state_ = State::home;
     homing_.emplace(eeprom_, stepper_.position(), switches_broken_);
-    return fine;
+    return error_code::none;
 }
 
 int Controller::build_info(std::string_view line) {
@@ -148,14 +130,14 @@ int Controller::build_info(std::string_view line) {
                         options_.line_numbers ? "N" : "",
                         Planner::capacity,
                         Input::capacity));
-        return fine;
+        return error_code::none;
     }
     if (!line.starts_with("$I=")) {
-        return unknown;
+        return error_code::unknown_command;
     }
     eeprom_.build_text = line.substr(3);
     save_eeprom();
-    return fine;
+    return error_code::none;
 }
 
 int Controller::restore(std::string_view what) {
@@ -168,33 +150,33 @@ int Controller::restore(std::string_view what) {
     } else if (what == "*") {
         eeprom_ = fresh;
     } else {
-        return unknown;
+        return error_code::unknown_command;
     }
     save_eeprom();
     say("[MSG:Restoring defaults]\r\n");
-    acknowledge(fine);
+    acknowledge(error_code::none);
     reset();
-    return fine;
+    return error_code::none;
 }
 
 int Controller::startup_line(std::string_view line) {
     if (line == "$N") {
         say(fmt::format("$N0={}\r\n$N1={}\r\n", eeprom_.startup_lines[0], eeprom_.startup_lines[1]));
-        return fine;
+        return error_code::none;
     }
     if (!line.starts_with("$N0=") && !line.starts_with("$N1=")) {
-        return unknown;
+        return error_code::unknown_command;
     }
     if (state_ != State::idle) {
-        return not_idle;
+        return error_code::not_idle;
     }
     const std::string_view code = line.substr(4);
-    if (const int error = parse_line(code, modes_, eeprom_).error; error != fine) {
+    if (const int error = parse_line(code, modes_, eeprom_).error; error != error_code::none) {
         return error;
     }
     eeprom_.startup_lines[line[2] == '0' ? 0 : 1] = code;
     save_eeprom();
-    return fine;
+    return error_code::none;
 }
 
 int Controller::store_setting(std::string_view line) {
@@ -205,7 +187,7 @@ int Controller::store_setting(std::string_view line) {
     const auto read_name = std::from_chars(name.data(), name.data() + name.size(), number);
     if (equals == std::string_view::npos || read_name.ec != std::errc{} ||
         read_name.ptr != name.data() + name.size()) {
-        return unknown;
+        return error_code::unknown_command;
     }
     const std::string_view text = line.substr(equals + 1);
     double value = 0.0;
@@ -213,10 +195,10 @@ int Controller::store_setting(std::string_view line) {
         std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
     constexpr double most = 1e9;
     if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || !(value > -most && value < most)) {
-        return bad_number;
+        return error_code::bad_number;
     }
     const int error = eeprom_.set(number, value);
-    if (error == fine) {
+    if (error == error_code::none) {
         save_eeprom();
     }
     return error;

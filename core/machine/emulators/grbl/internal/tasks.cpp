@@ -4,13 +4,6 @@
 
 namespace millwright::machine::emulated {
 
-namespace {
-
-constexpr double seconds_per_minute = 60.0;
-constexpr int soft_limits = 20;
-
-} // namespace
-
 void Controller::take_over(const Parsed& parsed) {
     const Axes offset = work_offset(modes_, eeprom_);
     const Axes position = modes_.position;
@@ -106,7 +99,8 @@ bool Controller::inside_travel(const Axes& target) const {
 bool Controller::do_move(Task& task) {
     const double points = static_cast<double>(task.points.size());
     while (task.next < task.points.size()) {
-        if (eeprom_.is_on(soft_limits) && state_ != State::jog && !inside_travel(task.points[task.next])) {
+        if (eeprom_.is_on(soft_limits_setting) && state_ != State::jog &&
+            !inside_travel(task.points[task.next])) {
             constexpr int soft_limit = 2;
             if (stepper_.at_rest()) {
                 alarm(soft_limit);

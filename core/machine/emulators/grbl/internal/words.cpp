@@ -1,5 +1,7 @@
 #include "core/machine/emulators/grbl/internal/words.h"
 
+#include "core/machine/emulators/grbl/internal/error_codes.h"
+
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -7,19 +9,6 @@
 namespace millwright::machine::emulated {
 
 namespace {
-
-enum Fault {
-    fine = 0,
-    no_letter = 1,
-    bad_number = 2,
-    negative = 4,
-    unsupported = 20,
-    two_of_a_group = 21,
-    not_an_integer = 23,
-    axis_conflict = 24,
-    repeated = 25,
-    no_such_offset = 29
-};
 
 /// The longest number at the beginning of `text`, which is taken off; digits and one point, no exponent.
 std::optional<double> take_number(std::string_view& text) {
@@ -50,7 +39,7 @@ public:
     explicit Reader(std::string_view line) : rest_(line) {}
 
     ReadWords read() {
-        while (!rest_.empty() && result_.error == fine) {
+        while (!rest_.empty() && result_.error == error_code::none) {
             result_.error = read_word();
         }
         return result_;
@@ -65,21 +54,21 @@ private:
     int read_word() {
         const char letter = rest_.front();
         if (letter < 'A' || letter > 'Z') {
-            return no_letter;
+            return error_code::no_letter;
         }
         rest_.remove_prefix(1);
         const auto value = take_number(rest_);
         if (!value) {
-            return bad_number;
+            return error_code::bad_number;
         }
         if (letter == 'G' || letter == 'M') {
             constexpr double most = 1000.0;
             if (!(*value >= 0.0 && *value < most)) {
-                return unsupported;
+                return error_code::unsupported_command;
             }
             const double tenths = *value * 10.0;
             if (std::abs(tenths - std::round(tenths)) > 1e-3) {
-                return not_an_integer;
+                return error_code::not_an_integer;
             }
             const int code = static_cast<int>(std::lround(tenths));
             return letter == 'G' ? read_g(code) : read_m(code);
@@ -89,31 +78,31 @@ private:
 
     static int set(int& group, int code) {
         if (group >= 0) {
-            return two_of_a_group;
+            return error_code::two_of_a_group;
         }
         group = code;
-        return fine;
+        return error_code::none;
     }
 
     static int set(bool& flag) {
         if (flag) {
-            return two_of_a_group;
+            return error_code::two_of_a_group;
         }
         flag = true;
-        return fine;
+        return error_code::none;
     }
 
     int use_axes(AxisUse use) {
         if (words().axis_use != AxisUse::none) {
-            return axis_conflict;
+            return error_code::axis_conflict;
         }
         words().axis_use = use;
-        return fine;
+        return error_code::none;
     }
 
     int set_with_axes(int& group, int code, AxisUse use) {
         const int conflict = use_axes(use);
-        return conflict != fine ? conflict : set(group, code);
+        return conflict != error_code::none ? conflict : set(group, code);
     }
 
     int read_g(int code) {
@@ -179,9 +168,9 @@ private:
         case 591:
         case 592:
         case 593:
-            return no_such_offset;
+            return error_code::no_such_offset;
         default:
-            return unsupported;
+            return error_code::unsupported_command;
         }
     }
 
@@ -203,7 +192,7 @@ private:
         case 90:
             return set(words().coolant_off);
         default:
-            return code % 10 != 0 ? not_an_integer : unsupported;
+            return code % 10 != 0 ? error_code::not_an_integer : error_code::unsupported_command;
         }
     }
 
@@ -211,17 +200,17 @@ private:
         constexpr std::string_view known = "FIJKLNPRSTXYZ";
         constexpr std::string_view positive = "FNPST";
         if (known.find(letter) == std::string_view::npos) {
-            return unsupported;
+            return error_code::unsupported_command;
         }
         auto& place = words().values[static_cast<std::size_t>(letter - 'A')];
         if (place) {
-            return repeated;
+            return error_code::repeated_word;
         }
         if (value < 0.0 && positive.find(letter) != std::string_view::npos) {
-            return negative;
+            return error_code::negative_value;
         }
         place = value;
-        return fine;
+        return error_code::none;
     }
 };
 

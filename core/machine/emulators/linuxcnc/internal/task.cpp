@@ -45,7 +45,9 @@ std::deque<std::pair<int, std::string>> messages_in(const std::string& text) {
 
 } // namespace
 
-Task::Task(std::shared_ptr<const kinematics::MachineModel> model, double time, LinuxCncTruth truth)
+LinuxCncTask::LinuxCncTask(std::shared_ptr<const kinematics::MachineModel> model,
+                           double time,
+                           LinuxCncTruth truth)
     : model_(std::move(model)), clock_(time),
       machine_(AxisPositions(AxisPositions::Zero(model_->axis_count())), {1.0}, clock_, model_),
       truth_(std::move(truth)) {
@@ -53,13 +55,13 @@ Task::Task(std::shared_ptr<const kinematics::MachineModel> model, double time, L
     machine_.emergency_stop();
 }
 
-void Task::advance(double seconds) {
+void LinuxCncTask::advance(double seconds) {
     clock_.wait(seconds);
     follow(machine_.status());
 }
 
 /// What the machine has done since the last look.
-void Task::follow(const DriverStatus& now) {
+void LinuxCncTask::follow(const DriverStatus& now) {
     if (now.velocity.size() > 0 && now.velocity.cwiseAbs().maxCoeff() > 0.0) {
         truth_.last_motion = clock_.now();
     }
@@ -92,14 +94,14 @@ void Task::follow(const DriverStatus& now) {
     }
 }
 
-void Task::tell_messages(int before_line) {
+void LinuxCncTask::tell_messages(int before_line) {
     while (!program_->messages.empty() && program_->messages.front().first < before_line) {
         messages_.push_back(program_->messages.front().second);
         program_->messages.pop_front();
     }
 }
 
-void Task::end_program() {
+void LinuxCncTask::end_program() {
     if (program_->error.empty()) {
         constexpr int behind_all = 1'000'000'000;
         tell_messages(behind_all);
@@ -111,21 +113,21 @@ void Task::end_program() {
     paused_ = false;
 }
 
-void Task::fall_off() {
+void LinuxCncTask::fall_off() {
     machine_.emergency_stop();
     follow(machine_.status());
     power_ = paused_ = homing_ = false;
     program_.reset();
 }
 
-void Task::set_estop(bool on) {
+void LinuxCncTask::set_estop(bool on) {
     if (on) {
         fall_off();
     }
     estop_ = on;
 }
 
-void Task::set_power(bool on) {
+void LinuxCncTask::set_power(bool on) {
     if (!on) {
         fall_off();
     } else if (estop_) {
@@ -136,7 +138,7 @@ void Task::set_power(bool on) {
     }
 }
 
-bool Task::ready(TaskMode mode, std::string_view what) {
+bool LinuxCncTask::ready(TaskMode mode, std::string_view what) {
     if (!power_) {
         errors_.push_back(fmt::format("can't {} while the machine is off", what));
     } else if (mode_ != mode) {
@@ -151,7 +153,7 @@ bool Task::ready(TaskMode mode, std::string_view what) {
     return false;
 }
 
-void Task::set_mode(TaskMode mode) {
+void LinuxCncTask::set_mode(TaskMode mode) {
     if (machine_.status().activity != Activity::none && mode != mode_) {
         errors_.emplace_back("can't change the mode while the machine is busy");
         return;
@@ -159,7 +161,7 @@ void Task::set_mode(TaskMode mode) {
     mode_ = mode;
 }
 
-void Task::open(const std::filesystem::path& file) {
+void LinuxCncTask::open(const std::filesystem::path& file) {
     try {
         opened_ = read_file(file);
         has_file_ = true;
@@ -170,7 +172,7 @@ void Task::open(const std::filesystem::path& file) {
 }
 
 /// What comes before the first line that is wrong, as LinuxCNC executes it before it complains.
-Task::Program Task::read(const std::string& text) const {
+LinuxCncTask::Program LinuxCncTask::read(const std::string& text) const {
     gcode::ReaderSettings settings;
     settings.any_tool = true;
     const AxisPositions position = machine_.status().position;
@@ -211,7 +213,7 @@ Task::Program Task::read(const std::string& text) const {
     return result;
 }
 
-void Task::cut_at_limits(Program& program, gcode::Program& blocks) const {
+void LinuxCncTask::cut_at_limits(Program& program, gcode::Program& blocks) const {
     for (std::size_t n = 0; n < blocks.blocks.size(); ++n) {
         for (int axis = 0; axis < model_->axis_count(); ++axis) {
             const double target = blocks.blocks[n].target[axis];
@@ -226,7 +228,7 @@ void Task::cut_at_limits(Program& program, gcode::Program& blocks) const {
     }
 }
 
-void Task::run() {
+void LinuxCncTask::run() {
     if (!ready(TaskMode::automatic, "run a program")) {
         return;
     }
@@ -244,27 +246,27 @@ void Task::run() {
     set_feed_override(feed_override_);
 }
 
-void Task::pause() {
+void LinuxCncTask::pause() {
     if (program_) {
         machine_.hold();
         paused_ = true;
     }
 }
 
-void Task::resume() {
+void LinuxCncTask::resume() {
     if (program_ && paused_) {
         machine_.resume();
         paused_ = false;
     }
 }
 
-void Task::abort() {
+void LinuxCncTask::abort() {
     machine_.stop();
     paused_ = homing_ = false;
     follow(machine_.status());
 }
 
-void Task::mdi(const std::string& line) {
+void LinuxCncTask::mdi(const std::string& line) {
     if (!ready(TaskMode::mdi, "issue an MDI command")) {
         return;
     }
@@ -275,22 +277,21 @@ void Task::mdi(const std::string& line) {
     }
 }
 
-void Task::home() {
+void LinuxCncTask::home() {
     if (ready(TaskMode::manual, "home")) {
         machine_.home();
         homing_ = true;
     }
 }
 
-void Task::jog(int axis, double speed, double way) {
+void LinuxCncTask::jog(int axis, double speed, double way) {
     if (!ready(TaskMode::manual, "jog")) {
         return;
     }
-    constexpr double seconds_per_minute = 60.0;
     Jog jog;
     jog.way = AxisPositions::Zero(model_->axis_count());
     jog.way[axis] = std::copysign(way, speed);
-    jog.speed = std::abs(speed) / seconds_per_minute;
+    jog.speed = from_mm_per_min(std::abs(speed));
     try {
         machine_.jog(jog);
     } catch (const Error& error) {
@@ -298,27 +299,27 @@ void Task::jog(int axis, double speed, double way) {
     }
 }
 
-void Task::stop_jog() {
+void LinuxCncTask::stop_jog() {
     machine_.stop_jog();
 }
 
-void Task::set_feed_override(int percent) {
+void LinuxCncTask::set_feed_override(int percent) {
     feed_override_ = percent;
     machine_.set_overrides({.feed = percent, .rapid = 100, .spindle = 100});
 }
 
-std::string Task::program_status() const {
+std::string LinuxCncTask::program_status() const {
     if (machine_.status().activity == Activity::none && !program_) {
         return "IDLE";
     }
     return paused_ ? "PAUSED" : "RUNNING";
 }
 
-std::string Task::take_error() {
+std::string LinuxCncTask::take_error() {
     return take_first(errors_);
 }
 
-std::string Task::take_message() {
+std::string LinuxCncTask::take_message() {
     return take_first(messages_);
 }
 

@@ -18,12 +18,12 @@ namespace millwright::machine::emulated {
 
 enum class TaskMode { manual, automatic, mdi };
 
-class Task {
+class LinuxCncTask {
 public:
     /// Switched on at `time`, in its emergency stop, at zero; goes on writing `truth`.
-    explicit Task(std::shared_ptr<const kinematics::MachineModel> model,
-                  double time = 0.0,
-                  LinuxCncTruth truth = {});
+    explicit LinuxCncTask(std::shared_ptr<const kinematics::MachineModel> model,
+                          double time = 0.0,
+                          LinuxCncTruth truth = {});
 
     void advance(double seconds);
     [[nodiscard]] double time() const { return clock_.now(); }

@@ -10,9 +10,7 @@ namespace millwright::machine::pmac_card {
 namespace {
 
 constexpr double clock_ms = 8'388'608.0; // units of I10 in a millisecond
-constexpr int hundred = 100;
 
-constexpr int encoder_entries = 0x720;
 constexpr std::uint32_t integrates = 0x500000; // what is at the address below is summed up each cycle
 constexpr std::uint32_t address_mask = 0xFFFF;
 
@@ -58,7 +56,7 @@ void Card::reset(bool factory) {
     for (int n = 0; n < motors; ++n) {
         const int wire = wires_[static_cast<std::size_t>(n)];
         constexpr int power_on_mode = 80;
-        const bool closes = settings(n).active && i(hundred * (n + 1) + power_on_mode) > 0.0;
+        const bool closes = settings(n).active && i(variables_per_motor * (n + 1) + power_on_mode) > 0.0;
         motor(n).reset(wire >= 0 ? channel(wire).encoder() : 0.0, closes);
     }
     for (Plc& plc : plc_) {
@@ -142,7 +140,7 @@ void Card::load_settings() {
     constexpr double sixteenth = 1.0 / 16.0;
     constexpr double per_s = 1000.0; // counts/ms
     for (int n = 0; n < motors; ++n) {
-        const auto own = [&](int index) { return i(hundred * (n + 1) + index); };
+        const auto own = [&](int index) { return i(variables_per_motor * (n + 1) + index); };
         MotorSettings& to = settings_[static_cast<std::size_t>(n)];
         to.active = own(0) > 0.0;
         to.fatal_error = own(11) * sixteenth;
@@ -184,8 +182,8 @@ void Card::load_settings() {
 /// The channel whose output a motor has and whose encoder it reads (Ix02, Ix03); -1: none. Behind the wired
 /// ones are those of simulated motors, whose place is the sum of their own output.
 int Card::wire_of(int motor) const {
-    const auto output = static_cast<std::uint32_t>(i(hundred * (motor + 1) + 2)) & address_mask;
-    const int entry = static_cast<int>(i(hundred * (motor + 1) + 3)) - encoder_entries;
+    const auto output = static_cast<std::uint32_t>(i(variables_per_motor * (motor + 1) + 2)) & address_mask;
+    const int entry = static_cast<int>(i(variables_per_motor * (motor + 1) + 3)) - encoder_table_address;
     if (entry < 0 || entry >= motors) {
         return -1;
     }

@@ -15,6 +15,8 @@
 
 namespace millwright::machine::pmac_card {
 
+constexpr int encoder_table_address = 0x720;
+
 class Card final : public Variables, public Registers {
 public:
     static constexpr int motors = 8, systems = 8, plcs = 32;

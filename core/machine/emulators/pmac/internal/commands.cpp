@@ -7,17 +7,11 @@
 
 namespace millwright::machine::pmac_card {
 
-namespace {
-
-constexpr int unknown = 3, needs_buffer = 5;
-
-} // namespace
-
 Answer Commands::execute(std::string_view line) {
     answer_ = {};
     const auto words = words_of(line);
     if (!words) {
-        answer_.error = unknown;
+        answer_.error = error_code::unknown_command;
         return std::exchange(answer_, {});
     }
     if (const auto stored = store(*words)) {
@@ -28,9 +22,9 @@ Answer Commands::execute(std::string_view line) {
     while (!at.ended() && answer_.error == 0) {
         const std::size_t here = at.place();
         answer_.error = one(at);
-        if (answer_.error == unknown) {
+        if (answer_.error == error_code::unknown_command) {
             const std::vector<Token> rest(words->begin() + static_cast<std::ptrdiff_t>(here), words->end());
-            answer_.error = compile(rest, false) ? needs_buffer : unknown;
+            answer_.error = compile(rest, false) ? error_code::needs_buffer : error_code::unknown_command;
         }
     }
     return std::exchange(answer_, {});
@@ -53,7 +47,7 @@ Commands::Code Commands::one(Words& words) {
     case Token::Kind::word:
         return words.now().text.size() == 1 ? letter(words) : keyword(words);
     default:
-        return unknown;
+        return error_code::unknown_command;
     }
 }
 
@@ -64,10 +58,10 @@ Commands::Code Commands::symbol(Words& words) {
     if (words.take("&")) {
         if (const auto number = words.take_index(Card::systems)) {
             system_ = *number > 0 ? *number - 1 : system_;
-            return *number > 0 ? 0 : unknown;
+            return *number > 0 ? 0 : error_code::unknown_command;
         }
         if (words.at_number()) {
-            return unknown;
+            return error_code::unknown_command;
         }
         say(fmt::format("{}", system_ + 1));
         return 0;
@@ -77,7 +71,7 @@ Commands::Code Commands::symbol(Words& words) {
         if (!number) {
             say("0");
         }
-        return number.value_or(0) == 0 ? 0 : unknown;
+        return number.value_or(0) == 0 ? 0 : error_code::unknown_command;
     }
     if (words.take("%")) {
         constexpr double most = 225.0;
@@ -85,7 +79,7 @@ Commands::Code Commands::symbol(Words& words) {
         if (!percent) {
             say(tenths_text(system().percent()));
         } else if (*percent > most) {
-            return unknown;
+            return error_code::unknown_command;
         } else {
             system().set_percent(*percent);
         }
@@ -119,22 +113,22 @@ Commands::Code Commands::dollar(Words& words) {
     }
     if (words.take("$")) { // nothing to phase: the loop is closed where the motor stands
         motor().close_loop();
-        return card_.settings(motor_).active ? 0 : unknown;
+        return card_.settings(motor_).active ? 0 : error_code::unknown_command;
     }
-    return unknown;
+    return error_code::unknown_command;
 }
 
 Commands::Code Commands::address_motor(Words& words) {
     const auto number = words.take_index(Card::motors);
     if (!number && words.at_number()) {
-        return unknown;
+        return error_code::unknown_command;
     }
     if (!number) {
         say(fmt::format("{}", motor_ + 1));
         return 0;
     }
     if (*number == 0) {
-        return unknown;
+        return error_code::unknown_command;
     }
     if (words.take("->")) {
         return define_axis(words, *number - 1);
@@ -175,12 +169,12 @@ Commands::Code Commands::define_axis(Words& words, int motor) {
         } else if (number) {
             definition.offset += value;
         } else {
-            return unknown;
+            return error_code::unknown_command;
         }
     }
     if (!axis) {
         const bool removes = !definition.text.empty() && !(std::abs(definition.offset) > 0.0);
-        return removes ? system().define(motor, {}) : unknown;
+        return removes ? system().define(motor, {}) : error_code::unknown_command;
     }
     return system().define(motor, definition);
 }
@@ -208,7 +202,7 @@ Commands::Code Commands::letter(Words& words) {
         break;
     }
     if (number && name != 'O') {
-        return unknown; // words of programs
+        return error_code::unknown_command; // words of programs
     }
     words.skip();
     return std::string_view("PVFKO").find(name) != std::string_view::npos ? motor_command(words, name)

@@ -10,9 +10,20 @@
 
 namespace millwright::machine::pmac_card {
 
+/// The error numbers of the manual.
+namespace error_code {
+constexpr int program_running = 1;
+constexpr int unknown_command = 3;
+constexpr int bad_character = 4;
+constexpr int needs_buffer = 5;
+constexpr int no_room = 6;
+constexpr int buffer_in_use = 7;
+constexpr int bad_structure = 9;
+} // namespace error_code
+
 struct Answer {
     std::vector<std::string> lines;
-    int error = 0; ///< as the manual numbers them; 0: accepted
+    int error = 0; ///< 0: accepted
 };
 
 class Commands {

@@ -9,7 +9,6 @@ namespace millwright::machine::pmac_card {
 
 namespace {
 
-constexpr int while_running = 1, unknown = 3, needs_buffer = 5, no_room = 6, in_use = 7, bad_structure = 9;
 constexpr std::size_t most_lines = 20'000;
 
 } // namespace
@@ -34,7 +33,7 @@ std::optional<Commands::Code> Commands::store(const std::vector<Token>& words) {
         return std::nullopt;
     }
     if (open->lines().size() >= most_lines) {
-        return no_room;
+        return error_code::no_room;
     }
     if (!open->add(words)) {
         return std::nullopt;
@@ -57,7 +56,7 @@ bool Commands::is_running(int program) const {
 Commands::Code Commands::open(Words& words) {
     constexpr int programs = 32767;
     if (buffer_ != Buffer::none) {
-        return in_use;
+        return error_code::buffer_in_use;
     }
     if (words.take("ROT")) {
         buffer_ = Buffer::rotary;
@@ -66,14 +65,14 @@ Commands::Code Commands::open(Words& words) {
     }
     const bool plc = words.take("PLC");
     if (!plc && !words.take("PROG")) {
-        return unknown;
+        return error_code::unknown_command;
     }
     const auto number = words.take_index(plc ? Card::plcs - 1 : programs);
     if (!number || (!plc && *number == 0)) {
-        return unknown;
+        return error_code::unknown_command;
     }
     if (!plc && is_running(*number)) {
-        return while_running;
+        return error_code::program_running;
     }
     if (plc) {
         card_.enable_plc(*number, false);
@@ -90,14 +89,14 @@ Commands::Code Commands::clear() {
         open->clear();
         return 0;
     }
-    return needs_buffer;
+    return error_code::needs_buffer;
 }
 
 Commands::Code Commands::close() {
     Program* const open = buffer();
     buffer_ = Buffer::none;
     card_.rotary_open = false;
-    return open == nullptr || open->join() ? 0 : bad_structure;
+    return open == nullptr || open->join() ? 0 : error_code::bad_structure;
 }
 
 Commands::Code Commands::list(Words& words) {
@@ -111,7 +110,7 @@ Commands::Code Commands::list(Words& words) {
         program = number ? &card_.plc(*number) : nullptr;
     }
     if (program == nullptr) {
-        return unknown;
+        return error_code::unknown_command;
     }
     constexpr int form = 9;
     const bool long_form = (static_cast<int>(card_.i(form)) & 1) != 0;
@@ -123,13 +122,13 @@ Commands::Code Commands::list(Words& words) {
 
 Commands::Code Commands::plcs(Words& words, bool on) {
     if (!words.take("PLC")) {
-        return unknown;
+        return error_code::unknown_command;
     }
     do {
         const auto first = words.take_index(Card::plcs - 1);
         const auto last = first && words.take("..") ? words.take_index(Card::plcs - 1) : first;
         if (!first || !last) {
-            return unknown;
+            return error_code::unknown_command;
         }
         for (int n = *first; n <= *last; ++n) {
             card_.enable_plc(n, on);
@@ -152,7 +151,7 @@ Commands::Code Commands::modal(Words& words) {
     }
     const auto statements = compile(own, false);
     if (!statements || statements->size() != 1) {
-        return unknown;
+        return error_code::unknown_command;
     }
     system().modal(statements->front());
     return 0;
@@ -190,7 +189,7 @@ Commands::Code Commands::keyword(Words& words) {
         const bool all = words.take("ALL");
         for (int n = 0; n < Card::systems; ++n) {
             if ((all || n == system_) && card_.system(n).running()) {
-                return while_running;
+                return error_code::program_running;
             }
         }
         for (int n = 0; n < Card::systems; ++n) {
@@ -201,12 +200,14 @@ Commands::Code Commands::keyword(Words& words) {
         return 0;
     }
     if (name == "DELETE") {
-        return words.take("GATHER") || words.take("TRACE") || words.take("STIMULUS") ? 0 : unknown;
+        return words.take("GATHER") || words.take("TRACE") || words.take("STIMULUS")
+                   ? 0
+                   : error_code::unknown_command;
     }
     if (name == "ZZ") {
         for (int n = 0; n < Card::motors; ++n) {
             if (system().running()) {
-                return while_running;
+                return error_code::program_running;
             }
             if (system().definition(n).exists()) {
                 card_.motor(n).home_here();
@@ -231,7 +232,7 @@ Commands::Code Commands::keyword(Words& words) {
         card_.save();
         return 0;
     }
-    return unknown;
+    return error_code::unknown_command;
 }
 
 } // namespace millwright::machine::pmac_card

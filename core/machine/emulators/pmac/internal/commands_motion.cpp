@@ -7,12 +7,6 @@
 
 namespace millwright::machine::pmac_card {
 
-namespace {
-
-constexpr int while_running = 1, unknown = 3;
-
-} // namespace
-
 /// Whether the addressed motor is under a program that is not held.
 bool Commands::program_has_motor() const {
     const int owner = card_.system_of(motor_);
@@ -22,10 +16,10 @@ bool Commands::program_has_motor() const {
 Commands::Code Commands::jog(Words& words) {
     const MotorSettings& settings = card_.settings(motor_);
     if (program_has_motor()) {
-        return while_running;
+        return error_code::program_running;
     }
     if (!settings.active) {
-        return unknown;
+        return error_code::unknown_command;
     }
     const double bias = card_.bias(motor_);
     if (words.take("+")) {
@@ -43,12 +37,12 @@ Commands::Code Commands::jog(Words& words) {
     const bool from_actual = words.at("^");
     const bool by = words.at(":") || from_actual;
     if (!by && !words.at("=")) {
-        return unknown;
+        return error_code::unknown_command;
     }
     words.skip();
     const auto told = words.take_number();
     if (by && !told) {
-        return unknown;
+        return error_code::unknown_command;
     }
     motor().close_loop();
     const double target = !told         ? motor().before_jog
@@ -58,7 +52,7 @@ Commands::Code Commands::jog(Words& words) {
     if (words.take("^")) {
         const auto past = words.take_number();
         if (!past) {
-            return unknown;
+            return error_code::unknown_command;
         }
         motor().jog_to_trigger(target, *past, settings);
         return 0;
@@ -69,14 +63,14 @@ Commands::Code Commands::jog(Words& words) {
 
 Commands::Code Commands::home(bool zero) {
     if (program_has_motor()) {
-        return while_running;
+        return error_code::program_running;
     }
     if (zero) {
         motor().home_here();
         return 0;
     }
     if (!card_.settings(motor_).active) {
-        return unknown;
+        return error_code::unknown_command;
     }
     motor().home(card_.settings(motor_));
     return 0;
@@ -95,7 +89,7 @@ Commands::Code Commands::motor_command(Words& words, char letter) {
         return 0;
     case 'K':
         if (card_.system_of(motor_) >= 0 && card_.system(card_.system_of(motor_)).running()) {
-            return while_running;
+            return error_code::program_running;
         }
         motor().kill();
         return 0;
@@ -103,10 +97,10 @@ Commands::Code Commands::motor_command(Words& words, char letter) {
         constexpr double full = 100.0;
         const auto percent = words.take_number();
         if (!percent || std::abs(*percent) > full || !card_.settings(motor_).active) {
-            return unknown;
+            return error_code::unknown_command;
         }
         if (program_has_motor()) {
-            return while_running;
+            return error_code::program_running;
         }
         motor().open_loop(*percent, card_.settings(motor_));
         return 0;
@@ -121,7 +115,7 @@ Commands::Code Commands::begin_at(Words& words) {
     }
     const double number = *words.take_number();
     if (number > programs) {
-        return unknown;
+        return error_code::unknown_command;
     }
     return system().point_to(static_cast<int>(number), number - std::floor(number));
 }
@@ -143,12 +137,12 @@ Commands::Code Commands::system_command(Words& /*words*/, char letter) {
         return 0;
     case 'Z':
         if (system().running()) {
-            return while_running;
+            return error_code::program_running;
         }
         system().zero_axes();
         return 0;
     default:
-        return unknown;
+        return error_code::unknown_command;
     }
 }
 

@@ -7,25 +7,18 @@
 
 namespace millwright::machine::pmac_card {
 
-namespace {
-
-constexpr int unknown = 3;
-constexpr int greatest_address = 0xFFFF;
-
-} // namespace
-
 Commands::Code Commands::variable(Words& words) {
     const char kind = words.now().text.front();
     words.skip();
     const auto first = words.take_index(Variables::count - 1);
     if (!first) {
-        return unknown;
+        return error_code::unknown_command;
     }
     int last = *first;
     if (words.take("..")) {
         const auto told = words.take_index(Variables::count - 1);
         if (!told || *told < *first) {
-            return unknown;
+            return error_code::unknown_command;
         }
         last = *told;
     }
@@ -50,7 +43,7 @@ Commands::Code Commands::assign(char kind, int first, int last, Words& words) {
     }
     const auto value = take_expression(words);
     if (!value) {
-        return unknown;
+        return error_code::unknown_command;
     }
     const double number = value->value(card_);
     for (int n = first; n <= last; ++n) {
@@ -76,7 +69,7 @@ Commands::Code Commands::pointer(Words& words, int index) {
     }
     const auto pointer = take_pointer(words);
     if (!pointer) {
-        return unknown;
+        return error_code::unknown_command;
     }
     card_.memory().point(index, *pointer);
     return 0;
@@ -89,7 +82,7 @@ Commands::Code Commands::memory(Words& words) {
     (void)words.take(":");
     const auto begin = words.take_index(greatest_address);
     if (!begin) {
-        return unknown;
+        return error_code::unknown_command;
     }
     const char side = name.back();
     int address = *begin;
@@ -97,7 +90,7 @@ Commands::Code Commands::memory(Words& words) {
         do {
             const auto value = words.take(",") ? words.take_number() : std::nullopt;
             if (!value || address > greatest_address || std::abs(*value) > 1e12) {
-                return unknown;
+                return error_code::unknown_command;
             }
             const auto bits = static_cast<std::int64_t>(*value);
             if (side == 'L') {
@@ -112,7 +105,7 @@ Commands::Code Commands::memory(Words& words) {
     constexpr int most = 16;
     const auto count = words.take(",") ? words.take_index(most) : std::optional(1);
     if (!count) {
-        return unknown;
+        return error_code::unknown_command;
     }
     const bool hexadecimal = name.size() == 3;
     for (int n = 0; n < *count; ++n, ++address) {

@@ -6,6 +6,7 @@
 #include "core/machine/emulators/pmac/internal/program.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>

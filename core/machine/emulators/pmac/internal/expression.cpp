@@ -28,7 +28,7 @@ double finite(double value) {
     return std::isfinite(value) ? value : 0.0;
 }
 
-long long whole(double value) {
+long long integer_part(double value) {
     constexpr double most = 9e15;
     return static_cast<long long>(std::clamp(value, -most, most));
 }
@@ -92,11 +92,11 @@ double arithmetic(const std::string& op, double a, double b) {
     case '%':
         return std::fmod(a, b);
     case '&':
-        return static_cast<double>(whole(a) & whole(b));
+        return static_cast<double>(integer_part(a) & integer_part(b));
     case '|':
-        return static_cast<double>(whole(a) | whole(b));
+        return static_cast<double>(integer_part(a) | integer_part(b));
     default:
-        return static_cast<double>(whole(a) ^ whole(b));
+        return static_cast<double>(integer_part(a) ^ integer_part(b));
     }
 }
 

@@ -9,8 +9,6 @@ namespace millwright::machine::pmac_card {
 
 namespace {
 
-constexpr std::uint32_t word_mask = 0xFFFFFF;
-constexpr int greatest_address = 0xFFFF;
 constexpr int word_bits = 24;
 constexpr int half_bits = 16;
 
@@ -23,7 +21,7 @@ double sign_extended(std::int64_t value, int bits) {
     return static_cast<double>(value >= half ? value - 2 * half : value);
 }
 
-std::int64_t whole(double value) {
+std::int64_t nearest_integer(double value) {
     constexpr double most = 9e15;
     return std::llround(std::clamp(value, -most, most));
 }
@@ -108,7 +106,7 @@ double MemoryMap::value(int index) const {
 
 void MemoryMap::set_value(int index, double value) {
     const Pointer& at = pointer(index);
-    const std::int64_t number = whole(value);
+    const std::int64_t number = nearest_integer(value);
     switch (at.kind) {
     case Pointer::Kind::none:
         own_[static_cast<std::size_t>(index)] = value;

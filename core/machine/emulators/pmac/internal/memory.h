@@ -13,6 +13,9 @@
 
 namespace millwright::machine::pmac_card {
 
+constexpr std::uint32_t word_mask = 0xFFFFFF;
+constexpr int greatest_address = 0xFFFF;
+
 /// Addresses behind which there is more than memory.
 class Registers {
 public:

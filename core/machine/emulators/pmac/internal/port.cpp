@@ -11,7 +11,6 @@ namespace {
 constexpr int handshake_mode = 3, checksum_mode = 4, error_mode = 6;
 constexpr char cr = '\r', lf = '\n', ack = '\x06', bell = '\a';
 constexpr std::size_t longest_line = 255;
-constexpr int unknown = 3, bad_character = 4;
 
 char sum_of(std::string_view text) {
     unsigned sum = 0;
@@ -44,7 +43,7 @@ void Port::take(char character) {
         const bool overrun = std::exchange(overrun_, false);
         const bool bad = std::exchange(bad_character_, false);
         if (bad || overrun) {
-            refuse(bad ? bad_character : unknown, false);
+            refuse(bad ? error_code::bad_character : error_code::unknown_command, false);
             return;
         }
         enter(line);

@@ -7,9 +7,7 @@ namespace millwright::machine::pmac_card {
 
 namespace {
 
-constexpr std::uint32_t word_mask = 0xFFFFFF;
 constexpr std::uint32_t writable = 0xFFFF; // of a channel's register; what is above is read
-constexpr int encoder_entries = 0x720;
 constexpr int compare_on = 12, compare_inverted = 13, compare_flag = 16;
 
 /// -1: no channel's.
@@ -60,7 +58,7 @@ std::optional<std::uint32_t> Card::read(char side, int address) const {
         }
         return word;
     }
-    const int entry = in_row(address, encoder_entries, 1, motors);
+    const int entry = in_row(address, encoder_table_address, 1, motors);
     if (entry >= 0 && side == 'Y') {
         return encoder_table_[static_cast<std::size_t>(entry)];
     }
@@ -91,7 +89,7 @@ std::optional<std::uint32_t> Card::read(char side, int address) const {
 }
 
 bool Card::write(char side, int address, std::uint32_t value) {
-    if (const int entry = in_row(address, encoder_entries, 1, motors); side == 'Y' && entry >= 0) {
+    if (const int entry = in_row(address, encoder_table_address, 1, motors); side == 'Y' && entry >= 0) {
         encoder_table_[static_cast<std::size_t>(entry)] = value & word_mask;
         load_settings();
         return true;

@@ -13,7 +13,7 @@ namespace millwright::machine::pmac_card {
 namespace {
 
 constexpr int count = 1024;
-constexpr int first_motor = 100, last_motor = 899, hundred = 100;
+constexpr int first_motor = 100, last_motor = 899;
 constexpr int first_encoder = 900, last_encoder = 939, encoder_step = 5;
 
 struct Factory {
@@ -50,8 +50,9 @@ const Factory* entry(int index) {
     const bool motor = index >= first_motor && index <= last_motor;
     const Factory* const begin = motor ? of_motor.data() : globals.data();
     const Factory* const end = begin + (motor ? of_motor.size() : globals.size());
-    const Factory* const found = std::find_if(
-        begin, end, [&](const Factory& one) { return one.index == (motor ? index % hundred : index); });
+    const Factory* const found = std::find_if(begin, end, [&](const Factory& one) {
+        return one.index == (motor ? index % variables_per_motor : index);
+    });
     return found == end ? nullptr : found;
 }
 
@@ -73,7 +74,7 @@ double factory_of_motor(int motor, int index) {
     case 95:
         return slew;
     default: {
-        const Factory* const found = entry(motor * hundred + index);
+        const Factory* const found = entry(motor * variables_per_motor + index);
         return found == nullptr ? 0.0 : found->value;
     }
     }
@@ -83,7 +84,7 @@ double factory_of_motor(int motor, int index) {
 bool is_signed_word(int index) {
     constexpr std::array<int, 12> words{8, 9, 11, 12, 30, 31, 32, 33, 34, 35, 63, 67};
     return index >= first_motor && index <= last_motor &&
-           std::find(words.begin(), words.end(), index % hundred) != words.end();
+           std::find(words.begin(), words.end(), index % variables_per_motor) != words.end();
 }
 
 } // namespace
@@ -96,7 +97,7 @@ IVariables::IVariables() : values_(count) {
 
 double IVariables::factory(int index) {
     if (index >= first_motor && index <= last_motor) {
-        return factory_of_motor(index / hundred, index % hundred);
+        return factory_of_motor(index / variables_per_motor, index % variables_per_motor);
     }
     if (index >= first_encoder && index <= last_encoder) {
         constexpr double times_four = 7.0;
@@ -116,7 +117,7 @@ double IVariables::factory(int index) {
 
 bool IVariables::is_address(int index) {
     constexpr int first_gathered = 20, last_gathered = 44; // the mask of the sources, then those
-    const int own = index % hundred;
+    const int own = index % variables_per_motor;
     return (index >= first_gathered && index <= last_gathered) ||
            (index >= first_motor && index <= last_motor && (own == 2 || own == 3 || own == 4 || own == 25));
 }

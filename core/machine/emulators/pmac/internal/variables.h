@@ -6,6 +6,8 @@
 
 namespace millwright::machine::pmac_card {
 
+constexpr int variables_per_motor = 100; // Ixxnn: xx is the motor
+
 class IVariables {
 public:
     IVariables();

@@ -20,8 +20,8 @@ namespace {
 using kinematics::AxisPositions;
 using testing::HasSubstr;
 
-struct Bench {
-    explicit Bench(const char* machine_name = "router-xyz")
+struct CordicDriverBench {
+    explicit CordicDriverBench(const char* machine_name = "router-xyz")
         : model(std::make_shared<const kinematics::MachineModel>(test::machine(machine_name))),
           driver(AxisPositions::Zero(model->axis_count()), {}, clock, model),
           dispatcher(driver, clock, folder.path() / "logs") {}
@@ -42,20 +42,20 @@ struct Bench {
     }
 };
 
-constexpr const char* part = "G21 G90 F1200\n"
-                             "S8000 M3\n"
-                             "G0 X10 Y10\n"
-                             "(an arc)\n"
-                             "G3 X5 Y5 I-5 J0\n"
-                             "G1 Z-2\n"
-                             "G4 P0.5\n"
-                             "G2 X5 Y5 Z-4 I3 J0\n"
-                             "M5\n"
-                             "M2\n";
+constexpr const char* straight_and_arc_part = "G21 G90 F1200\n"
+                                              "S8000 M3\n"
+                                              "G0 X10 Y10\n"
+                                              "(an arc)\n"
+                                              "G3 X5 Y5 I-5 J0\n"
+                                              "G1 Z-2\n"
+                                              "G4 P0.5\n"
+                                              "G2 X5 Y5 Z-4 I3 J0\n"
+                                              "M5\n"
+                                              "M2\n";
 
 TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
-    Bench bench;
-    const Job job = text_job(part, "part.ngc");
+    CordicDriverBench bench;
+    const Job job = text_job(straight_and_arc_part, "part.ngc");
     double farthest = 0.0; // of the arc about (5, 10) while it is being executed
     double turning = 0.0;
     int before = 0;
@@ -85,21 +85,21 @@ TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
 }
 
 TEST(CordicDriver, TellsOfSetPointsThatCameLate) {
-    Bench bench;
-    (void)bench.dispatcher.run(text_job(part, "part.ngc"), {});
+    CordicDriverBench bench;
+    (void)bench.dispatcher.run(text_job(straight_and_arc_part, "part.ngc"), {});
     EXPECT_TRUE(bench.driver.report().late.empty());
     EXPECT_EQ(bench.driver.remark(), "");
     CordicDriverOptions slow;
     slow.clock_hz = 1e4;
     CordicDriver driver(AxisPositions::Zero(3), {}, bench.clock, bench.model, slow);
     Dispatcher dispatcher(driver, bench.clock, bench.folder.path() / "slow");
-    EXPECT_EQ(dispatcher.run(text_job(part, "part.ngc"), {}).end, JobEnd::done);
+    EXPECT_EQ(dispatcher.run(text_job(straight_and_arc_part, "part.ngc"), {}).end, JobEnd::done);
     EXPECT_GT(driver.report().late.size(), 10U);
     EXPECT_THAT(driver.remark(), HasSubstr("set-points took longer to compute at 0.01 MHz than the motion"));
 }
 
 TEST(CordicDriver, TellsWhatOfTheLastProgramItDoesOtherwise) {
-    Bench bench;
+    CordicDriverBench bench;
     (void)bench.dispatcher.run(text_job("G21 F600\nG61.1\nG1 X1\nM2\n", "part.ngc"), {});
     const auto warnings = bench.driver.warnings();
     ASSERT_EQ(warnings.size(), 1U);
@@ -110,7 +110,7 @@ TEST(CordicDriver, TellsWhatOfTheLastProgramItDoesOtherwise) {
 }
 
 TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove) {
-    Bench bench;
+    CordicDriverBench bench;
     EXPECT_THAT(bench.refusal_of("G21 G0 X1\nG38.2 X5 F100\nM2\n"),
                 HasSubstr("program:2:1: the CORDIC processor cannot probe"));
     EXPECT_THAT(bench.refusal_of("G21\nM64 P1\nM2\n"), HasSubstr("program:2:1: the CORDIC"));
@@ -119,14 +119,14 @@ TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove)
 }
 
 TEST(CordicDriver, RefusesFiveAxisPrograms) {
-    Bench bench("rotary-tilt-gui");
+    CordicDriverBench bench("rotary-tilt-gui");
     const std::string refusal = bench.refusal_of("G21 G0 X1\nG1 X2 A5 F100\nM2\n");
     EXPECT_THAT(refusal, HasSubstr("program:2:7: the CORDIC processor has no axis A (it moves X, Y and Z)"));
     EXPECT_EQ(bench.driver.status().executed_blocks, 0);
 }
 
 TEST(CordicDriver, CountsBlocksOfLoopsOnlyWhenNothingOfThemIsLeft) {
-    Bench bench;
+    CordicDriverBench bench;
     const Job job = text_job("G21 F6000\no1 repeat [3]\nG1 X5\nG1 X0\no1 endrepeat\nG1 Y5\nM2\n", "loop.ngc");
     int at_second_turn = -1;
     const JobOutcome outcome = bench.dispatcher.run(job, {}, [&](const JobReport& report) {
@@ -140,9 +140,9 @@ TEST(CordicDriver, CountsBlocksOfLoopsOnlyWhenNothingOfThemIsLeft) {
 }
 
 TEST(CordicDriver, HoldsAndStopsLikeAnyMachine) {
-    Bench bench;
+    CordicDriverBench bench;
     bench.driver.connect();
-    const Job job = text_job(part, "part.ngc");
+    const Job job = text_job(straight_and_arc_part, "part.ngc");
     bench.driver.start({nullptr, nullptr, job.listing, {}});
     bench.driver.stop();
     test::wait_until([&] { return bench.driver.status().activity == Activity::none; });
@@ -159,7 +159,7 @@ TEST(CordicDriver, RefusesAProgramThatDoesNotEnd) {
     options.most_clocks = 1000;
     CordicDriver driver(AxisPositions::Zero(3), {}, clock, model, options);
     driver.connect();
-    const Job job = text_job(part, "part.ngc");
+    const Job job = text_job(straight_and_arc_part, "part.ngc");
     EXPECT_THROW(driver.start({nullptr, nullptr, job.listing, {}}), Error);
     EXPECT_EQ(driver.status().state, DriverState::idle);
 }

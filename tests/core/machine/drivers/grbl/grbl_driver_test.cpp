@@ -22,7 +22,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string zigzag(int lines) {
+std::string zigzag_in_plane(int lines) {
     std::string text = "G21 G90 G94\n\nG1 F3000 (feed)\n";
     for (int n = 0; n < lines; ++n) {
         text += "X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + "\n";
@@ -35,12 +35,12 @@ Work work_of(const Job& job) {
 }
 
 /// An emulated controller on a pseudo-terminal or TCP port, and a driver at the other end of a real link.
-class Bench {
+class GrblDriverBench {
 public:
-    explicit Bench(const FaultSpec& faults = {},
-                   bool tcp = false,
-                   double speed = 20.0,
-                   const GrblOptions& options = {}) {
+    explicit GrblDriverBench(const FaultSpec& faults = {},
+                             bool tcp = false,
+                             double speed = 20.0,
+                             const GrblOptions& options = {}) {
         std::unique_ptr<Link> far_end;
         std::unique_ptr<Link> near_end;
         if (tcp) {
@@ -109,8 +109,8 @@ class GrblDriverOver : public testing::TestWithParam<bool> {};
 
 TEST_P(GrblDriverOver, RunsAJobAndLogsWhatWasExecuted) {
     const test::ScratchFolder scratch;
-    Bench bench({}, GetParam());
-    const Job job = text_job(zigzag(20), "zigzag.ngc");
+    GrblDriverBench bench({}, GetParam());
+    const Job job = text_job(zigzag_in_plane(20), "zigzag.ngc");
     Dispatcher dispatcher(*bench.driver, bench.clock, scratch / "logs");
     const JobOutcome outcome = dispatcher.run(job, {});
     EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
@@ -168,9 +168,9 @@ TEST(GrblDriver, StopsAMachineThatIsWhereNoLineSendsIt) {
 }
 
 TEST_P(GrblDriverOver, HoldsResumesAndStops) {
-    Bench bench({}, GetParam());
+    GrblDriverBench bench({}, GetParam());
     bench.driver->connect();
-    bench.driver->start(work_of(text_job(zigzag(200), "zigzag.ngc")));
+    bench.driver->start(work_of(text_job(zigzag_in_plane(200), "zigzag.ngc")));
     test::wait_until([&] { return bench.driver->status().position[1] > 5.0; });
     bench.driver->hold();
     bench.wait_for(DriverState::holding);
@@ -203,7 +203,7 @@ TEST(GrblDriver, TellsThatNobodyAnswers) {
 }
 
 TEST(GrblDriver, ReadsSettingsAndPosition) {
-    Bench bench;
+    GrblDriverBench bench;
     bench.driver->connect();
     const GrblReadout readout = bench.driver->readout();
     EXPECT_EQ(readout.version, "1.1h");
@@ -213,10 +213,10 @@ TEST(GrblDriver, ReadsSettingsAndPosition) {
 }
 
 TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
-    Bench bench(
+    GrblDriverBench bench(
         {.disconnect = 6000, .toward_controller = false}); // the greeting takes far less, 2000 answers more
     bench.driver->connect();
-    bench.driver->start(work_of(text_job(zigzag(2000), "zigzag.ngc")));
+    bench.driver->start(work_of(text_job(zigzag_in_plane(2000), "zigzag.ngc")));
     bench.wait_for(DriverState::alarm);
     EXPECT_THAT(bench.driver->status().message, HasSubstr("the link was lost"));
     EXPECT_THROW(bench.driver->start(work_of(text_job("G0 X0\n", "x"))), Error);
@@ -228,7 +228,8 @@ TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
 }
 
 TEST(GrblDriver, LeavesAMachineThatStillMovesWhenTheLinkIsMadeAgainToItselfUntilItIsStopped) {
-    Bench bench({.disconnect = 6000, .toward_controller = false}, false, 1.0, {.poll_interval = 0.01});
+    GrblDriverBench bench(
+        {.disconnect = 6000, .toward_controller = false}, false, 1.0, {.poll_interval = 0.01});
     bench.driver->connect();
     bench.driver->start(work_of(text_job("G21 G90 G94\nG1 F60 X900\nX0\nM30\n", "slow.ngc"))); // half an hour
     bench.wait_for(DriverState::alarm);
@@ -245,11 +246,11 @@ TEST(GrblDriver, LeavesAMachineThatStillMovesWhenTheLinkIsMadeAgainToItselfUntil
 }
 
 TEST(GrblDriver, HoldsAtOnceWhileTheLogWaitsForItsDisk) {
-    Bench bench;
+    GrblDriverBench bench;
     bench.driver->connect();
     std::atomic<bool> waits = false;
     std::atomic<bool> held = false;
-    Work work = work_of(text_job(zigzag(2000), "zigzag.ngc"));
+    Work work = work_of(text_job(zigzag_in_plane(2000), "zigzag.ngc"));
     work.ahead = [&](int wanted) {
         constexpr int free_blocks = 60;
         if (wanted > free_blocks) {
@@ -269,9 +270,9 @@ TEST(GrblDriver, HoldsAtOnceWhileTheLogWaitsForItsDisk) {
 }
 
 TEST(GrblDriver, GoesIntoAlarmWhenALimitSwitchIsHit) {
-    Bench bench;
+    GrblDriverBench bench;
     bench.driver->connect();
-    bench.driver->start(work_of(text_job(zigzag(2000), "zigzag.ngc")));
+    bench.driver->start(work_of(text_job(zigzag_in_plane(2000), "zigzag.ngc")));
     test::wait_until([&] { return bench.driver->status().position[1] > 3.0; });
     bench.server->with_controller([](GrblEmulator& grbl) { grbl.raise_alarm(); });
     bench.wait_for(DriverState::alarm);
@@ -283,7 +284,7 @@ TEST(GrblDriver, GoesIntoAlarmWhenALimitSwitchIsHit) {
 }
 
 TEST(GrblDriver, JogsWhileTheButtonIsHeld) {
-    Bench bench({}, false, 1.0);
+    GrblDriverBench bench({}, false, 1.0);
     bench.driver->connect();
     Jog jog;
     jog.way = kinematics::AxisPositions::Zero(3);

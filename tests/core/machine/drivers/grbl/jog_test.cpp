@@ -35,8 +35,8 @@ std::string accelerations(double a) {
 }
 
 /// A session that has read the settings of a controller with acceleration `a`.
-struct Bench {
-    explicit Bench(double a, const FaultSpec& faults = {})
+struct GrblJogBench {
+    explicit GrblJogBench(double a, const FaultSpec& faults = {})
         : acceleration(a), wire(faults, {}, {}, accelerations(a)) {
         wire.session.opened(wire.now);
         wire.run_until([this] { return wire.session.greeted(); }, 10.0);
@@ -77,7 +77,7 @@ struct Bench {
 };
 
 TEST(GrblJog, GoesExactlyAsFarAsItSays) {
-    Bench bench(200.0);
+    GrblJogBench bench(200.0);
     bench.wire.session.jog(jog(5.0, 0.0, 20.0), bench.wire.now);
     EXPECT_EQ(bench.wire.session.status().activity, Activity::jog);
     bench.wire.session.jog(jog(0.0, -1.2345, 20.0), bench.wire.now);
@@ -89,7 +89,7 @@ TEST(GrblJog, GoesExactlyAsFarAsItSays) {
 
 TEST(GrblJog, ReachesTheSpeedThatIsAskedFor) {
     for (const double speed : {5.0, 25.0, 50.0}) {
-        Bench bench(500.0);
+        GrblJogBench bench(500.0);
         bench.hold_key(1.0, jog(200.0, 0.0, speed, 0.2));
         EXPECT_NEAR(bench.speed(), speed, 0.05 * speed);
     }
@@ -98,7 +98,7 @@ TEST(GrblJog, ReachesTheSpeedThatIsAskedFor) {
 TEST(GrblJog, StandsWithin100MillisecondsOfItsRelease) {
     for (const double a : {100.0, 500.0, 3000.0}) {
         for (const double v : {2.0, 25.0, 120.0}) {
-            Bench bench(a);
+            GrblJogBench bench(a);
             bench.hold_key(1.5, jog(150.0, 100.0, v, 0.2));
             bench.wire.session.stop_jog(bench.wire.now);
             EXPECT_LT(bench.time_before_braking(), promise) << "a " << a << " v " << v;
@@ -111,7 +111,7 @@ TEST(GrblJog, StandsWithin100MillisecondsOfALinkThatBreaksOrFallsSilent) {
     for (const bool silent : {false, true}) {
         for (const double a : {100.0, 500.0, 3000.0}) {
             for (const double v : {2.0, 25.0, 120.0}) {
-                Bench bench(a);
+                GrblJogBench bench(a);
                 bench.hold_key(1.5, jog(150.0, 100.0, v, 0.2));
                 silent ? bench.wire.go_deaf() : bench.wire.cut();
                 EXPECT_LT(bench.time_before_braking(), promise) << "a " << a << " v " << v;
@@ -122,7 +122,7 @@ TEST(GrblJog, StandsWithin100MillisecondsOfALinkThatBreaksOrFallsSilent) {
 }
 
 TEST(GrblJog, StandsWithin100MillisecondsOfADeadHand) {
-    Bench bench(500.0);
+    GrblJogBench bench(500.0);
     constexpr double dead_man = 0.2;
     bench.wire.session.jog(jog(150.0, 0.0, 50.0, dead_man), bench.wire.now);
     EXPECT_LT(bench.time_before_braking(), dead_man + promise);
@@ -130,7 +130,7 @@ TEST(GrblJog, StandsWithin100MillisecondsOfADeadHand) {
 }
 
 TEST(GrblJog, TurnsRoundWhereTheHandWantsIt) {
-    Bench bench(500.0);
+    GrblJogBench bench(500.0);
     bench.hold_key(1.0, jog(150.0, 0.0, 25.0, 0.2));
     bench.hold_key(2.0, jog(-150.0, 0.0, 25.0, 0.2));
     bench.wire.session.stop_jog(bench.wire.now);
@@ -161,7 +161,7 @@ TEST(GrblJog, NeverLeavesTheMachineMovingWhateverTheHandDoes) {
             return static_cast<int>(random() % static_cast<unsigned>(count));
         };
         const double a = 200.0 * (1 + pick(5));
-        Bench bench(a, {.delay = 0.001 * pick(10), .seed = seed});
+        GrblJogBench bench(a, {.delay = 0.001 * pick(10), .seed = seed});
         bool broken = false;
         for (int n = 0; n < 12 && !broken; ++n) {
             const Jog wanted = jog(

@@ -23,7 +23,7 @@ using testing::IsEmpty;
 
 constexpr double long_run = 1e5; // s
 
-std::string zigzag(int passes) {
+std::string zigzag_below_surface(int passes) {
     std::string text = "G21 G90 G94 G17\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F3000\n";
     for (int n = 1; n <= passes; ++n) {
         text += "X" + std::to_string(n % 2 == 0 ? 1 : 20) + " Y" + std::to_string(n) + "\n";
@@ -48,7 +48,7 @@ void unlock(GrblWire& wire) {
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
 }
 
-void execute(GrblWire& wire, const std::string& lines) {
+void type_lines(GrblWire& wire, const std::string& lines) {
     (void)wire.session.command(command_lines(lines), wire.now);
     wire.run_to_end();
 }
@@ -56,7 +56,7 @@ void execute(GrblWire& wire, const std::string& lines) {
 TEST(GrblPositionDoubt, ArisesWhenTheControllerIsResetUnderAProgramAndOutlastsTheUnlocking) {
     GrblWire wire({.reset = 1500});
     trust(wire);
-    wire.start(zigzag(40));
+    wire.start(zigzag_below_surface(40));
     wire.run_to_end();
     ASSERT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(doubt(wire), HasSubstr("was reset"));
@@ -67,7 +67,7 @@ TEST(GrblPositionDoubt, ArisesWhenTheControllerIsResetUnderAProgramAndOutlastsTh
 TEST(GrblPositionDoubt, ArisesWhereAnEmergencyStopCutsTheMotionOff) {
     GrblWire wire;
     trust(wire);
-    wire.start(zigzag(40));
+    wire.start(zigzag_below_surface(40));
     wire.run_until([&] { return wire.grbl.moving() && wire.grbl.position()[0] > 5.0; }, 20.0);
     wire.session.emergency_stop(wire.now);
     wire.run_to_end();
@@ -79,7 +79,7 @@ TEST(GrblPositionDoubt, ArisesWhereAnEmergencyStopCutsTheMotionOff) {
 TEST(GrblPositionDoubt, DoesNotAriseWhereTheMachineBraked) {
     GrblWire wire;
     trust(wire);
-    wire.start(zigzag(40));
+    wire.start(zigzag_below_surface(40));
     wire.run_until([&] { return wire.grbl.position()[0] > 5.0; }, 20.0);
     wire.session.stop(wire.now);
     wire.run_to_end();
@@ -98,15 +98,15 @@ TEST(GrblPositionDoubt, ArisesOfAlarmsThatCutMotionOffAlone) {
 
 TEST(GrblPositionDoubt, EndsWhenEveryAxisHasANewZero) {
     GrblWire wire;
-    execute(wire, "G10 L20 P1 X0 Y0");
+    type_lines(wire, "G10 L20 P1 X0 Y0");
     EXPECT_THAT(doubt(wire), Not(IsEmpty()));
-    execute(wire, "G92 Z+5.");
+    type_lines(wire, "G92 Z+5.");
     EXPECT_THAT(doubt(wire), IsEmpty());
 }
 
 TEST(GrblPositionDoubt, IsNotEndedByARefusedZero) {
     GrblWire wire;
-    execute(wire, "G10 L20 P77 X0 Y0 Z0");
+    type_lines(wire, "G10 L20 P77 X0 Y0 Z0");
     ASSERT_EQ(wire.session.status().answer.state, CommandAnswer::State::refused);
     EXPECT_THAT(doubt(wire), Not(IsEmpty()));
 }
@@ -128,15 +128,15 @@ TEST(GrblPositionDoubt, IsThereFromTheStartOfAControllerThatWasSwitchedOnOrIsLoc
         wire.session.opened(wire.now);
         wire.run_until([&] { return wire.session.greeted(); }, 10.0);
     };
-    execute(wire, "G0 X3 Y4");
+    type_lines(wire, "G0 X3 Y4");
     connect_again(); // it has been running all the time
     EXPECT_THAT(doubt(wire), IsEmpty());
     wire.grbl.power_cycle();
     wire.run_until([] { return false; }, 0.5);
     connect_again();
     EXPECT_THAT(doubt(wire), HasSubstr("at zero in all axes"));
-    execute(wire, "G0 X3 Y4");
-    execute(wire, "$22=1");
+    type_lines(wire, "G0 X3 Y4");
+    type_lines(wire, "$22=1");
     wire.grbl.power_cycle();
     (void)wire.grbl.take_output(); // before anybody listened
     connect_again();
@@ -147,7 +147,7 @@ TEST(GrblPositionDoubt, IsThereFromTheStartOfAControllerThatWasSwitchedOnOrIsLoc
 TEST(GrblPositionDoubt, OutlastsALinkThatIsMadeAgain) {
     GrblWire wire;
     trust(wire);
-    execute(wire, "G0 X3");
+    type_lines(wire, "G0 X3");
     wire.grbl.raise_alarm();
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 5.0));
     EXPECT_THAT(doubt(wire), HasSubstr("alarm 1"));
@@ -174,7 +174,7 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
     test::WireDriver driver(wire);
     Dispatcher dispatcher(driver, clock, scratch.path());
     trust(wire);
-    const Job job = text_job(zigzag(40), "zigzag.ngc");
+    const Job job = text_job(zigzag_below_surface(40), "zigzag.ngc");
     const JobOutcome outcome = dispatcher.run(job, {});
     ASSERT_EQ(outcome.end, JobEnd::fault);
     EXPECT_THAT(outcome.sentence, HasSubstr("The position may be lost (the controller was reset)"));

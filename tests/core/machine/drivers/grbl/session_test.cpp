@@ -16,7 +16,7 @@ namespace {
 using test::GrblWire;
 using testing::HasSubstr;
 
-std::string zigzag(int lines) {
+std::string zigzag_with_spindle(int lines) {
     std::string text = "(zigzag)\nG21 G90 G94\nG0 Z5\nM3 S1000\nG1 Z-1 F600\n";
     for (int n = 0; n < lines; ++n) {
         text += "G1 X" + std::to_string(n % 2 == 0 ? 10 : 0) + " Y" + std::to_string(n) + " F1500\n";
@@ -43,7 +43,7 @@ TEST(GrblSession, FindsTheControllerAndAsksItForEverything) {
 TEST(GrblSession, RunsAProgramToItsEnd) {
     for (const bool one_by_one : {false, true}) {
         GrblWire wire({}, {}, {.one_by_one = one_by_one});
-        wire.start(zigzag(40));
+        wire.start(zigzag_with_spindle(40));
         EXPECT_EQ(wire.state(), DriverState::running);
         EXPECT_TRUE(wire.run_to_end());
         EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
@@ -59,7 +59,7 @@ TEST(GrblSession, NeverClaimsMoreThanWasExecuted) {
         GrblWire wire({}, {.line_numbers = numbers});
         wire.grbl.receive("$10=3\n");
         wire.run_until([] { return false; }, 0.2);
-        wire.start(zigzag(60));
+        wire.start(zigzag_with_spindle(60));
         int claimed = 0;
         while (wire.state() == DriverState::running) {
             wire.step();
@@ -98,7 +98,7 @@ TEST(GrblSession, KeepsThePlannerFullAtAThousandBlocksASecond) {
 
 TEST(GrblSession, HoldsAndResumes) {
     GrblWire wire;
-    wire.start(zigzag(20));
+    wire.start(zigzag_with_spindle(20));
     wire.run_until([&] { return wire.grbl.position()[1] > 3.0; }, 60.0);
     wire.session.hold(wire.now);
     EXPECT_EQ(wire.state(), DriverState::holding);
@@ -114,7 +114,7 @@ TEST(GrblSession, HoldsAndResumes) {
 
 TEST(GrblSession, StopsAtRestWithItsPositionKept) {
     GrblWire wire;
-    wire.start(zigzag(20));
+    wire.start(zigzag_with_spindle(20));
     wire.run_until([&] { return wire.grbl.position()[1] > 3.0; }, 60.0);
     wire.session.stop(wire.now);
     EXPECT_EQ(wire.state(), DriverState::stopping);
@@ -132,7 +132,7 @@ TEST(GrblSession, StopsAtRestWithItsPositionKept) {
 
 TEST(GrblSession, CutsMotionOffInAnEmergency) {
     GrblWire wire;
-    wire.start(zigzag(20));
+    wire.start(zigzag_with_spindle(20));
     wire.run_until([&] { return wire.grbl.position()[1] > 3.0; }, 60.0);
     wire.session.emergency_stop(wire.now);
     EXPECT_EQ(wire.state(), DriverState::alarm);
@@ -359,7 +359,7 @@ TEST(GrblSession, HomesAndUnlocks) {
 
 TEST(GrblSession, NoticesThatTheControllerIsSilent) {
     GrblWire wire({.stall = 1500, .toward_controller = false});
-    wire.start(zigzag(50));
+    wire.start(zigzag_with_spindle(50));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(wire.session.status().message, HasSubstr("does not answer"));
@@ -368,7 +368,7 @@ TEST(GrblSession, NoticesThatTheControllerIsSilent) {
 
 TEST(GrblSession, NoticesThatAnAcknowledgementWasLost) {
     GrblWire wire({.lost_ok = 0.1, .seed = 5});
-    wire.start(zigzag(30));
+    wire.start(zigzag_with_spindle(30));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(wire.session.status().message, HasSubstr("acknowledgement"));
@@ -501,7 +501,7 @@ TEST(GrblSession, SurvivesALimitSwitchWhileItIsBeingAsked) {
 
 TEST(GrblSession, NoticesThatTheControllerWasReset) {
     GrblWire wire({.reset = 800});
-    wire.start(zigzag(30));
+    wire.start(zigzag_with_spindle(30));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(wire.session.status().message, HasSubstr("was reset"));
@@ -521,7 +521,7 @@ TEST(GrblSession, IsNotResetWhileTheMachineMovesForSomebodyElse) {
 
 TEST(GrblSession, NoticesALostLink) {
     GrblWire wire({.disconnect = 800});
-    wire.start(zigzag(30));
+    wire.start(zigzag_with_spindle(30));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(wire.session.status().message, HasSubstr("the link was lost"));

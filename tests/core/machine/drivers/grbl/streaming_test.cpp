@@ -12,21 +12,21 @@ namespace {
 
 using test::GrblWire;
 
-constexpr int blocks = 3000;
+constexpr int streamed_blocks = 3000;
 constexpr double blocks_a_second = 1000.0;
 constexpr int full = 15; // blocks that the planner holds
 
 /// 0.1 mm each at 100 mm/s, which the planner's 15 blocks let a machine with this acceleration go.
 std::string short_blocks() {
     std::string text = "G21G90G94\nG1F6000\n";
-    for (int n = 1; n <= blocks; ++n) {
+    for (int n = 1; n <= streamed_blocks; ++n) {
         text += fmt::format("X{:.1f}\n", 0.1 * n);
     }
     return text + "M30\n";
 }
 
 struct Measured {
-    int least_planned = blocks;
+    int least_planned = streamed_blocks;
     double rate = 0.0; ///< blocks a second, between the first and the last quarter
 };
 
@@ -39,7 +39,8 @@ Measured stream(double delay) {
     while (wire.state() == DriverState::running) {
         wire.step(0.001);
         const int sent = wire.session.status().sent_blocks;
-        const bool under_way = wire.grbl.planned_blocks() > 0 && sent > blocks / 10 && sent < blocks;
+        const bool under_way =
+            wire.grbl.planned_blocks() > 0 && sent > streamed_blocks / 10 && sent < streamed_blocks;
         if (under_way) {
             measured.least_planned = std::min(measured.least_planned, wire.grbl.planned_blocks());
         }
@@ -47,7 +48,7 @@ Measured stream(double delay) {
     EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
     const Truth truth = wire.grbl.truth();
     const auto executed = [&](int line) { return truth.lines[static_cast<std::size_t>(line)].executed; };
-    constexpr int quarter = blocks / 4;
+    constexpr int quarter = streamed_blocks / 4;
     measured.rate = 2 * quarter / (executed(3 * quarter) - executed(quarter));
     fmt::print("at least {} blocks planned, {:.1f} a second\n", measured.least_planned, measured.rate);
     return measured;

@@ -5,6 +5,8 @@
 //     LinuxCNC goes on over a lost link, which is said;
 //   no more is claimed as executed, at any moment in the log, than was truly executed by then;
 //   done is said only of a program that LinuxCNC ran to its end, once.
+#include "tests/core/machine/drivers/fault_campaign.h"
+
 #include "core/base/error.h"
 #include "core/machine/dispatcher.h"
 #include "tests/core/machine/drivers/linuxcnc/linuxcnc_wire.h"
@@ -13,15 +15,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
 
 namespace millwright::machine::linuxcnc {
 namespace {
 
 using test::LinuxCncWire;
-using Random = std::mt19937_64;
+using test::pick;
+using test::Random;
 
-enum class Kind {
+enum class LinuxCncFault {
     none,
     delay,
     disconnect,
@@ -32,18 +34,14 @@ enum class Kind {
     bad_line,
     aborted
 };
-constexpr int kinds = 9;
-
-int pick(Random& random, int count) {
-    return static_cast<int>(random() % static_cast<std::uint64_t>(count));
-}
+constexpr int linuxcnc_fault_count = 9;
 
 /// Each line with G0, G1 or G3 goes somewhere else in X.
-std::string random_program(Random& random, Kind kind) {
+std::string random_linuxcnc_program(Random& random, LinuxCncFault kind) {
     constexpr int places = 20;
     std::string text = "(run)\nG21 G90 G94 F6000\n";
     const int lines = 8 + pick(random, 15);
-    const int bad = kind == Kind::bad_line ? pick(random, lines) : -1;
+    const int bad = kind == LinuxCncFault::bad_line ? pick(random, lines) : -1;
     int x = 0;
     for (int n = 0; n < lines; ++n) {
         const int other = (x + 1 + pick(random, places - 1)) % places;
@@ -70,31 +68,31 @@ std::string random_program(Random& random, Kind kind) {
     return text + "M2\n";
 }
 
-FaultSpec faults_of(Kind kind, Random& random, std::uint64_t seed) {
+FaultSpec faults_of(LinuxCncFault kind, Random& random, std::uint64_t seed) {
     FaultSpec spec;
     spec.seed = seed;
-    spec.toward_host = kind != Kind::stall_to_linuxcnc;
-    spec.toward_controller = kind != Kind::stall_to_host;
+    spec.toward_host = kind != LinuxCncFault::stall_to_linuxcnc;
+    spec.toward_controller = kind != LinuxCncFault::stall_to_host;
     const std::int64_t moment = 50 + pick(random, 30'000);
-    if (kind == Kind::delay) {
+    if (kind == LinuxCncFault::delay) {
         spec.delay = 0.001 * (1 + pick(random, 400));
-    } else if (kind == Kind::disconnect) {
+    } else if (kind == LinuxCncFault::disconnect) {
         spec.disconnect = moment;
-    } else if (kind == Kind::stall_to_host || kind == Kind::stall_to_linuxcnc) {
+    } else if (kind == LinuxCncFault::stall_to_host || kind == LinuxCncFault::stall_to_linuxcnc) {
         spec.stall = moment / 2;
-    } else if (kind == Kind::reset) {
+    } else if (kind == LinuxCncFault::reset) {
         spec.reset = moment;
-    } else if (kind == Kind::alarm) {
+    } else if (kind == LinuxCncFault::alarm) {
         spec.alarm = moment;
     }
     return spec;
 }
 
-class CampaignRun {
+class LinuxCncCampaignRun {
 public:
-    CampaignRun(std::uint64_t seed, const std::filesystem::path& logs)
-        : random_(seed), kind_(static_cast<Kind>(seed % kinds)), logs_(logs),
-          job_(text_job(random_program(random_, kind_), "campaign.ngc")),
+    LinuxCncCampaignRun(std::uint64_t seed, const std::filesystem::path& logs)
+        : random_(seed), kind_(static_cast<LinuxCncFault>(seed % linuxcnc_fault_count)), logs_(logs),
+          job_(text_job(random_linuxcnc_program(random_, kind_), "campaign.ngc")),
           wire_(faults_of(kind_, random_, seed)), abort_at_(10 + pick(random_, 200)) {
         job_.name = fmt::format("run-{}", seed);
     }
@@ -127,7 +125,7 @@ public:
 
 private:
     Random random_;
-    Kind kind_;
+    LinuxCncFault kind_;
     std::filesystem::path logs_;
     Job job_;
     LinuxCncWire wire_;
@@ -145,7 +143,7 @@ private:
 
     /// A person, and somebody at the machine. Asked 50 times a second.
     void act(Dispatcher& dispatcher, Driver& driver, const DriverStatus& now) {
-        if (kind_ == Kind::aborted && ++looks_ == abort_at_) {
+        if (kind_ == LinuxCncFault::aborted && ++looks_ == abort_at_) {
             wire_.linuxcnc.abort_at_the_machine();
         }
         if (now.state == DriverState::holding && pick(random_, 40) == 0) {
@@ -235,8 +233,8 @@ private:
 
     /// Half a minute later.
     void check_quiet() {
-        const bool goes_on =
-            wire_.session.link_lost() || kind_ == Kind::stall_to_host || kind_ == Kind::stall_to_linuxcnc;
+        const bool goes_on = wire_.session.link_lost() || kind_ == LinuxCncFault::stall_to_host ||
+                             kind_ == LinuxCncFault::stall_to_linuxcnc;
         const double end = wire_.linuxcnc.time();
         wire_.sent.clear();
         wire_.run_until([] { return false; }, 30.0);
@@ -252,21 +250,22 @@ private:
 
 TEST(LinuxCncFaultCampaign, NeverMovesAfterAFaultNorLiesAboutALineInAThousandRuns) {
     constexpr int runs = 1000;
-    std::array<int, kinds> done{};
-    std::array<int, kinds> all{};
+    std::array<int, linuxcnc_fault_count> done{};
+    std::array<int, linuxcnc_fault_count> all{};
     const test::ScratchFolder logs;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-        CampaignRun run(seed, logs.path());
+        LinuxCncCampaignRun run(seed, logs.path());
         EXPECT_EQ(run.run(), "") << "seed " << seed;
-        done[seed % kinds] += run.done() ? 1 : 0;
-        ++all[seed % kinds];
+        done[seed % linuxcnc_fault_count] += run.done() ? 1 : 0;
+        ++all[seed % linuxcnc_fault_count];
     }
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
+    for (std::size_t kind = 0; kind < linuxcnc_fault_count; ++kind) {
         fmt::print("kind {}: {:3} of {:3} ended well\n", kind, done[kind], all[kind]);
     }
-    EXPECT_GT(done[static_cast<std::size_t>(Kind::none)], 0);
-    EXPECT_LT(done[static_cast<std::size_t>(Kind::alarm)], all[static_cast<std::size_t>(Kind::alarm)]);
-    EXPECT_EQ(done[static_cast<std::size_t>(Kind::bad_line)], 0);
+    EXPECT_GT(done[static_cast<std::size_t>(LinuxCncFault::none)], 0);
+    EXPECT_LT(done[static_cast<std::size_t>(LinuxCncFault::alarm)],
+              all[static_cast<std::size_t>(LinuxCncFault::alarm)]);
+    EXPECT_EQ(done[static_cast<std::size_t>(LinuxCncFault::bad_line)], 0);
 }
 
 } // namespace

@@ -86,8 +86,8 @@ private:
 };
 
 /// Waits until something is done; false when even a slow computer would have done it.
-template <class Done> bool within(std::chrono::seconds patience, const Done& done) {
-    const auto end = std::chrono::steady_clock::now() + patience;
+template <class Done> bool within(std::chrono::seconds simulator_patience, const Done& done) {
+    const auto end = std::chrono::steady_clock::now() + simulator_patience;
     while (!done()) {
         if (std::chrono::steady_clock::now() > end) {
             return false;
@@ -97,7 +97,7 @@ template <class Done> bool within(std::chrono::seconds patience, const Done& don
     return true;
 }
 
-constexpr std::chrono::seconds patience{90};
+constexpr std::chrono::seconds simulator_patience{90};
 
 /// LinuxCNC as a child process.
 class Simulator {
@@ -123,7 +123,7 @@ public:
     Simulator& operator=(const Simulator&) = delete;
     ~Simulator() {
         ::kill(-child_, SIGTERM); // its script takes everything down, once the user interface has ended
-        if (!within(patience, [this] { return gone(); })) {
+        if (!within(simulator_patience, [this] { return gone(); })) {
             ::kill(-child_, SIGKILL);
             ::waitpid(child_, nullptr, 0);
         }
@@ -142,7 +142,7 @@ public:
             }
         };
         bool linked = false;
-        (void)within(patience, [&] {
+        (void)within(simulator_patience, [&] {
             linked = connected();
             return linked || gone();
         });
@@ -184,7 +184,7 @@ struct LinuxCncSimulator : OracleTest {
     SteadyClock clock;
 };
 
-constexpr const char* square =
+constexpr const char* square_at_two_feeds =
     "G21 G90 G94\nG0 X0 Y0\n(around)\nG1 X20 F240\nG1 Y20\n\nG1 X0 F1200\nG1 Y0\nM2\n";
 
 /// Holds a running job on its way, looks whether the machine stands, and goes on.
@@ -225,7 +225,7 @@ TEST_F(LinuxCncSimulator, IsDrivenThroughProgramPauseOverrideStopCommandAndJog) 
     LinuxCncDriver driver(std::make_unique<TcpLink>("127.0.0.1", simulator.port), clock, options);
     const auto state = [&] { return driver.status().state; };
     const auto reaches = [&](DriverState wanted) {
-        return within(patience, [&] { return state() == wanted; });
+        return within(simulator_patience, [&] { return state() == wanted; });
     };
 
     const std::string said = simulator.connect(driver);
@@ -241,8 +241,9 @@ TEST_F(LinuxCncSimulator, IsDrivenThroughProgramPauseOverrideStopCommandAndJog) 
     // A program, with pause and override, and its log.
     Dispatcher dispatcher(driver, clock, scratch / "logs");
     Pauser pauser(dispatcher);
-    const JobOutcome outcome = dispatcher.run(
-        text_job(square, "square.ngc"), {}, [&](const JobReport& report) { pauser.look(report.driver); });
+    const JobOutcome outcome = dispatcher.run(text_job(square_at_two_feeds, "square.ngc"),
+                                              {},
+                                              [&](const JobReport& report) { pauser.look(report.driver); });
     EXPECT_TRUE(pauser.resumed());
     EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
     EXPECT_EQ(outcome.executed_blocks, 8);
@@ -251,8 +252,8 @@ TEST_F(LinuxCncSimulator, IsDrivenThroughProgramPauseOverrideStopCommandAndJog) 
     driver.set_overrides({});
 
     // Stopped on its way: no more is claimed than the position proves.
-    driver.start({nullptr, nullptr, text_job(square, "square.ngc").listing, {}});
-    ASSERT_TRUE(within(patience, [&] { return driver.status().position[1] > 5.0; }));
+    driver.start({nullptr, nullptr, text_job(square_at_two_feeds, "square.ngc").listing, {}});
+    ASSERT_TRUE(within(simulator_patience, [&] { return driver.status().position[1] > 5.0; }));
     driver.stop();
     ASSERT_TRUE(reaches(DriverState::stopped));
     EXPECT_LE(driver.status().executed_blocks, 4); // up to the line that it was on

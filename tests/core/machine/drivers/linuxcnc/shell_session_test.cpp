@@ -14,12 +14,13 @@ using kinematics::AxisPositions;
 using test::LinuxCncWire;
 using testing::HasSubstr;
 
-constexpr const char* square = "G21 G90 G94\nG0 X0 Y0\n(around)\nG1 X20 F600\nG1 Y20\n\nG1 X0\nG1 Y0\nM2\n";
+constexpr const char* square_at_one_feed =
+    "G21 G90 G94\nG0 X0 Y0\n(around)\nG1 X20 F600\nG1 Y20\n\nG1 X0\nG1 Y0\nM2\n";
 
 TEST(ShellSession, RunsAProgramToItsEnd) {
     LinuxCncWire wire;
     ASSERT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
-    wire.start(square);
+    wire.start(square_at_one_feed);
     int executed = 0;
     while (wire.state() == DriverState::running) {
         wire.step();
@@ -33,7 +34,7 @@ TEST(ShellSession, RunsAProgramToItsEnd) {
 
 TEST(ShellSession, HoldsResumesOverridesAndStops) {
     LinuxCncWire wire;
-    wire.start(square);
+    wire.start(square_at_one_feed);
     ASSERT_TRUE(wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0));
     wire.session.set_overrides({.feed = 50});
     wire.session.hold(wire.now);
@@ -82,7 +83,7 @@ TEST(ShellSession, JogsAsFarAsTheHandSays) {
 
 TEST(ShellSession, TellsOneThatEndedFromOneThatWasEndedAtTheMachine) {
     LinuxCncWire wire;
-    wire.start(square);
+    wire.start(square_at_one_feed);
     wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0);
     wire.linuxcnc.abort_at_the_machine();
     wire.run_to_end();
@@ -95,7 +96,7 @@ struct Orphan : ::testing::Test {
     LinuxCncWire wire;
 
     void SetUp() override {
-        wire.start(square);
+        wire.start(square_at_one_feed);
         ASSERT_TRUE(wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0));
         wire.session = ShellSession();
         wire.session.opened(wire.now);
@@ -155,7 +156,7 @@ TEST_F(Orphan, IsFoundAlsoWhenItBeginsLater) {
 
 TEST(ShellSession, TellsALinuxCncThatFallsSilentToStop) {
     LinuxCncWire wire;
-    wire.start(square);
+    wire.start(square_at_one_feed);
     wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0);
     wire.go_deaf();
     wire.run_until([&] { return wire.state() == DriverState::alarm; }, 60.0);
@@ -167,7 +168,7 @@ TEST(ShellSession, TellsALinuxCncThatFallsSilentToStop) {
 TEST(ShellSession, DoesNotTakeItsOwnPauseForLinuxCncsSilence) {
     for (int n = 0; n < 20; ++n) {
         LinuxCncWire wire;
-        wire.start(square);
+        wire.start(square_at_one_feed);
         wire.run_until([] { return false; }, 0.5 + 0.005 * n);
         wire.now += 60.0; // longer than it is waited for; what has come meanwhile is read a moment later
         wire.session.tick(wire.now);
@@ -188,7 +189,7 @@ TEST(ShellSession, EndsInAnAlarmWithLinuxCncsOwnWords) {
 TEST(ShellSession, SendsNothingThatMovesAfterAnEmergencyStopOrALostLink) {
     for (const bool lost : {false, true}) {
         LinuxCncWire wire;
-        wire.start(square);
+        wire.start(square_at_one_feed);
         wire.run_until([&] { return wire.session.status().position[0] > 5.0; }, 60.0);
         if (lost) {
             wire.cut();
@@ -197,7 +198,7 @@ TEST(ShellSession, SendsNothingThatMovesAfterAnEmergencyStopOrALostLink) {
         }
         wire.run_to_end();
         EXPECT_EQ(wire.state(), DriverState::alarm);
-        EXPECT_THROW(wire.start(square), Error);
+        EXPECT_THROW(wire.start(square_at_one_feed), Error);
         EXPECT_THROW(wire.session.jog({AxisPositions::Constant(3, 1.0), 10.0, 0.0}, wire.now), Error);
         EXPECT_THROW((void)wire.session.command("G0 X1", wire.now), Error);
         wire.sent.clear();

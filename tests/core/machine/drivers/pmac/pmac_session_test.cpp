@@ -10,13 +10,13 @@ namespace millwright::machine::pmac {
 namespace {
 
 using test::jog_of;
+using test::long_x_feed;
 using test::PmacWire;
 using test::refusal;
 using testing::HasSubstr;
 
 const std::vector<std::string> program_one{
     "INC", "TA20", "TS10", "LINEAR", "FRAX(X,Y,Z,A)", "X10 Y10 Z10 A10 F0.5"};
-const std::vector<std::string> long_way{"INC", "LINEAR", "FRAX(X)", "F10", "X80"};
 
 TEST(PmacSession, GreetsTheCardInWhateverModeItIs) {
     for (const char* const mode : {"I3=0", "I3=1 I6=3", "I3=2", "I3=3 I4=1", "I9=3"}) {
@@ -222,7 +222,7 @@ TEST(PmacSafetyF2, ALostLinkEndsMotionWithin100Milliseconds) {
     for (const bool jogging : {true, false}) {
         PmacWire wire;
         jogging ? wire.session.jog(jog_of(0, 80.0, 5.0, 5.0), wire.now)
-                : wire.session.start(long_way, wire.now);
+                : wire.session.start(long_x_feed, wire.now);
         wire.pass(1.5);
         ASSERT_FALSE(wire.standing()) << wire.session.status().message;
         wire.cut();
@@ -257,7 +257,7 @@ TEST(PmacSafetyF2, SilenceEndsMotionToo) {
 /// As a busy computer does: nobody else has ended the program.
 TEST(PmacSafetyF2, AnEndByTheCardsOwnWatchIsToldAsThat) {
     PmacWire wire;
-    wire.session.start(long_way, wire.now);
+    wire.session.start(long_x_feed, wire.now);
     wire.pass(1.5);
     ASSERT_FALSE(wire.standing());
     const double late = test::wire_settings().abort_after + 0.01;
@@ -271,7 +271,7 @@ TEST(PmacSafetyF2, AnEndByTheCardsOwnWatchIsToldAsThat) {
 
 TEST(PmacSafetyF2, AnEmergencyStopKillsAndNothingGivesPowerBack) {
     PmacWire wire;
-    wire.session.start(long_way, wire.now);
+    wire.session.start(long_x_feed, wire.now);
     wire.pass(1.5);
     ASSERT_FALSE(wire.standing());
     wire.session.emergency_stop(wire.now);
@@ -302,7 +302,7 @@ TEST(PmacSafetyF2, AnEmergencyStopKillsAndNothingGivesPowerBack) {
 TEST(PmacSafetyF2, FaultsOfTheMachineEndInAlarmWithoutPower) {
     for (const int kind : {0, 1, 2}) {
         PmacWire wire;
-        wire.session.start(long_way, wire.now);
+        wire.session.start(long_x_feed, wire.now);
         wire.pass(1.5);
         if (kind == 0) {
             wire.card.raise_alarm();

@@ -11,11 +11,10 @@ namespace millwright::machine::pmac {
 namespace {
 
 using test::jog_of;
+using test::long_x_feed;
 using test::PmacWire;
 using test::refusal;
 using testing::HasSubstr;
-
-const std::vector<std::string> long_way{"INC", "LINEAR", "FRAX(X)", "F10", "X80"};
 
 TEST(PmacTypedLines, TakesCommandsAndTellsTheCardsErrors) {
     PmacWire wire;
@@ -37,7 +36,7 @@ TEST(PmacTypedLines, TakesCommandsAndTellsTheCardsErrors) {
     EXPECT_NE(refusal([&] { (void)wire.session.command({"J\x01+"}, false); }), "");
 }
 
-bool answered(PmacWire& wire) {
+bool line_is_answered(PmacWire& wire) {
     return wire.run_until([&] { return wire.session.status().answer.state != CommandAnswer::State::pending; },
                           3.0);
 }
@@ -46,13 +45,13 @@ bool answered(PmacWire& wire) {
 TEST(PmacTypedLines, TellsThatACommandMovesAMotorAndAnswersQuestionsMeanwhile) {
     PmacWire wire;
     (void)wire.session.command({"#1J:2400"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
     EXPECT_EQ(wire.state(), DriverState::running);
     EXPECT_EQ(wire.session.status().activity, Activity::command);
     EXPECT_NE(refusal([&] { (void)wire.session.command({"#1P", "P1=4"}, false); }), "");
     (void)wire.session.command({"#1P", "#1?"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
     EXPECT_EQ(wire.state(), DriverState::running);
     EXPECT_LT(wire.card.command(1), 2400.0); // still under way
@@ -83,10 +82,10 @@ TEST(PmacTypedLines, StopsWhatACommandSetGoing) {
 
 TEST(PmacTypedLines, AStopThatIsTypedStopsTheProgram) {
     PmacWire wire;
-    wire.session.start(long_way, wire.now);
+    wire.session.start(long_x_feed, wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 5.0));
     (void)wire.session.command({"P1000"}, false); // a question, meanwhile
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
     EXPECT_EQ(wire.state(), DriverState::running);
     (void)wire.session.command({"&1A"}, false);
@@ -109,7 +108,7 @@ TEST(PmacTypedLines, SetsVariablesAloneInAnAlarm) {
     PmacWire wire;
     wire.session.emergency_stop(wire.now);
     (void)wire.session.command({"I122=17", "M1023->X:$0,0,24"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done);
     EXPECT_EQ(wire.card.variable('I', 122), 17.0);
     for (const std::string line : {"#1J/", "#1J:5", "&1A", "#1HM", "I122=17 #1J/"}) {
@@ -136,7 +135,7 @@ TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
             << lines.front();
     }
     (void)wire.session.command({"#4->150A", "OPEN PROG 2", "ABS X10A", "HOME1", "CLOSE", "#1HMZ"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     wire.pass(0.5);
     EXPECT_FALSE(wire.powered());
     wire.session.let_lines_give_power();
@@ -229,13 +228,13 @@ TEST(PmacTypedLines, LoadsNoSettingsWhileAMotorHasPower) {
     PmacWire wire;
     EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
     (void)wire.session.command({"#1K#2K#3K"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
     (void)wire.session.command({"#4K"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     wire.pass(0.5);
     (void)wire.session.load({"I130=3000"});
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     EXPECT_EQ(wire.card.variable('I', 130), 3000.0);
 }
 
@@ -253,9 +252,9 @@ TEST(PmacTypedLines, TellsThePersonsLinesWithTheirAnswers) {
     PmacWire wire;
     (void)wire.session.take_console();
     (void)wire.session.command({"I122", "#1P"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     (void)wire.session.command({"FOO"}, false);
-    ASSERT_TRUE(answered(wire));
+    ASSERT_TRUE(line_is_answered(wire));
     std::vector<std::string> texts;
     for (const ConsoleLine& line : wire.session.take_console()) {
         if (line.kind != ConsoleKind::query && line.kind != ConsoleKind::report) {

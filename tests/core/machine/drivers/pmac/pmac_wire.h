@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace millwright::test {
 
@@ -41,6 +42,9 @@ inline machine::PmacSettings wire_settings(std::string_view letters = "XYZA",
 inline const std::string arm_setup = "I100=1\nI200=1\nI300=1\nI400=1\nI902=10\nI907=10\nI912=10\nI917=10\n"
                                      "I123=10\nI223=10\nI323=10\nI423=10\n"
                                      "#1->120X\n#2->222Y\n#3->150Z\n#4->150A\n";
+
+/// A feed in X that takes long enough to be interrupted.
+inline const std::vector<std::string> long_x_feed{"INC", "LINEAR", "FRAX(X)", "F10", "X80"};
 
 /// What a refused request says; empty if it was taken.
 inline std::string refusal(const auto& request) {

@@ -3,6 +3,7 @@
 
 #include "core/machine/emulators/table/table_emulator.h"
 #include "core/machine/file_job.h"
+#include "tests/core/machine/answered_records.h"
 #include "tests/core/machine/drivers/session_wire.h"
 #include "tests/support/machines.h"
 #include "tests/support/scratch_folder.h"
@@ -20,18 +21,12 @@ namespace {
 
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
+using test::answered_records;
 using testing::HasSubstr;
 
 const std::shared_ptr<const MachineModel>& table_model() {
     static const auto model = std::make_shared<const MachineModel>(test::machine("forming-table"));
     return model;
-}
-
-RecordFormat answered(bool relative = false) {
-    RecordFormat format;
-    format.relative = relative;
-    format.answer = "ok";
-    return format;
 }
 
 Job job_of(const std::string& text) {
@@ -42,7 +37,7 @@ Job job_of(const std::string& text) {
 }
 
 /// A way around with `count` corners that no two neighbours share.
-std::string zigzag(int count) {
+std::string zigzag_without_equal_neighbours(int count) {
     std::string text = "G21 G90\nG0 X5 Y5\nG1 F600\n";
     for (int n = 1; n < count; ++n) {
         text += "X" + std::to_string(5 + n) + " Y" + std::to_string(5 + n % 2) + "\n";
@@ -93,11 +88,11 @@ void expect_same_way(const TableEmulator& table, const std::vector<AxisPositions
 }
 
 TEST(RecordSession, GivesEachMoveOnceAndInOrder) {
-    const Job job = job_of(zigzag(20));
+    const Job job = job_of(zigzag_without_equal_neighbours(20));
     for (const bool relative : {false, true}) {
         for (const bool takes_time : {false, true}) {
-            TableEmulator table = table_of(answered(relative), {.takes_time = takes_time});
-            Wire wire(table, answered(relative));
+            TableEmulator table = table_of(answered_records(relative), {.takes_time = takes_time});
+            Wire wire(table, answered_records(relative));
             wire.start(job);
             ASSERT_TRUE(wire.run_to_end());
             EXPECT_EQ(wire.state(), DriverState::idle);
@@ -118,8 +113,8 @@ TEST(RecordSession, LeavesAxesWhereTheyAreThatNobodyHasNamed) {
         const auto file = folder / "part";
         std::ofstream(file) << text;
         const Job job = file_job(file, table_model(), {.start = at});
-        TableEmulator table = table_of(answered());
-        Wire wire(table, answered(), at);
+        TableEmulator table = table_of(answered_records());
+        Wire wire(table, answered_records(), at);
         wire.start(job);
         ASSERT_TRUE(wire.run_to_end());
         ASSERT_GE(table.positions().size(), 2U);
@@ -133,8 +128,8 @@ TEST(RecordSession, LeavesAxesWhereTheyAreThatNobodyHasNamed) {
 
 // 3 mm in x at 2 mm/s: the words of the thesis. A rapid goes as fast as the axes: 10 mm/s, 200 mm/s^2.
 TEST(RecordSession, SaysWhereHowFastAndWithWhichAcceleration) {
-    TableEmulator table = table_of(answered(true));
-    Wire wire(table, answered(true));
+    TableEmulator table = table_of(answered_records(true));
+    Wire wire(table, answered_records(true));
     wire.start(job_of("G21 G91\nG0 Y4\nG1 X3 F120\nG1 X3 Y-4 F6000\nM2\n"));
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_EQ(wire.sent,
@@ -156,9 +151,9 @@ TEST(RecordSession, WaitsWhereNothingIsAnswered) {
 }
 
 TEST(RecordSession, IsHeldWithinOneRecordAndGoesOn) {
-    const Job job = job_of(zigzag(20));
-    TableEmulator table = table_of(answered(true), {.takes_time = true});
-    Wire wire(table, answered(true));
+    const Job job = job_of(zigzag_without_equal_neighbours(20));
+    TableEmulator table = table_of(answered_records(true), {.takes_time = true});
+    Wire wire(table, answered_records(true));
     wire.start(job);
     ASSERT_TRUE(wire.run_until([&] { return table.records() == 4; }, 60.0));
     const auto records = wire.session.records();
@@ -172,9 +167,9 @@ TEST(RecordSession, IsHeldWithinOneRecordAndGoesOn) {
 }
 
 TEST(RecordSession, IsStoppedWithinOneRecord) {
-    TableEmulator table = table_of(answered(), {.takes_time = true});
-    Wire wire(table, answered());
-    wire.start(job_of(zigzag(20)));
+    TableEmulator table = table_of(answered_records(), {.takes_time = true});
+    Wire wire(table, answered_records());
+    wire.start(job_of(zigzag_without_equal_neighbours(20)));
     ASSERT_TRUE(wire.run_until([&] { return table.records() == 4; }, 60.0));
     const auto records = wire.session.records();
     wire.session.stop(wire.now);
@@ -186,21 +181,21 @@ TEST(RecordSession, IsStoppedWithinOneRecord) {
 }
 
 TEST(RecordSession, SendsNothingAfterAnEmergencyStop) {
-    TableEmulator table = table_of(answered(), {.takes_time = true});
-    Wire wire(table, answered());
-    wire.start(job_of(zigzag(20)));
+    TableEmulator table = table_of(answered_records(), {.takes_time = true});
+    Wire wire(table, answered_records());
+    wire.start(job_of(zigzag_without_equal_neighbours(20)));
     ASSERT_TRUE(wire.run_until([&] { return table.records() == 4; }, 60.0));
     wire.session.emergency_stop(wire.now);
     wire.sent.clear();
     EXPECT_FALSE(wire.run_until([&] { return !wire.sent.empty(); }, 60.0));
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THROW(wire.start(job_of(zigzag(3))), Error);
+    EXPECT_THROW(wire.start(job_of(zigzag_without_equal_neighbours(3))), Error);
 }
 
 TEST(RecordSession, TakesARefusalForAnAlarmAndGoesOnFromThere) {
-    const Job job = job_of(zigzag(20));
-    TableEmulator table = table_of(answered(true), {.refuses = 7});
-    Wire wire(table, answered(true));
+    const Job job = job_of(zigzag_without_equal_neighbours(20));
+    TableEmulator table = table_of(answered_records(true), {.refuses = 7});
+    Wire wire(table, answered_records(true));
     wire.start(job);
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_EQ(wire.state(), DriverState::alarm);
@@ -212,9 +207,9 @@ TEST(RecordSession, TakesARefusalForAnAlarmAndGoesOnFromThere) {
 // too early, up to the end of the program.
 TEST(RecordSession, AnAnswerThatComesTwiceIsNoticedBeforeTheNextRecord) {
     for (const bool takes_time : {false, true}) {
-        TableEmulator table = table_of(answered(), {.doubles = 4, .takes_time = takes_time});
-        Wire wire(table, answered());
-        wire.start(job_of(zigzag(20)));
+        TableEmulator table = table_of(answered_records(), {.doubles = 4, .takes_time = takes_time});
+        Wire wire(table, answered_records());
+        wire.start(job_of(zigzag_without_equal_neighbours(20)));
         ASSERT_TRUE(wire.run_to_end());
         EXPECT_EQ(wire.state(), DriverState::alarm);
         EXPECT_THAT(wire.session.status().message, HasSubstr("said 'ok' before record 5 was sent"));
@@ -222,13 +217,13 @@ TEST(RecordSession, AnAnswerThatComesTwiceIsNoticedBeforeTheNextRecord) {
         EXPECT_EQ(table.records(), 4);
         EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("more often than it is told"));
         wire.session.reset(wire.now);
-        EXPECT_THROW(wire.start(job_of(zigzag(20))), Error);
+        EXPECT_THROW(wire.start(job_of(zigzag_without_equal_neighbours(20))), Error);
     }
 }
 
 TEST(RecordSession, TheLastAnswerOfAProgramComesOnceToo) {
-    TableEmulator table = table_of(answered(), {.doubles = 3});
-    Wire wire(table, answered());
+    TableEmulator table = table_of(answered_records(), {.doubles = 3});
+    Wire wire(table, answered_records());
     wire.start(job_of("G21 G90\nG0 X5 Y5\nG1 X6 F600\nX7\nM2\n"));
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_EQ(wire.state(), DriverState::alarm);
@@ -236,8 +231,8 @@ TEST(RecordSession, TheLastAnswerOfAProgramComesOnceToo) {
 
 // Each of 1 s. The table answers when it is there, so what comes after 0.1 s is no answer to this record.
 TEST(RecordSession, ASecondAnswerThatComesLateIsNoAnswerToTheNextRecord) {
-    TableEmulator table = table_of(answered(), {.takes_time = true});
-    Wire wire(table, answered());
+    TableEmulator table = table_of(answered_records(), {.takes_time = true});
+    Wire wire(table, answered_records());
     std::string text = "G21 G90\nG1 X10 F600\n";
     for (int n = 2; n < 10; ++n) {
         text += "X" + std::to_string(10 * n) + "\n";
@@ -267,28 +262,28 @@ TEST(AnswerPace, TimeTellsNothingOfATableThatAnswersWhatItHasTaken) {
 
 // The spindle is a person's, and the table was told nothing of it.
 TEST(RecordSession, NothingIsExecutedBeforeTheTableHasObeyedSomething) {
-    TableEmulator table = table_of(answered(), {.refuses = 1});
-    Wire wire(table, answered());
+    TableEmulator table = table_of(answered_records(), {.refuses = 1});
+    Wire wire(table, answered_records());
     const Job job = job_of("G21 G90\nM3 S10000\nG0 X5 Y5\nG1 X6 F600\nM5\nM2\n");
     wire.start(job);
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_EQ(wire.session.status().executed_blocks, 0);
-    TableEmulator obeys = table_of(answered());
-    Wire second(obeys, answered());
+    TableEmulator obeys = table_of(answered_records());
+    Wire second(obeys, answered_records());
     second.start(job);
     ASSERT_TRUE(second.run_to_end());
     EXPECT_EQ(second.session.status().executed_blocks, job.block_count());
 }
 
 TEST(RecordSession, DoesNotGuessWhereARelativeTableStands) {
-    TableEmulator table = table_of(answered(true), {.silent_from = 3});
-    Wire wire(table, answered(true));
-    wire.start(job_of(zigzag(20)));
+    TableEmulator table = table_of(answered_records(true), {.silent_from = 3});
+    Wire wire(table, answered_records(true));
+    wire.start(job_of(zigzag_without_equal_neighbours(20)));
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_THAT(wire.session.status().message, HasSubstr("no answer to record 3 within 5 s"));
     wire.session.reset(wire.now);
-    EXPECT_THROW(wire.start(job_of(zigzag(20))), Error);
+    EXPECT_THROW(wire.start(job_of(zigzag_without_equal_neighbours(20))), Error);
     wire.session.stands_at(AxisPositions{Vec3(1.0, 2.0, 3.0)});
     EXPECT_TRUE(wire.session.status().position_doubt.empty());
     EXPECT_EQ(wire.session.status().position, AxisPositions(Vec3(1.0, 2.0, 3.0)));
@@ -297,9 +292,9 @@ TEST(RecordSession, DoesNotGuessWhereARelativeTableStands) {
 // The table is told nothing more, but goes where the last record says: from what is shown the next way could
 // lead through the work.
 TEST(RecordSession, BeginsNothingAfterARecordThatWasOnItsWayBeforeAPersonHasLooked) {
-    const Job job = job_of(zigzag(20));
-    TableEmulator table = table_of(answered(), {.takes_time = true});
-    Wire wire(table, answered());
+    const Job job = job_of(zigzag_without_equal_neighbours(20));
+    TableEmulator table = table_of(answered_records(), {.takes_time = true});
+    Wire wire(table, answered_records());
     wire.start(job);
     ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 5; }, 60.0));
     const AxisPositions shown = wire.session.status().position;
@@ -325,9 +320,9 @@ TEST(RecordSession, BeginsNothingAfterARecordThatWasOnItsWayBeforeAPersonHasLook
 
 // The late answer is none to a record that is sent later, and no fault.
 TEST(RecordSession, UnlockedWhileARecordIsOnItsWayItWaitsForItsEnd) {
-    TableEmulator table = table_of(answered(), {.takes_time = true});
-    Wire wire(table, answered());
-    wire.start(job_of(zigzag(20)));
+    TableEmulator table = table_of(answered_records(), {.takes_time = true});
+    Wire wire(table, answered_records());
+    wire.start(job_of(zigzag_without_equal_neighbours(20)));
     ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 2; }, 60.0));
     wire.session.emergency_stop(wire.now);
     wire.session.reset(wire.now);
@@ -337,15 +332,15 @@ TEST(RecordSession, UnlockedWhileARecordIsOnItsWayItWaitsForItsEnd) {
     EXPECT_EQ(wire.state(), DriverState::idle);
     EXPECT_EQ(table.records(), 2);
     EXPECT_FALSE(wire.run_until([&] { return wire.state() != DriverState::idle; }, 60.0));
-    EXPECT_THROW(wire.start(job_of(zigzag(20))), Error);
+    EXPECT_THROW(wire.start(job_of(zigzag_without_equal_neighbours(20))), Error);
     wire.session.stands_at(AxisPositions{Vec3(5.0, 5.0, 0.0)});
 }
 
 TEST(RecordSession, ARecordThatIsNeverAnsweredIsOverAfterThePatience) {
-    RecordFormat format = answered();
+    RecordFormat format = answered_records();
     TableEmulator table = table_of(format, {.silent_from = 1});
     Wire wire(table, format);
-    wire.start(job_of(zigzag(20)));
+    wire.start(job_of(zigzag_without_equal_neighbours(20)));
     ASSERT_TRUE(wire.run_until([&] { return wire.session.records() == 1; }, 60.0));
     wire.session.emergency_stop(wire.now);
     wire.session.reset(wire.now);
@@ -356,8 +351,8 @@ TEST(RecordSession, ARecordThatIsNeverAnsweredIsOverAfterThePatience) {
 }
 
 TEST(RecordSession, AStopBetweenTwoRecordsLeavesNoDoubt) {
-    TableEmulator table = table_of(answered());
-    Wire wire(table, answered());
+    TableEmulator table = table_of(answered_records());
+    Wire wire(table, answered_records());
     wire.start(job_of("G21 G90\nG1 X20 F600\nM0\nG1 X10\nM2\n"));
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::holding; }, 60.0));
     wire.session.emergency_stop(wire.now);
@@ -367,8 +362,8 @@ TEST(RecordSession, AStopBetweenTwoRecordsLeavesNoDoubt) {
 
 TEST(RecordSession, WhereItStandsIsAssumedUntilItWentSomewhereOrAPersonSaysIt) {
     for (const bool told : {false, true}) {
-        TableEmulator table = table_of(answered());
-        Wire wire(table, answered(), AxisPositions::Zero(3), {}, false);
+        TableEmulator table = table_of(answered_records());
+        Wire wire(table, answered_records(), AxisPositions::Zero(3), {}, false);
         EXPECT_FALSE(wire.session.status().position_known);
         if (told) {
             wire.session.stands_at(AxisPositions{Vec3(5.0, 56.0, -1.0)});
@@ -382,8 +377,8 @@ TEST(RecordSession, WhereItStandsIsAssumedUntilItWentSomewhereOrAPersonSaysIt) {
 }
 
 TEST(RecordSession, WaitsForAPersonWhereTheProgramDoes) {
-    TableEmulator table = table_of(answered());
-    Wire wire(table, answered());
+    TableEmulator table = table_of(answered_records());
+    Wire wire(table, answered_records());
     wire.start(job_of("G21 G90\nG1 X20 F600\nM0\nG1 X10\nM2\n"));
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::holding; }, 60.0));
     EXPECT_FALSE(wire.run_until([&] { return table.records() > 1; }, 60.0));
@@ -394,8 +389,8 @@ TEST(RecordSession, WaitsForAPersonWhereTheProgramDoes) {
 
 TEST(RecordSession, WaitsAtM1OnlyWhileItsSwitchIsOn) {
     for (const bool on : {false, true}) {
-        TableEmulator table = table_of(answered());
-        Wire wire(table, answered());
+        TableEmulator table = table_of(answered_records());
+        Wire wire(table, answered_records());
         wire.session.set_optional_stop(on);
         wire.start(job_of("G21 G90\nG1 X20 F600\nM1\nG1 X10\nM2\n"));
         EXPECT_EQ(wire.run_until([&] { return wire.state() == DriverState::holding; }, 60.0), on);
@@ -409,9 +404,9 @@ TEST(RecordSession, WaitsAtM1OnlyWhileItsSwitchIsOn) {
 }
 
 TEST(RecordSession, GivesNoBlockThatIsNotAllowed) {
-    const Job job = job_of(zigzag(20));
-    TableEmulator table = table_of(answered());
-    Wire wire(table, answered());
+    const Job job = job_of(zigzag_without_equal_neighbours(20));
+    TableEmulator table = table_of(answered_records());
+    Wire wire(table, answered_records());
     int allowed = 5;
     wire.session.start(
         {job.program, nullptr, job.listing, [&](int wanted) { return std::min(wanted, allowed); }}, wire.now);
@@ -432,14 +427,14 @@ std::vector<std::vector<double>> without_repeats(std::vector<std::vector<double>
 // gone to, in order. A position whose answer was lost is gone to again, from itself.
 TEST(RecordSession, LosesAndDoublesNothingInThousandFaults) {
     std::mt19937 random(4);
-    const Job job = job_of(zigzag(30));
+    const Job job = job_of(zigzag_without_equal_neighbours(30));
     const auto targets = moves_of(job);
     const auto any = [&](int least, int most) {
         return std::uniform_int_distribution<std::int64_t>(least, most)(random);
     };
     int faults = 0;
     for (int run = 0; run < 1000; ++run) {
-        TableEmulator table = table_of(answered(), {.takes_time = run % 2 == 0});
+        TableEmulator table = table_of(answered_records(), {.takes_time = run % 2 == 0});
         int done = 0;
         AxisPositions at = AxisPositions::Zero(3);
         for (int attempt = 0; done < job.block_count(); ++attempt) {
@@ -463,7 +458,7 @@ TEST(RecordSession, LosesAndDoublesNothingInThousandFaults) {
                 faults_now.drop = 0.02;
                 faults_now.toward_controller = false;
             }
-            Wire wire(table, answered(), at, faults_now);
+            Wire wire(table, answered_records(), at, faults_now);
             auto rest = std::make_shared<gcode::Program>(*job.program);
             rest->start = at;
             rest->blocks.erase(rest->blocks.begin(), rest->blocks.begin() + done);
@@ -491,8 +486,8 @@ TEST(RecordSession, LosesAndDoublesNothingInThousandFaults) {
 TEST(RecordSession, RefusesWhatATableCannotDo) {
     const auto five_axes = std::make_shared<const MachineModel>(test::machine("rotary-tilt-gui"));
     EXPECT_THROW(RecordSession(five_axes, AxisPositions::Zero(five_axes->axis_count()), {}), Error);
-    TableEmulator table = table_of(answered());
-    Wire wire(table, answered());
+    TableEmulator table = table_of(answered_records());
+    Wire wire(table, answered_records());
     EXPECT_THROW(wire.session.start({}, wire.now), Error);
     EXPECT_THROW(wire.session.home(wire.now), Error);
     EXPECT_THROW(wire.session.jog({}, wire.now), Error);

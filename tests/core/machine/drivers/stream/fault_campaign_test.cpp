@@ -5,6 +5,8 @@
 //   included,
 //     and the machine ends where the driver says;
 //   the log is consistent with itself and with the outcome, and claims nothing that was not sent.
+#include "tests/core/machine/drivers/fault_campaign.h"
+
 #include "core/base/error.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/stream/stream_driver.h"
@@ -19,22 +21,18 @@
 #include <array>
 #include <atomic>
 #include <mutex>
-#include <random>
 #include <thread>
 
 namespace millwright::machine {
 namespace {
 
 using kinematics::AxisPositions;
-using Random = std::mt19937_64;
+using test::pick;
+using test::Random;
 
-enum class Kind { none, drop, garble, duplicate, disconnect, stall };
-constexpr int kinds = 6;
-constexpr double period = 0.02; // s
-
-int pick(Random& random, int count) {
-    return static_cast<int>(random() % static_cast<std::uint64_t>(count));
-}
+enum class StreamFault { none, drop, garble, duplicate, disconnect, stall };
+constexpr int stream_fault_count = 6;
+constexpr double stream_period = 0.02; // s
 
 /// A link into this program, at the far end of which the machine listens; its time is that of the samples.
 class StreamWire final : public Link {
@@ -49,9 +47,9 @@ public:
         if (!wire_.disconnected()) {
             wire_.send(bytes, time_);
         }
-        time_ += period;
+        time_ += stream_period;
         machine_.receive(wire_.arrived(time_));
-        machine_.advance(period);
+        machine_.advance(stream_period);
     }
     [[nodiscard]] std::string read() override { return {}; }
     void wait(double) override { std::this_thread::yield(); }
@@ -82,27 +80,27 @@ private:
     StreamEmulator machine_;
 };
 
-FaultSpec faults_of(Kind kind, Random& random, std::uint64_t seed) {
+FaultSpec faults_of(StreamFault kind, Random& random, std::uint64_t seed) {
     FaultSpec spec;
     spec.seed = seed;
     const double rate = 0.0005 * (1 + pick(random, 20));
     const std::int64_t moment = 60 + pick(random, 6000); // bytes; the heading is through
     switch (kind) {
-    case Kind::none:
+    case StreamFault::none:
         break;
-    case Kind::drop:
+    case StreamFault::drop:
         spec.drop = rate;
         break;
-    case Kind::garble:
+    case StreamFault::garble:
         spec.garble = rate;
         break;
-    case Kind::duplicate:
+    case StreamFault::duplicate:
         spec.duplicate = rate;
         break;
-    case Kind::disconnect:
+    case StreamFault::disconnect:
         spec.disconnect = moment;
         break;
-    case Kind::stall:
+    case StreamFault::stall:
         spec.stall = moment;
         break;
     }
@@ -122,20 +120,20 @@ Job random_job(const kinematics::MachineModel& router, Random& random) {
     return job;
 }
 
-class CampaignRun {
+class StreamCampaignRun {
 public:
-    CampaignRun(std::uint64_t seed, const kinematics::MachineModel& router, std::filesystem::path logs)
-        : random_(seed), kind_(static_cast<Kind>(seed % kinds)), router_(router), logs_(std::move(logs)),
-          job_(random_job(router, random_)) {
+    StreamCampaignRun(std::uint64_t seed, const kinematics::MachineModel& router, std::filesystem::path logs)
+        : random_(seed), kind_(static_cast<StreamFault>(seed % stream_fault_count)), router_(router),
+          logs_(std::move(logs)), job_(random_job(router, random_)) {
         job_.name = fmt::format("run-{}", seed);
         auto wire = std::make_unique<StreamWire>(faults_of(kind_, random_, seed));
         wire_ = wire.get();
-        driver_ =
-            std::make_unique<StreamDriver>(std::move(wire),
-                                           clock_,
-                                           std::make_shared<const kinematics::MachineModel>(router_),
-                                           job_.program->start,
-                                           StreamOptions{.period = period, .decimals = 6, .paced = false});
+        driver_ = std::make_unique<StreamDriver>(
+            std::move(wire),
+            clock_,
+            std::make_shared<const kinematics::MachineModel>(router_),
+            job_.program->start,
+            StreamOptions{.period = stream_period, .decimals = 6, .paced = false});
     }
 
     /// What is wrong; empty: nothing.
@@ -172,7 +170,7 @@ private:
     };
 
     Random random_;
-    Kind kind_;
+    StreamFault kind_;
     const kinematics::MachineModel& router_;
     std::filesystem::path logs_;
     Job job_;
@@ -217,7 +215,7 @@ private:
 
     /// The plug may be out before the job begins: then it must not begin.
     void check_refusal(const Error& error) {
-        if (kind_ != Kind::disconnect || driver_->status().state != DriverState::alarm) {
+        if (kind_ != StreamFault::disconnect || driver_->status().state != DriverState::alarm) {
             wrong(fmt::format("refused: {}", error.what()));
         }
         if (driver_->status().executed_blocks > 0) {
@@ -253,7 +251,7 @@ private:
     }
 
     void check_machine() {
-        if (kind_ != Kind::none) {
+        if (kind_ != StreamFault::none) {
             return;
         }
         const StreamEmulator& machine = wire_->settled();
@@ -265,7 +263,7 @@ private:
         }
         for (int n = 0; n < router_.axis_count(); ++n) {
             const auto axis = static_cast<std::size_t>(n);
-            const double rounding = 2e-6 / period;
+            const double rounding = 2e-6 / stream_period;
             if (machine.truth().greatest_speed[axis] > router_.axis(n).max_velocity + rounding) {
                 wrong(fmt::format("axis {} went at {} mm/s", axis, machine.truth().greatest_speed[axis]));
             }
@@ -284,20 +282,20 @@ TEST(StreamFaultCampaign, NeverMovesAfterTheEndNorLeavesTheLimitsInAThousandRuns
     constexpr int runs = 1000;
     const auto router = test::machine("router-xyz");
     const test::ScratchFolder logs;
-    std::array<int, kinds> done{};
-    std::array<int, kinds> all{};
+    std::array<int, stream_fault_count> done{};
+    std::array<int, stream_fault_count> all{};
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-        CampaignRun run(seed, router, logs.path());
+        StreamCampaignRun run(seed, router, logs.path());
         EXPECT_EQ(run.run(), "") << "seed " << seed;
-        done[seed % kinds] += run.done() ? 1 : 0;
-        ++all[seed % kinds];
+        done[seed % stream_fault_count] += run.done() ? 1 : 0;
+        ++all[seed % stream_fault_count];
     }
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
+    for (std::size_t kind = 0; kind < stream_fault_count; ++kind) {
         fmt::print("kind {}: {:3} of {:3} ended well\n", kind, done[kind], all[kind]);
     }
-    EXPECT_GT(done[static_cast<std::size_t>(Kind::none)], 0);
-    EXPECT_LT(done[static_cast<std::size_t>(Kind::disconnect)],
-              all[static_cast<std::size_t>(Kind::disconnect)]);
+    EXPECT_GT(done[static_cast<std::size_t>(StreamFault::none)], 0);
+    EXPECT_LT(done[static_cast<std::size_t>(StreamFault::disconnect)],
+              all[static_cast<std::size_t>(StreamFault::disconnect)]);
 }
 
 } // namespace

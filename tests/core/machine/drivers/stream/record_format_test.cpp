@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace millwright::machine {
@@ -22,7 +21,7 @@ RecordText text_of(const std::string& pattern, int decimals = 2) {
 }
 
 // The axes of the router are Y, X, Z in its file's order; a pattern names them.
-Record record(double x, double y, double z, double a, double s) {
+Record router_record(double x, double y, double z, double a, double s) {
     const kinematics::MachineModel model = test::machine("router-xyz");
     Record made{std::vector<double>(3), a, s};
     made.axes[static_cast<std::size_t>(model.axis_index('X'))] = x;
@@ -32,9 +31,9 @@ Record record(double x, double y, double z, double a, double s) {
 }
 
 TEST(RecordText, IsThatOfTheThesisUnlessToldOtherwise) {
-    EXPECT_EQ(text_of(RecordFormat().pattern).written(record(0.26, 0.0, -1.5, 100.0, 10.0)),
+    EXPECT_EQ(text_of(RecordFormat().pattern).written(router_record(0.26, 0.0, -1.5, 100.0, 10.0)),
               "t 0.26 0.00 -1.50 100.00 10.00");
-    EXPECT_EQ(text_of("MOVE X={X};Z={Z};F{s}!").written(record(1.0, 2.0, 3.0, 4.0, 5.0)),
+    EXPECT_EQ(text_of("MOVE X={X};Z={Z};F{s}!").written(router_record(1.0, 2.0, 3.0, 4.0, 5.0)),
               "MOVE X=1.00;Z=3.00;F5.00!");
 }
 
@@ -45,7 +44,7 @@ TEST(RecordText, IsReadAsItWasWritten) {
         const RecordText text = text_of(pattern, 4);
         for (int n = 0; n < 100; ++n) {
             const Record made =
-                record(value(random), value(random), value(random), value(random), value(random));
+                router_record(value(random), value(random), value(random), value(random), value(random));
             const auto read = text.read(text.written(made));
             ASSERT_TRUE(read);
             for (std::size_t axis = 0; axis < 3; ++axis) {

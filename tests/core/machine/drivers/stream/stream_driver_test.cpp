@@ -8,6 +8,7 @@
 #include "core/machine/links/tcp_link.h"
 #include "core/machine/links/tcp_server.h"
 #include "tests/core/machine/links/reading.h"
+#include "tests/core/machine/router.h"
 #include "tests/support/jobs.h"
 #include "tests/support/machines.h"
 #include "tests/support/scratch_folder.h"
@@ -24,11 +25,8 @@ namespace millwright::machine {
 namespace {
 
 using kinematics::AxisPositions;
+using test::router;
 using testing::HasSubstr;
-
-std::shared_ptr<const kinematics::MachineModel> router() {
-    return std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
-}
 
 struct Received {
     std::string heading;
@@ -51,7 +49,7 @@ Received received(const std::string& text, int axes) {
     return result;
 }
 
-struct Bench {
+struct StreamDriverBench {
     test::ScratchFolder scratch;
     SteadyClock clock;
     std::shared_ptr<const kinematics::MachineModel> model = router();
@@ -63,7 +61,7 @@ struct Bench {
     }
 };
 
-constexpr const char* square = "G21 G90 G94\nG1 X20 Y5 F3000\nX20 Y25\nX0 Y0\n";
+constexpr const char* open_square = "G21 G90 G94\nG1 X20 Y5 F3000\nX20 Y25\nX0 Y0\n";
 
 void wait_for_end(const Driver& driver) {
     test::wait_until([&] { return driver.status().activity == Activity::none; });
@@ -85,7 +83,7 @@ void expect_within_limits(const Received& got, const kinematics::MachineModel& m
 }
 
 TEST(StreamDriver, SendsTheTrajectorySampleBySample) {
-    Bench bench;
+    StreamDriverBench bench;
     constexpr double period = 0.004;
     const auto driver = bench.driver({.period = period, .decimals = 7, .paced = false});
     driver->connect();
@@ -118,7 +116,7 @@ TEST(StreamDriver, SendsTheTrajectorySampleBySample) {
 }
 
 TEST(StreamDriver, SendsNothingWhileAProgramStopWaits) {
-    Bench bench;
+    StreamDriverBench bench;
     const Job job = planned_job("G21 G90\nG1 X10 F6000\nM0\nX20\nT4 M6\nX30\nM30\n", "part.ngc", bench.model);
     const auto driver = bench.driver({.period = 0.002, .decimals = 7, .paced = false});
     driver->connect();
@@ -147,7 +145,7 @@ TEST(StreamDriver, SendsNothingWhileAProgramStopWaits) {
 }
 
 TEST(StreamDriver, SendsNothingBeforeAPersonWantsAMotion) {
-    Bench bench;
+    StreamDriverBench bench;
     const auto driver = bench.driver({.period = 0.002, .decimals = 7, .paced = false});
     driver->connect();
     std::this_thread::sleep_for(std::chrono::milliseconds(50)); // many periods
@@ -169,11 +167,11 @@ TEST(StreamDriver, SendsNothingBeforeAPersonWantsAMotion) {
 }
 
 TEST(StreamDriver, HoldsAndResumesWithoutAJump) {
-    Bench bench;
+    StreamDriverBench bench;
     constexpr double period = 0.002;
     const auto driver = bench.driver({.period = period, .decimals = 7});
     driver->connect();
-    (void)driver->command(square);
+    (void)driver->command(open_square);
     for (const double x : {3.0, 12.0}) {
         test::wait_until([&] { return driver->status().position[0] > x; });
         driver->hold();
@@ -191,7 +189,7 @@ TEST(StreamDriver, HoldsAndResumesWithoutAJump) {
 }
 
 TEST(StreamDriver, KeepsItsPeriod) {
-    Bench bench;
+    StreamDriverBench bench;
     const auto driver = bench.driver({.period = 0.01});
     driver->connect();
     const double begin = bench.clock.now();
@@ -204,7 +202,7 @@ TEST(StreamDriver, KeepsItsPeriod) {
 }
 
 TEST(StreamDriver, BeginsWhereAPersonSaysThatTheMachineStands) {
-    Bench bench;
+    StreamDriverBench bench;
     const auto driver = bench.driver({.paced = false, .known = false});
     driver->connect();
     EXPECT_TRUE(driver->capabilities().told_place);
@@ -224,7 +222,7 @@ TEST(StreamDriver, BeginsWhereAPersonSaysThatTheMachineStands) {
 }
 
 TEST(StreamDriver, IsNotToldWhereItStandsWhileItMoves) {
-    Bench bench;
+    StreamDriverBench bench;
     const auto driver = bench.driver({});
     driver->connect();
     (void)driver->command("G21 G90 G1 X20 F600");
@@ -240,7 +238,7 @@ TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
     StreamDriver driver(
         std::make_unique<TcpLink>("127.0.0.1", port), clock, router(), AxisPositions::Zero(3));
     driver.connect();
-    (void)driver.command(square);
+    (void)driver.command(open_square);
     std::string text;
     test::wait_until([&] {
         text += server->read();
@@ -264,7 +262,7 @@ TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
 
 TEST(StreamDriver, RefusesPeriodsAndDecimalsThatAreNone) {
     const test::WithoutTraps no_traps;
-    Bench bench;
+    StreamDriverBench bench;
     EXPECT_THROW(bench.driver({.period = 0.0}), Error);
     EXPECT_THROW(bench.driver({.period = std::nan("")}), Error);
     EXPECT_THROW(bench.driver({.decimals = 10}), Error);

@@ -4,6 +4,7 @@
 #include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
 #include "core/machine/hand_lines.h"
+#include "tests/core/machine/router.h"
 #include "tests/support/jobs.h"
 #include "tests/support/machines.h"
 
@@ -20,17 +21,14 @@ using gcode::SpindleTurning;
 using internal::VirtualAxes;
 using kinematics::AxisKind;
 using kinematics::AxisPositions;
+using test::router;
 using testing::HasSubstr;
 
-std::shared_ptr<const kinematics::MachineModel> router() {
-    return std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
-}
-
-struct Bench {
+struct HandMovedAxesBench {
     std::shared_ptr<const kinematics::MachineModel> model = router();
     VirtualAxes axes{middle(*model), model};
 
-    Bench() { axes.connect(); }
+    HandMovedAxesBench() { axes.connect(); }
 
     static AxisPositions middle(const kinematics::MachineModel& model) {
         AxisPositions position = AxisPositions::Zero(model.axis_count());
@@ -50,14 +48,14 @@ struct Bench {
     }
 };
 
-Jog along(const Bench& bench, int axis, double way, double speed, double dead_man = 0.0) {
+Jog along(const HandMovedAxesBench& bench, int axis, double way, double speed, double dead_man = 0.0) {
     Jog jog{AxisPositions::Zero(bench.model->axis_count()), speed, dead_man};
     jog.way[axis] = way;
     return jog;
 }
 
 TEST(VirtualJog, GoesExactlyAsFarAsItSaysOneAfterTheOther) {
-    Bench bench;
+    HandMovedAxesBench bench;
     const AxisPositions start = bench.here();
     bench.axes.jog(along(bench, 0, 5.0, 20.0));
     bench.axes.jog(along(bench, 1, -3.0, 20.0));
@@ -69,7 +67,7 @@ TEST(VirtualJog, GoesExactlyAsFarAsItSaysOneAfterTheOther) {
 }
 
 TEST(VirtualJog, KeepsItsSpeedWhileItIsRenewed) {
-    Bench bench;
+    HandMovedAxesBench bench;
     const Jog jog = along(bench, 0, 4.0, 20.0, 0.2);
     bench.axes.jog(jog);
     bench.axes.advance(0.15);
@@ -82,7 +80,7 @@ TEST(VirtualJog, KeepsItsSpeedWhileItIsRenewed) {
 
 TEST(VirtualJog, StandsAfterTheTimeOfBraking) {
     for (const double speed : {5.0, 40.0}) {
-        Bench bench;
+        HandMovedAxesBench bench;
         bench.axes.jog(along(bench, 0, 500.0, speed, 0.2));
         bench.axes.advance(1.0);
         bench.axes.stop_jog();
@@ -93,7 +91,7 @@ TEST(VirtualJog, StandsAfterTheTimeOfBraking) {
 }
 
 TEST(VirtualJog, TurnsRound) {
-    Bench bench;
+    HandMovedAxesBench bench;
     const double start = bench.here()[0];
     bench.axes.jog(along(bench, 0, 500.0, 20.0, 0.2));
     bench.axes.advance(0.5);
@@ -103,7 +101,7 @@ TEST(VirtualJog, TurnsRound) {
 }
 
 TEST(VirtualJog, EndsAtTheLimitsOfTheAxes) {
-    Bench bench;
+    HandMovedAxesBench bench;
     const double limit = bench.model->axis(0).max;
     bench.axes.jog(along(bench, 0, 1e5, 1000.0));
     bench.settle();
@@ -116,7 +114,7 @@ TEST(VirtualJog, EndsAtTheLimitsOfTheAxes) {
 }
 
 TEST(VirtualJog, EndsByHoldStopAndEmergencyStop) {
-    Bench bench;
+    HandMovedAxesBench bench;
     bench.axes.jog(along(bench, 0, 100.0, 20.0));
     bench.axes.advance(0.5);
     bench.axes.hold();
@@ -145,7 +143,7 @@ TEST(VirtualJog, NeverLeavesTheLimitsNorGoesOnWhateverTheHandDoes) {
         const auto pick = [&random](int count) {
             return static_cast<int>(random() % static_cast<unsigned>(count));
         };
-        Bench bench;
+        HandMovedAxesBench bench;
         for (int n = 0; n < 40; ++n) {
             try {
                 switch (pick(8)) {
@@ -179,7 +177,7 @@ TEST(VirtualJog, NeverLeavesTheLimitsNorGoesOnWhateverTheHandDoes) {
 }
 
 TEST(VirtualHoming, GoesToZeroAlsoAfterAnAlarm) {
-    Bench bench;
+    HandMovedAxesBench bench;
     bench.axes.emergency_stop("a test");
     bench.axes.home();
     bench.settle();
@@ -191,7 +189,7 @@ TEST(VirtualHoming, GoesToZeroAlsoAfterAnAlarm) {
 }
 
 TEST(VirtualCommand, IsReadWithTheModesThatTheLinesBeforeLeft) {
-    Bench bench;
+    HandMovedAxesBench bench;
     bench.axes.home();
     bench.settle();
     const AxisPositions start = bench.here();
@@ -205,7 +203,7 @@ TEST(VirtualCommand, IsReadWithTheModesThatTheLinesBeforeLeft) {
 }
 
 TEST(VirtualCommand, IsRefusedWithPlaceAndReasonAndChangesNothing) {
-    Bench bench;
+    HandMovedAxesBench bench;
     const AxisPositions start = bench.here();
     for (const char* lines : {"G1 X1", "G0 Q", "G2 X1", "G0 X99999", "o100 sub", "G55\nG0 X99999"}) {
         const CommandAnswer answer = bench.execute(lines);
@@ -219,7 +217,7 @@ TEST(VirtualCommand, IsRefusedWithPlaceAndReasonAndChangesNothing) {
 }
 
 TEST(VirtualCommand, SetsWorkOffsetsAndUsesThem) {
-    Bench bench;
+    HandMovedAxesBench bench;
     const AxisPositions start = bench.here();
     (void)bench.execute("G55");
     (void)bench.execute(set_work_position({'X', AxisKind::linear}, 2.0));
@@ -238,7 +236,7 @@ TEST(VirtualCommand, SetsWorkOffsetsAndUsesThem) {
 }
 
 TEST(VirtualCommand, SwitchesSpindleAndCoolant) {
-    Bench bench;
+    HandMovedAxesBench bench;
     (void)bench.execute(start_spindle(900.0, false) + "\n" + set_coolant(false, true));
     EXPECT_EQ(bench.axes.status().spindle, SpindleTurning::counterclockwise);
     EXPECT_EQ(bench.axes.status().spindle_rpm, 900.0);
@@ -249,7 +247,7 @@ TEST(VirtualCommand, SwitchesSpindleAndCoolant) {
 }
 
 TEST(VirtualCommand, CanBeStopped) {
-    Bench bench;
+    HandMovedAxesBench bench;
     (void)bench.axes.command("G91 G1 X50 F600");
     EXPECT_EQ(bench.axes.status().activity, Activity::command);
     bench.axes.advance(1.0);
@@ -263,7 +261,7 @@ TEST(VirtualMachineByHand, StopsAJogWhoseHandIsDeadToTheMillisecond) {
     const auto model = router();
     for (const double factor : {1.0, 20.0, VirtualSpeed::unlimited}) {
         test::ManualClock clock;
-        VirtualMachine machine(Bench::middle(*model), {factor}, clock, model);
+        VirtualMachine machine(HandMovedAxesBench::middle(*model), {factor}, clock, model);
         machine.connect();
         const AxisPositions start = machine.status().position;
         Jog jog{AxisPositions::Zero(model->axis_count()), 20.0, 0.2};

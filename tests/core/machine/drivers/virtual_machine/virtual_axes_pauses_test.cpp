@@ -1,5 +1,6 @@
 #include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
 #include "core/motion/planner.h"
+#include "tests/core/machine/router.h"
 #include "tests/support/jobs.h"
 #include "tests/support/motions.h"
 
@@ -16,20 +17,18 @@ namespace {
 using gcode::BlockKind;
 using gcode::PauseKind;
 using gcode::SpindleTurning;
+using test::router;
 using ::testing::ElementsAre;
 
-std::shared_ptr<const kinematics::MachineModel> router() {
-    return std::make_shared<const kinematics::MachineModel>(test::machine("router-xyz"));
-}
-
 /// Axes that stand where the program begins, connected.
-struct Bench {
+struct PausedAxesBench {
     Job job;
     Work work = test::work_of(job);
     VirtualAxes axes{job.program->start, job.machine};
 
-    explicit Bench(const std::string& text) : Bench(planned_job(text, "part.ngc", router())) {}
-    explicit Bench(Job wanted) : job(std::move(wanted)) { axes.connect(); }
+    explicit PausedAxesBench(const std::string& text)
+        : PausedAxesBench(planned_job(text, "part.ngc", router())) {}
+    explicit PausedAxesBench(Job wanted) : job(std::move(wanted)) { axes.connect(); }
 
     [[nodiscard]] const gcode::Block& block(int n) const {
         return job.program->blocks[static_cast<std::size_t>(n)];
@@ -56,7 +55,7 @@ constexpr const char* stops = "G21 G90 G64 P0.1\n"
                               "X40\n"
                               "M30\n";
 
-std::vector<std::string> reasons(Bench& bench) {
+std::vector<std::string> reasons(PausedAxesBench& bench) {
     std::vector<std::string> found;
     bench.axes.start(bench.work);
     for (bench.run_until_rest(); bench.axes.status().state == DriverState::holding; bench.run_until_rest()) {
@@ -70,7 +69,7 @@ std::vector<std::string> reasons(Bench& bench) {
 }
 
 TEST(VirtualAxesPauses, SayWhatTheyWaitFor) {
-    Bench bench(stops);
+    PausedAxesBench bench(stops);
     EXPECT_THAT(reasons(bench),
                 ElementsAre("program stop at line 3: M0",
                             "pallet change at line 8: M60",
@@ -78,7 +77,7 @@ TEST(VirtualAxesPauses, SayWhatTheyWaitFor) {
 }
 
 TEST(VirtualAxesPauses, StopAtM1OnlyIfThatIsSwitchedOn) {
-    Bench bench(stops);
+    PausedAxesBench bench(stops);
     bench.axes.set_optional_stop(true);
     EXPECT_THAT(reasons(bench),
                 ElementsAre("program stop at line 3: M0",
@@ -88,7 +87,7 @@ TEST(VirtualAxesPauses, StopAtM1OnlyIfThatIsSwitchedOn) {
 }
 
 TEST(VirtualAxesPauses, RestWhereTheBlockBeforeEndsWithNothingOfWhatFollows) {
-    Bench bench(stops);
+    PausedAxesBench bench(stops);
     bench.axes.start(bench.work);
     bench.run_until_rest();
     DriverStatus status = bench.axes.status();
@@ -109,7 +108,7 @@ TEST(VirtualAxesPauses, RestWhereTheBlockBeforeEndsWithNothingOfWhatFollows) {
 }
 
 TEST(VirtualAxesPauses, TakeNoTimeOfTheMotion) {
-    Bench bench(stops);
+    PausedAxesBench bench(stops);
     bench.axes.start(bench.work);
     double time = bench.run_until_rest();
     while (bench.axes.status().state == DriverState::holding) {
@@ -120,7 +119,7 @@ TEST(VirtualAxesPauses, TakeNoTimeOfTheMotion) {
 }
 
 TEST(VirtualAxesPauses, AreLeftForGoodByAStop) {
-    Bench bench(stops);
+    PausedAxesBench bench(stops);
     bench.axes.start(bench.work);
     bench.run_until_rest();
     bench.axes.stop();
@@ -132,7 +131,7 @@ TEST(VirtualAxesPauses, AreLeftForGoodByAStop) {
 }
 
 TEST(VirtualAxesPauses, WaitAtTheBeginAtTheEndAndOneAfterAnother) {
-    Bench bench("G21 G90\nM0\nM0\nG1 X5 F1000\nM0\nT2 M6\nM0\nM30\n");
+    PausedAxesBench bench("G21 G90\nM0\nM0\nG1 X5 F1000\nM0\nT2 M6\nM0\nM30\n");
     EXPECT_THAT(reasons(bench),
                 ElementsAre("program stop at line 2: M0",
                             "program stop at line 3: M0",
@@ -160,7 +159,7 @@ Job job_with_pauses(unsigned seed) {
 
 TEST(VirtualAxesPauses, AreNeverPassedWhateverAPersonDoes) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        Bench bench(job_with_pauses(seed));
+        PausedAxesBench bench(job_with_pauses(seed));
         std::mt19937 random(seed);
         std::uniform_int_distribution<int> act(0, 39);
         std::uniform_real_distribution<double> tick(0.0, 0.05);

@@ -15,17 +15,17 @@ namespace {
 using kinematics::AxisPositions;
 
 /// Axes at zero, connected, about to execute the dome.
-struct Bench {
+struct VirtualAxesBench {
     Job job = test::dome_job();
     Work work = test::work_of(job);
     VirtualAxes axes{job.program->start};
 
-    Bench() { axes.connect(); }
+    VirtualAxesBench() { axes.connect(); }
     [[nodiscard]] double duration() const { return work.trajectory->duration(); }
 };
 
 TEST(VirtualAxes, FollowTheTrajectoryToItsEnd) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.start(bench.work);
     double time = 0.0;
     while (bench.axes.moving()) {
@@ -44,7 +44,7 @@ TEST(VirtualAxes, FollowTheTrajectoryToItsEnd) {
 }
 
 TEST(VirtualAxes, CountABlockOnlyWhenItIsCompletelyExecuted) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.start(bench.work);
     for (double time = 0.0; time < bench.duration(); time += 0.1) {
         const int executed = bench.axes.status().executed_blocks;
@@ -58,7 +58,7 @@ TEST(VirtualAxes, CountABlockOnlyWhenItIsCompletelyExecuted) {
 
 TEST(VirtualAxes, GoSlowerAndFasterAsTheyAreTold) {
     const auto time_with = [](const Overrides& overrides) {
-        Bench bench;
+        VirtualAxesBench bench;
         bench.axes.start(bench.work);
         bench.axes.set_overrides(overrides);
         EXPECT_EQ(bench.axes.status().overrides, overrides);
@@ -71,7 +71,7 @@ TEST(VirtualAxes, GoSlowerAndFasterAsTheyAreTold) {
         return time;
     };
     const double normal = time_with({});
-    EXPECT_NEAR(normal, Bench().duration(), 0.2);
+    EXPECT_NEAR(normal, VirtualAxesBench().duration(), 0.2);
     EXPECT_GT(time_with({.feed = 50}), 1.5 * normal);
     EXPECT_LT(time_with({.feed = 200}), 0.8 * normal);
     EXPECT_GT(time_with({.rapid = 10}), normal);
@@ -103,7 +103,7 @@ TEST(VirtualAxes, PlanALongProgramOnWhileTheyExecuteIt) {
 }
 
 TEST(VirtualAxes, KeepOverridesThroughAHoldAndForgetThemWithTheProgram) {
-    Bench bench;
+    VirtualAxesBench bench;
     EXPECT_THROW(VirtualAxes(bench.job.program->start).set_overrides({}), Error);
     bench.axes.start(bench.work);
     bench.axes.set_overrides({.feed = 1000, .rapid = 0, .spindle = -5});
@@ -124,7 +124,7 @@ TEST(VirtualAxes, KeepOverridesThroughAHoldAndForgetThemWithTheProgram) {
 }
 
 /// Where the planned path has `block` end: in a rounded corner that is beside the block's target.
-AxisPositions end_of(const Bench& bench, int block) {
+AxisPositions end_of(const VirtualAxesBench& bench, int block) {
     return bench.work.trajectory->at(bench.work.trajectory->end_of(block)).position;
 }
 
@@ -135,7 +135,7 @@ DriverStatus at_rest(VirtualAxes& axes) {
 }
 
 TEST(VirtualAxes, RestBehindEachMoveBlockByBlock) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.set_single_block(true);
     bench.axes.start(bench.work);
     const auto& blocks = bench.job.program->blocks;
@@ -166,7 +166,7 @@ TEST(VirtualAxes, RestBehindEachMoveBlockByBlock) {
 TEST(VirtualAxes, GoBlockByBlockFromAnyMomentOnAndThroughAgain) {
     std::mt19937 random(11);
     for (int run = 0; run < 50; ++run) {
-        Bench bench;
+        VirtualAxesBench bench;
         bench.axes.start(bench.work);
         bench.axes.advance(std::uniform_real_distribution(0.0, bench.duration())(random));
         const int before = bench.axes.status().executed_blocks;
@@ -194,10 +194,10 @@ TEST(VirtualAxes, GoBlockByBlockFromAnyMomentOnAndThroughAgain) {
 
 TEST(VirtualAxes, HoldOnThePathAndResumeToTheSameEnd) {
     std::mt19937 random(7);
-    Bench first;
+    VirtualAxesBench first;
     std::uniform_real_distribution<double> when(0.0, first.duration());
     for (int run = 0; run < 50; ++run) {
-        Bench bench;
+        VirtualAxesBench bench;
         bench.axes.start(bench.work);
         bench.axes.advance(when(random));
         bench.axes.hold();
@@ -219,7 +219,7 @@ TEST(VirtualAxes, HoldOnThePathAndResumeToTheSameEnd) {
 }
 
 TEST(VirtualAxes, StopInTheTimeThatTheirAccelerationNeedsAndDoNotResume) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.start(bench.work);
     bench.axes.advance(bench.duration() / 2.0);
     bench.axes.stop();
@@ -236,7 +236,7 @@ TEST(VirtualAxes, StopInTheTimeThatTheirAccelerationNeedsAndDoNotResume) {
 }
 
 TEST(VirtualAxes, StopFromAHoldWithoutMovingAgain) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.start(bench.work);
     bench.axes.advance(3.0);
     bench.axes.hold();
@@ -249,7 +249,7 @@ TEST(VirtualAxes, StopFromAHoldWithoutMovingAgain) {
 }
 
 TEST(VirtualAxes, FreezeAtAnEmergencyStopAndStartNothingBeforeTheReset) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.start(bench.work);
     bench.axes.advance(3.0);
     const AxisPositions there = bench.axes.status().position;
@@ -267,7 +267,7 @@ TEST(VirtualAxes, FreezeAtAnEmergencyStopAndStartNothingBeforeTheReset) {
 }
 
 TEST(VirtualAxes, RefuseAMotionThatBeginsElsewhere) {
-    Bench bench;
+    VirtualAxesBench bench;
     bench.axes.start(bench.work);
     bench.axes.advance(3.0);
     bench.axes.stop();
@@ -282,7 +282,7 @@ TEST(VirtualAxes, RefuseAMotionThatBeginsElsewhere) {
 }
 
 TEST(VirtualAxes, RefuseAProgramWhileOneRunsOrWithoutALink) {
-    Bench bench;
+    VirtualAxesBench bench;
     VirtualAxes unlinked(bench.job.program->start);
     EXPECT_THROW(unlinked.start(bench.work), Error);
     bench.axes.start(bench.work);
@@ -295,7 +295,7 @@ TEST(VirtualAxes, MoveOnlyWhenTheyMayWhateverTheyAreTold) {
     std::uniform_int_distribution<int> what(0, 9);
     std::uniform_real_distribution<double> pause(0.0, 0.4);
     for (int run = 0; run < 100; ++run) {
-        Bench bench;
+        VirtualAxesBench bench;
         for (int k = 0; k < 60; ++k) {
             switch (what(random)) {
             case 0:

@@ -16,13 +16,15 @@ namespace {
 
 using kinematics::AxisPositions;
 
-struct Bench {
+struct VirtualMachineBench {
     Job job = test::dome_job();
     Work work = test::work_of(job);
     test::ManualClock clock;
     VirtualMachine machine;
 
-    explicit Bench(double speed = 1.0) : machine(job.program->start, {speed}, clock) { machine.connect(); }
+    explicit VirtualMachineBench(double speed = 1.0) : machine(job.program->start, {speed}, clock) {
+        machine.connect();
+    }
 };
 
 TEST(VirtualMachine, IsDisconnectedUntilConnectedAndAfterClosing) {
@@ -38,7 +40,7 @@ TEST(VirtualMachine, IsDisconnectedUntilConnectedAndAfterClosing) {
 }
 
 TEST(VirtualMachine, MovesByItsClockTimesItsSpeed) {
-    Bench bench(4.0);
+    VirtualMachineBench bench(4.0);
     bench.machine.start(bench.work);
     bench.clock.wait(0.5);
     EXPECT_NEAR(bench.machine.status().planned_time, 2.0, 1e-6);
@@ -51,7 +53,7 @@ TEST(VirtualMachine, MovesByItsClockTimesItsSpeed) {
 }
 
 TEST(VirtualMachine, DoesNotMoveWhileItsClockStands) {
-    Bench bench;
+    VirtualMachineBench bench;
     bench.machine.start(bench.work);
     bench.clock.wait(2.0);
     const AxisPositions there = bench.machine.status().position;
@@ -60,7 +62,7 @@ TEST(VirtualMachine, DoesNotMoveWhileItsClockStands) {
 }
 
 TEST(VirtualMachine, HoldsResumesAndComesToTheEnd) {
-    Bench bench;
+    VirtualMachineBench bench;
     bench.machine.start(bench.work);
     bench.clock.wait(3.0);
     bench.machine.hold();
@@ -74,7 +76,7 @@ TEST(VirtualMachine, HoldsResumesAndComesToTheEnd) {
 }
 
 TEST(VirtualMachine, StopsOnThePathWhenClosedAndStaysThere) {
-    Bench bench;
+    VirtualMachineBench bench;
     bench.machine.start(bench.work);
     bench.clock.wait(3.0);
     bench.machine.close();
@@ -87,7 +89,7 @@ TEST(VirtualMachine, StopsOnThePathWhenClosedAndStaysThere) {
 }
 
 TEST(VirtualMachine, RunsToTheEndByItselfWithUnlimitedSpeed) {
-    Bench bench(VirtualSpeed::unlimited);
+    VirtualMachineBench bench(VirtualSpeed::unlimited);
     bench.machine.start(bench.work);
     while (bench.machine.status().state == DriverState::running) {
         std::this_thread::yield();
@@ -99,7 +101,7 @@ TEST(VirtualMachine, RunsToTheEndByItselfWithUnlimitedSpeed) {
 TEST(VirtualMachine, CanBeDestroyedAtAnyMoment) {
     for (const double speed : {1.0, VirtualSpeed::unlimited}) {
         for (int moment = 0; moment < 10; ++moment) {
-            Bench bench(speed);
+            VirtualMachineBench bench(speed);
             bench.machine.start(bench.work);
             bench.clock.wait(moment);
             if (moment % 2 == 0) {
@@ -110,7 +112,7 @@ TEST(VirtualMachine, CanBeDestroyedAtAnyMoment) {
 }
 
 TEST(VirtualMachine, TakesCommandsFromManyThreads) {
-    Bench bench(VirtualSpeed::unlimited);
+    VirtualMachineBench bench(VirtualSpeed::unlimited);
     bench.machine.start(bench.work);
     std::vector<std::jthread> people;
     std::atomic<int> looks = 0;
@@ -142,7 +144,7 @@ TEST(VirtualMachine, TakesCommandsFromManyThreads) {
 
 TEST(VirtualMachine, RefusesASpeedOutOfRange) {
     const test::WithoutTraps numbers_that_are_none;
-    Bench bench;
+    VirtualMachineBench bench;
     for (const double speed : {-1.0, 0.001, 1001.0, std::nan("")}) {
         EXPECT_THROW(bench.machine.set_speed({speed}), Error);
         EXPECT_THROW(VirtualMachine(bench.job.program->start, {speed}, bench.clock), Error);

@@ -16,7 +16,7 @@ using gcode::BlockKind;
 using kinematics::AxisPositions;
 
 /// Sends the listing's line `number`, as the driver would. Returns the answer.
-std::string answer(GrblEmulator& grbl, const std::string& line) {
+std::string answer_to_posted_line(GrblEmulator& grbl, const std::string& line) {
     grbl.receive(line + "\n");
     std::string text;
     constexpr double patience = 600.0; // s of the machine
@@ -27,7 +27,7 @@ std::string answer(GrblEmulator& grbl, const std::string& line) {
     return text;
 }
 
-void run_until_rest(GrblEmulator& grbl) {
+void run_until_planner_is_empty(GrblEmulator& grbl) {
     do {
         grbl.advance(0.01);
     } while (grbl.moving() || grbl.planned_blocks() > 0);
@@ -41,9 +41,9 @@ std::string without_comment(std::string_view line) {
 void expect_followed(const gcode::ReleasedText& text) {
     GrblEmulator grbl;
     (void)grbl.take_output();
-    EXPECT_EQ(answer(grbl, "$110=20000"), "ok\r\n"); // fast, so that the test is
-    EXPECT_EQ(answer(grbl, "$111=20000"), "ok\r\n");
-    EXPECT_EQ(answer(grbl, "$112=20000"), "ok\r\n");
+    EXPECT_EQ(answer_to_posted_line(grbl, "$110=20000"), "ok\r\n"); // fast, so that the test is
+    EXPECT_EQ(answer_to_posted_line(grbl, "$111=20000"), "ok\r\n");
+    EXPECT_EQ(answer_to_posted_line(grbl, "$112=20000"), "ok\r\n");
     for (int number = 1; number <= text.listing.line_count(); ++number) {
         const std::string line = without_comment(text.listing.line(number));
         if (line.empty()) {
@@ -57,12 +57,12 @@ void expect_followed(const gcode::ReleasedText& text) {
             EXPECT_EQ(grbl.take_output().substr(0, 2), "ok");
             continue;
         }
-        ASSERT_TRUE(answer(grbl, line).ends_with("ok\r\n")) << line;
+        ASSERT_TRUE(answer_to_posted_line(grbl, line).ends_with("ok\r\n")) << line;
         const int block = text.listing.block_at_line(number);
         const bool moves = block >= 0 && text.program.blocks[static_cast<std::size_t>(block)].moves() &&
                            number >= text.listing.line_of_block[static_cast<std::size_t>(block)];
         if (moves) {
-            run_until_rest(grbl);
+            run_until_planner_is_empty(grbl);
             const AxisPositions& target = text.program.blocks[static_cast<std::size_t>(block)].target;
             for (int axis = 0; axis < 3; ++axis) {
                 constexpr double step = 1.0 / 250.0; // mm, as the emulator's axes have it

@@ -20,7 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-MotionSimulation run(std::string_view text, std::vector<double> start = {}) {
+MotionSimulation simulated_program(std::string_view text, std::vector<double> start = {}) {
     MotionSimulationSettings settings;
     settings.card = arm_settings();
     settings.start_deg = std::move(start);
@@ -28,7 +28,8 @@ MotionSimulation run(std::string_view text, std::vector<double> start = {}) {
 }
 
 TEST(MotionProgramS7, TheThesisProgramTakesItsTimeToItsAngles) {
-    const MotionSimulation found = run("INC\nTA20\nTS10\nLINEAR\nFRAX(X,Y,Z,A)\nX10 Y10 Z10 A10 F0.5\n");
+    const MotionSimulation found =
+        simulated_program("INC\nTA20\nTS10\nLINEAR\nFRAX(X,Y,Z,A)\nX10 Y10 Z10 A10 F0.5\n");
     ASSERT_TRUE(found.faults.empty()) << to_text(found.faults.front());
     EXPECT_NEAR(found.duration, 40.02, 0.1);
     for (const double degrees : found.records.back().degrees) {
@@ -37,7 +38,7 @@ TEST(MotionProgramS7, TheThesisProgramTakesItsTimeToItsAngles) {
 }
 
 TEST(MotionProgramS7, BeginsWhereTheArmStands) {
-    const MotionSimulation found = run("ABS LINEAR TM500 X20", {15.0, -30.0, 5.0, 1.0});
+    const MotionSimulation found = simulated_program("ABS LINEAR TM500 X20", {15.0, -30.0, 5.0, 1.0});
     ASSERT_TRUE(found.faults.empty());
     EXPECT_NEAR(found.records.front().degrees[1], -30.0, 0.01);
     EXPECT_NEAR(found.records.back().degrees[0], 20.0, 0.01);
@@ -129,7 +130,7 @@ TEST(MotionProgramS6, APlannedMotionEndsAtItsCountsAndStaysOnTheWay) {
     for (int n = 0; n < 4; ++n) {
         start.push_back(to_degrees(home[n]));
     }
-    const MotionSimulation found = run(text, start);
+    const MotionSimulation found = simulated_program(text, start);
     ASSERT_TRUE(found.faults.empty()) << to_text(found.faults.front());
     for (std::size_t n = 0; n < 4; ++n) {
         const double scale = arm_settings().axes[n].counts_per_degree;

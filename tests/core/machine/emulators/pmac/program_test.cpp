@@ -11,7 +11,7 @@ namespace {
 using test::PmacCard;
 
 /// Runs program 1 with these lines; how long it ran.
-double run(PmacCard& pmac, const std::string& lines, double longest = 200.0) {
+double run_as_program_1(PmacCard& pmac, const std::string& lines, double longest = 200.0) {
     EXPECT_EQ(pmac.send("OPEN PROG 1\nCLEAR\n" + lines + "\nCLOSE"), "");
     EXPECT_EQ(pmac.ask("&1B1R"), "");
     return pmac.wait_until([&] { return !pmac.card.program_runs(1); }, longest);
@@ -46,11 +46,11 @@ TEST(PmacProgramP8, ProgramOneOfTheThesisEndsAtItsCountsIn40Seconds20) {
 TEST(PmacProgram, TakesTheTimesOfTheManual) {
     PlainAxes pmac;
     // UM/SR: INC X30 Y40 Z10 F100 with FRAX(X,Y) takes 0.5 s, and one acceleration time
-    EXPECT_NEAR(run(pmac, "INC LINEAR FRAX(X,Y) F100\nX30 Y40 Z10"), 0.520, 2e-3);
-    EXPECT_NEAR(run(pmac, "TM300\nX10"), 0.320, 2e-3);
-    EXPECT_NEAR(run(pmac, "TM5\nX0.5"), 0.040, 2e-3);           // no shorter than TA: a triangle of 2 TA
-    EXPECT_NEAR(run(pmac, "TM100 TA60 TS40\nX1"), 0.180, 2e-3); // TA is at least 2 TS
-    EXPECT_NEAR(run(pmac, "TA20 TS10\nTM100\nDWELL 250\nX1"), 0.370, 3e-3);
+    EXPECT_NEAR(run_as_program_1(pmac, "INC LINEAR FRAX(X,Y) F100\nX30 Y40 Z10"), 0.520, 2e-3);
+    EXPECT_NEAR(run_as_program_1(pmac, "TM300\nX10"), 0.320, 2e-3);
+    EXPECT_NEAR(run_as_program_1(pmac, "TM5\nX0.5"), 0.040, 2e-3); // no shorter than TA: a triangle of 2 TA
+    EXPECT_NEAR(run_as_program_1(pmac, "TM100 TA60 TS40\nX1"), 0.180, 2e-3); // TA is at least 2 TS
+    EXPECT_NEAR(run_as_program_1(pmac, "TA20 TS10\nTM100\nDWELL 250\nX1"), 0.370, 3e-3);
     ASSERT_GT(pmac.settle(), 0.0);
     EXPECT_EQ(pmac.ask("#1P"), "42.5");
 }
@@ -143,7 +143,7 @@ TEST(PmacProgram, BlendsAtTheSameSpeedAndThroughCorners) {
     EXPECT_LT(largest_gap, 1.0); // half the way in an acceleration time
     // without blending each one stops
     ASSERT_EQ(pmac.send("I192=1"), "");
-    EXPECT_NEAR(run(pmac, "ABS LINEAR FRAX(X,Y) F100 X100Y0\nX0\nY50"),
+    EXPECT_NEAR(run_as_program_1(pmac, "ABS LINEAR FRAX(X,Y) F100 X100Y0\nX0\nY50"),
                 1.0 + 0.02 + 1.0 + 0.02 + 0.5 + 0.02 + std::hypot(100.0, 100.0) / 100.0 - 1.0,
                 5e-3);
 }
@@ -188,16 +188,16 @@ TEST(PmacProgram, DrawsCirclesOnlyWithSegmentation) {
 TEST(PmacProgram, LoopsDecidesCallsAndComputes) {
     PlainAxes pmac;
     ASSERT_EQ(pmac.send("OPEN PROG 20\nCLEAR\nN15000 P7=P7+1 RETURN\nCLOSE"), "");
-    run(pmac,
-        "INC LINEAR TM20 P1=0 P2=0 P3=0 P7=0\n"
-        "WHILE(P1<5)\n"
-        "P1=P1+1\n"
-        "IF(P1=2 OR P1=4)\nP2=P2+10\nELSE\nP3=P3+1\nENDIF\n"
-        "IF(P1!<3) P4=P1\nELSE P5=P1\n"
-        "CALL 20.15\n"
-        "X(P1*2)\n"
-        "ENDWHILE\n"
-        "GOTO 500\nP7=100\nN500 P8=COS(60)*SQRT(16)\nGOSUB 900\nSTOP\nN900 P9=3 RETURN");
+    run_as_program_1(pmac,
+                     "INC LINEAR TM20 P1=0 P2=0 P3=0 P7=0\n"
+                     "WHILE(P1<5)\n"
+                     "P1=P1+1\n"
+                     "IF(P1=2 OR P1=4)\nP2=P2+10\nELSE\nP3=P3+1\nENDIF\n"
+                     "IF(P1!<3) P4=P1\nELSE P5=P1\n"
+                     "CALL 20.15\n"
+                     "X(P1*2)\n"
+                     "ENDWHILE\n"
+                     "GOTO 500\nP7=100\nN500 P8=COS(60)*SQRT(16)\nGOSUB 900\nSTOP\nN900 P9=3 RETURN");
     EXPECT_EQ(pmac.ask("P2"), "20");
     EXPECT_EQ(pmac.ask("P3"), "3");
     EXPECT_EQ(pmac.ask("P4"), "5");
@@ -244,7 +244,7 @@ TEST(PmacProgram, RunsSlowerByThePercentage) {
     PlainAxes pmac;
     ASSERT_EQ(pmac.ask("%50"), "");
     pmac.card.advance(1.5);
-    EXPECT_NEAR(run(pmac, "INC TM1000 X10"), 2.04, 5e-3);
+    EXPECT_NEAR(run_as_program_1(pmac, "INC TM1000 X10"), 2.04, 5e-3);
 }
 
 TEST(PmacProgram, StepsMoveByMove) {
@@ -294,7 +294,7 @@ TEST(PmacProgram, HomesFromAProgram) {
     plant.home_edge = 700.0;
     PmacCard pmac({.plants = {plant}});
     ASSERT_EQ(pmac.send("#1->X\n#1J/\nI902=10\nI123=3"), "");
-    run(pmac, "HOME 1\nABS LINEAR F1000 X-700");
+    run_as_program_1(pmac, "HOME 1\nABS LINEAR F1000 X-700");
     ASSERT_GT(pmac.settle(), 0.0);
     EXPECT_EQ(pmac.ask("#1P"), "-700");
     EXPECT_NE(std::stoul(pmac.ask("#1?").substr(6, 6), nullptr, 16) & 0x400U, 0u);

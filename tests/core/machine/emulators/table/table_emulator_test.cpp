@@ -6,6 +6,7 @@
 #include "core/machine/emulators/emulator_server.h"
 #include "core/machine/links/pseudo_terminal.h"
 #include "core/machine/links/serial_link.h"
+#include "tests/core/machine/answered_records.h"
 #include "tests/core/machine/links/reading.h"
 #include "tests/support/machines.h"
 #include "tests/support/scratch_folder.h"
@@ -19,19 +20,13 @@ namespace millwright::machine {
 namespace {
 
 using kinematics::AxisPositions;
+using test::answered_records;
 using testing::HasSubstr;
 
 constexpr int decimals = 4;
 
-RecordFormat answered(bool relative) {
-    RecordFormat format;
-    format.relative = relative;
-    format.answer = "ok";
-    return format;
-}
-
-struct Bench {
-    explicit Bench(const RecordFormat& format, TableOptions options = {}) : format_(format) {
+struct TableEmulatorBench {
+    explicit TableEmulatorBench(const RecordFormat& format, TableOptions options = {}) : format_(format) {
         options.keep = true;
         std::vector<std::unique_ptr<Link>> links;
         links.push_back(std::make_unique<PseudoTerminal>(port.string()));
@@ -84,7 +79,7 @@ struct Bench {
 };
 
 /// Each step is one that the axes can make in a period, and the last position is where the program ends.
-void expect_whole_way(const Bench& bench, double x, double y) {
+void expect_whole_way(const TableEmulatorBench& bench, double x, double y) {
     const auto positions = bench.table([](const TableEmulator& now) { return now.positions(); });
     const auto axis = [&](char letter) { return static_cast<std::size_t>(bench.model->axis_index(letter)); };
     ASSERT_FALSE(positions.empty());
@@ -103,7 +98,7 @@ void expect_whole_way(const Bench& bench, double x, double y) {
 
 TEST(TableEmulator, ReceivesEveryRecordInOrder) {
     for (const bool relative : {false, true}) {
-        Bench bench(answered(relative));
+        TableEmulatorBench bench(answered_records(relative));
         bench.run("G21 G90 G94\nG1 X6 Y2 F3000\nX6 Y5\n");
         expect_whole_way(bench, 6.0, 5.0);
         EXPECT_GT(bench.records(), 50);
@@ -113,7 +108,7 @@ TEST(TableEmulator, ReceivesEveryRecordInOrder) {
 TEST(TableEmulator, NeedsNoAnswersWhereNoneAreAsked) {
     RecordFormat format;
     format.pattern = "G X{X} Y{Y} Z{Z}";
-    Bench bench(format);
+    TableEmulatorBench bench(format);
     bench.run("G21 G90 G94\nG1 X3 F3000\n");
     // The driver is done when its machine is: the last record may still be on its way.
     test::wait_until([&] {
@@ -124,7 +119,7 @@ TEST(TableEmulator, NeedsNoAnswersWhereNoneAreAsked) {
 }
 
 TEST(TableEmulator, IsHeldAndGoesOnWithNothingLostOrDoubled) {
-    Bench bench(answered(true));
+    TableEmulatorBench bench(answered_records(true));
     (void)bench.driver->command("G21 G90 G94\nG1 X20 F3000\n");
     test::wait_until([&] { return bench.driver->status().position[bench.model->axis_index('X')] > 3.0; });
     bench.driver->hold();
@@ -136,7 +131,7 @@ TEST(TableEmulator, IsHeldAndGoesOnWithNothingLostOrDoubled) {
 
 // A fault in the middle, looked at and reset: the rest is given from where the table stands.
 TEST(TableEmulator, ThatRefusesARecordIsAnAlarmAndNothingMoreIsSent) {
-    Bench bench(answered(false), {.refuses = 40});
+    TableEmulatorBench bench(answered_records(false), {.refuses = 40});
     bench.run("G21 G90 G94\nG1 X20 F3000\n");
     EXPECT_EQ(bench.driver->status().state, DriverState::alarm);
     EXPECT_THAT(bench.driver->status().message, HasSubstr("the machine answered 'error' to record 40"));
@@ -152,7 +147,7 @@ TEST(TableEmulator, ThatRefusesARecordIsAnAlarmAndNothingMoreIsSent) {
 }
 
 TEST(TableEmulator, ThatFallsSilentIsAnAlarm) {
-    Bench bench(answered(false), {.silent_from = 25});
+    TableEmulatorBench bench(answered_records(false), {.silent_from = 25});
     bench.run("G21 G90 G94\nG1 X20 F3000\n");
     EXPECT_EQ(bench.driver->status().state, DriverState::alarm);
     EXPECT_THAT(bench.driver->status().message, HasSubstr("no answer to record 25 within 5 s"));
@@ -160,7 +155,7 @@ TEST(TableEmulator, ThatFallsSilentIsAnAlarm) {
 }
 
 TEST(TableEmulator, StandsWithinOneRecordOfAnEmergencyStop) {
-    Bench bench(answered(false));
+    TableEmulatorBench bench(answered_records(false));
     (void)bench.driver->command("G21 G90 G94\nG1 X100 F3000\n");
     test::wait_until([&] { return bench.records() > 30; });
     bench.driver->emergency_stop();

@@ -1,0 +1,115 @@
+// Every command that the README shows is run as it stands there.
+#include "tests/app/emulator.h"
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <set>
+#include <sstream>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// The commands in the ```sh blocks of a document, without their comments.
+std::vector<std::string> commands_of(const std::string& document) {
+    std::vector<std::string> commands;
+    std::istringstream text(document);
+    bool shell = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with("```")) {
+            shell = line == "```sh";
+        } else if (shell) {
+            line = line.substr(0, line.find(" #"));
+            line.erase(line.find_last_not_of(' ') + 1);
+            if (!line.empty()) {
+                commands.push_back(line);
+            }
+        }
+    }
+    return commands;
+}
+
+/// Those that install or build, which .ci/run does on a bare machine: scripts/test runs this very test.
+const std::set<std::string> run_by_ci = {
+    "sudo apt install ./millwright_0.1.0-1~bookworm_amd64.deb",
+    "millwright",
+    "tar -xf millwright-0.1.0-x86_64.tar.xz",
+    "millwright-0.1.0/bin/millwright",
+    "scripts/run",
+    "scripts/test",
+};
+
+struct ShellRun {
+    int exit_code = -1;
+    std::string output; ///< standard output and standard error
+};
+
+ShellRun shell(const fs::path& folder, const std::string& command) {
+    FILE* pipe = popen(("cd '" + folder.string() + "' && " + command + " 2>&1 </dev/null").c_str(), "r");
+    EXPECT_NE(pipe, nullptr);
+    ShellRun run;
+    std::array<char, 4096> buffer{};
+    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+        run.output.append(buffer.data(), count);
+    }
+    const int status = pclose(pipe);
+    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return run;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    if (const auto at = text.find(from); at != std::string::npos) {
+        text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+TEST(Readme, ShowsOnlyCommandsThatWork) {
+    // A checkout as the commands see it, with a job to send and a controller to send it to.
+    const ScratchFolder checkout;
+    fs::create_directories(checkout / "build/release");
+    fs::create_symlink(program_file(), checkout / "build/release/millwright");
+    fs::create_symlink(fs::absolute("assets"), checkout / "assets");
+    write_content(checkout / "job.ngc", "G21 G90 G94\nG1 X1 Y1 F3000\nM30\n");
+    const std::string port = (checkout / "ttyUSB0").string();
+    const Emulator emulator(port, {"--speed", "20"});
+
+    const std::string program = "build/release/millwright";
+    int tried = 0;
+    for (const std::string& command : commands_of(content_of("README.md"))) {
+        if (run_by_ci.contains(command)) {
+            continue;
+        }
+        ASSERT_THAT(command, testing::StartsWith(program)) << "no test runs this command";
+        if (command == program + " assets/projects/dome.json") {
+            // Opens a window and stays until the system asks for the end.
+            const ShellRun window = shell(checkout.path(), "timeout --signal=INT 5 " + command);
+            EXPECT_EQ(window.exit_code, 124) << command << '\n' << window.output;
+            EXPECT_THAT(window.output, testing::Not(HasSubstr("error"))) << command;
+        } else {
+            const ShellRun run = shell(checkout.path(), replaced(command, "/dev/ttyUSB0", port));
+            EXPECT_EQ(run.exit_code, 0) << command << '\n' << run.output;
+        }
+        ++tried;
+    }
+    EXPECT_GE(tried, 9);
+    for (const char* made : {"program.ngc", "report.json", "preview.png", "error.png"}) {
+        EXPECT_TRUE(fs::exists(checkout / "out" / made)) << made;
+    }
+}
+
+TEST(Readme, PointsOutCommandsInTheOrderOfTheDocument) {
+    EXPECT_THAT(commands_of("text\n```sh\na b   # why\n\nc\n```\n```\nd\n```\n"),
+                testing::ElementsAre("a b", "c"));
+}
+
+} // namespace
+} // namespace millwright::test
