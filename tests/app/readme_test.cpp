@@ -41,7 +41,7 @@ std::vector<std::string> commands_of(const std::string& document) {
 const std::set<std::string> run_by_ci = {
     "sudo apt install ./millwright_0.1.0-1~bookworm_amd64.deb",
     "millwright",
-    "tar -xf millwright-0.1.0-x86_64.tar.xz",
+    "tar -xf millwright-0.1.0-x86_64.tar.gz",
     "millwright-0.1.0/bin/millwright",
     "scripts/run",
     "scripts/test",
