@@ -10,7 +10,7 @@ function(millwright_precompile target)
     get_target_property(folder ${target} BINARY_DIR)
     foreach(ending gch pch)
         file(WRITE ${folder}/CMakeFiles/${target}.dir/cmake_pch.hxx.${ending}.sum
-            "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION} GTest ${GTest_VERSION} ${ARGN}\n")
+            "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION} ${ARGN}\n")
     endforeach()
 endfunction()
 
