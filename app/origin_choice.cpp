@@ -6,11 +6,11 @@
 
 namespace millwright::app {
 
-void add_origin_option(CLI::App& command, std::vector<double>& origin) {
+void add_origin_option(CLI::App& command, std::vector<double>& origin, const std::string& name) {
     constexpr std::size_t most = 3;
-    const auto take = [&origin](const std::vector<double>& given) {
+    const auto take = [&origin, name](const std::vector<double>& given) {
         if (given.size() > most) {
-            throw CLI::ArgumentMismatch::AtMost("--origin", most, given.size());
+            throw CLI::ArgumentMismatch::AtMost(name, most, given.size());
         }
         origin = given;
     };
@@ -18,7 +18,7 @@ void add_origin_option(CLI::App& command, std::vector<double>& origin) {
     // alone.
     command
         .add_option_function<std::vector<double>>(
-            "--origin", take, "Where the program's zero lies on the machine: X,Y or X,Y,Z, mm")
+            name, take, "Where the program's zero lies on the machine: X,Y or X,Y,Z, mm")
         ->delimiter(',')
         ->expected(2, CLI::detail::expected_max_vector_size)
         ->allow_extra_args(false);

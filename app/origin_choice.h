@@ -3,6 +3,7 @@
 
 #include "core/geometry/vectors.h"
 
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -11,8 +12,8 @@ class App;
 
 namespace millwright::app {
 
-/// Adds --origin X,Y or X,Y,Z to `command`.
-void add_origin_option(CLI::App& command, std::vector<double>& origin);
+/// Adds --origin X,Y or X,Y,Z to `command`, by another `name` where that is taken.
+void add_origin_option(CLI::App& command, std::vector<double>& origin, const std::string& name = "--origin");
 
 /// Zero where none was given; mm.
 [[nodiscard]] Vec3 origin_from(const std::vector<double>& given);

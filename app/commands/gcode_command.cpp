@@ -9,7 +9,11 @@
 #include "core/base/text.h"
 #include "core/gcode/reader/canon_printer.h"
 #include "core/gcode/reader/interpreter.h"
+#include "core/gcode/reader/klartext.h"
+#include "core/gcode/reader/language.h"
+#include "core/gcode/reader/line_index.h"
 #include "core/gcode/reader/machine_program.h"
+#include "core/gcode/reader/program_text.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/motion/time_estimate.h"
@@ -20,9 +24,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -57,6 +63,19 @@ private:
     std::int64_t count_ = 0;
 };
 
+/// Of a file whose first lines are Klartext; the others are read line by line, however long they are.
+std::optional<std::string> klartext_in(const std::string& file) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none)) {
+        return std::nullopt;
+    }
+    constexpr std::size_t enough = 4096;
+    std::string head(enough, '\0');
+    std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(enough));
+    const bool klartext = gcode::language_of(head.substr(0, head.find('\0'))) == gcode::Language::klartext;
+    return klartext ? std::optional(read_file(file)) : std::nullopt;
+}
+
 nlohmann::ordered_json diagnostics_json(const std::vector<Diagnostic>& errors) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Diagnostic& error : errors) {
@@ -82,7 +101,30 @@ void print_program_json(const gcode::Interpreter& program, std::int64_t moves) {
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
+/// Heidenhain's blocks, as far as our posts write them.
+int check_klartext(const GcodeOptions& options, std::string_view text) {
+    const auto steps = gcode::read_written_klartext(text, options.file, {});
+    const auto moves = std::ranges::count_if(steps, [](const gcode::WrittenStep& step) {
+        return step.kind == gcode::StepKind::rapid || step.kind == gcode::StepKind::feed ||
+               step.kind == gcode::StepKind::arc;
+    });
+    const std::ptrdiff_t lines = gcode::LineIndex(text, Progress()).count();
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["lines"] = lines;
+        answer["moves"] = moves;
+        answer["errors"] = nlohmann::ordered_json::array();
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("{} lines of {}, {} moves, 0 errors\n", lines, name_of(gcode::Language::klartext), moves);
+    }
+    return 0;
+}
+
 int check(const GcodeOptions& options) {
+    if (const std::optional<std::string> text = klartext_in(options.file)) {
+        return check_klartext(options, gcode::program_text(*text));
+    }
     gcode::ReaderSettings settings = reader_settings(options);
     settings.most_errors = most_errors_shown;
     settings.read_on = true;
@@ -159,8 +201,12 @@ MachineRun machine_run(const GcodeOptions& options) {
 int convert_gcode(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
     throw_first(run.found.lost);
+    throw_first(run.found.unplaced);
     for (const Diagnostic& simplified : run.found.simplified) {
         fmt::print(stderr, "warning: {}\n", to_text(simplified));
+    }
+    if (run.found.start_notice) {
+        fmt::print(stderr, "warning: {}\n", to_text(*run.found.start_notice));
     }
     const std::string name = std::filesystem::path(options.file).stem().string();
     const PostedText result = posted(run.found.program, run.machine, options.post, name);

@@ -1,6 +1,7 @@
 #include "app/commands/gcode_options.h"
 
 #include "app/origin_choice.h"
+#include "core/gcode/reader/parameter_file.h"
 #include "core/gcode/reader/work_origin.h"
 
 #include <CLI/Config.hpp>
@@ -23,7 +24,13 @@ gcode::ReaderSettings reader_settings(const GcodeOptions& options) {
         settings.tools = gcode::read_tool_table(options.tools);
     }
     settings.any_tool = options.tools.empty();
-    gcode::put_origin(settings, origin_from(options.origin));
+    if (!options.parameters.empty()) {
+        settings.parameters = gcode::read_parameter_file(options.parameters);
+    }
+    settings.subroutine_folders.assign(options.subroutines.begin(), options.subroutines.end());
+    if (!options.origin.empty()) {
+        gcode::put_origin(settings, origin_from(options.origin));
+    }
     return settings;
 }
 
@@ -69,6 +76,15 @@ CLI::App& add_reader_options(CLI::App& group,
         ->check(CLI::IsMember({"linuxcnc", "grbl"}))
         ->capture_default_str();
     command.add_option("--tools", options->tools, "LinuxCNC tool table file")->type_name("FILE");
+    command.add_option("--parameters", options->parameters, "LinuxCNC parameter file")->type_name("FILE");
+    command
+        .add_option("--subroutines",
+                    options->subroutines,
+                    "Folder of subroutine files, searched after the program's own")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
     return command;
 }

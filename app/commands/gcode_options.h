@@ -21,6 +21,8 @@ struct GcodeOptions {
     std::string file;
     std::string dialect = "linuxcnc";
     std::string tools;
+    std::string parameters;               ///< file of what the controller remembers
+    std::vector<std::string> subroutines; ///< folders
     std::string machine;
     std::vector<double> origin;               ///< where the program's zero lies on it: X, Y and perhaps Z, mm
     double path_tolerance = 0.0;              ///< mm; 0: exact path
@@ -34,7 +36,7 @@ struct GcodeOptions {
     bool json = false;
 };
 
-/// Throws Error for a tool table that cannot be read.
+/// Throws Error for a tool table or a parameter file that cannot be read.
 [[nodiscard]] gcode::ReaderSettings reader_settings(const GcodeOptions& options);
 [[nodiscard]] motion::PlannerSettings planner_settings(const GcodeOptions& options);
 

@@ -1,6 +1,7 @@
 #include "app/commands/plot_program.h"
 
 #include "app/finite_number.h"
+#include "app/origin_choice.h"
 #include "app/other_than_plot.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
@@ -31,7 +32,7 @@ using gcode::CutLevel;
 using gcode::CutProgram;
 
 constexpr std::array plots_alone{"--unit", "--fill", "--solid", "--line-ends", "--strict"};
-constexpr std::array programs_alone{"--tools", "--chord-length"};
+constexpr std::array programs_alone{"--tools", "--chord-length", "--work-origin", "--parameters"};
 /// Of `toolpath`: what is not as the program has it.
 constexpr std::array shaping{"--side",
                              "--hatch",
@@ -67,14 +68,34 @@ CutProgram read_cut_program(const std::string& file, const ProgramReading& readi
     settings.chord_length = reading.chord_length;
     settings.chord_tolerance = reading.chord_tolerance.value_or(settings.chord_tolerance);
     settings.safe_height = reading.safe_height;
+    if (!reading.parameters.empty()) {
+        settings.parameters = gcode::read_parameter_file(reading.parameters);
+    }
+    if (!reading.origin.empty()) {
+        settings.origin = origin_from(reading.origin);
+    }
     return gcode::read_cut_program_file(file, settings);
+}
+
+void print_program_notices(const CutProgram& program) {
+    for (const Diagnostic& notice : program.notices) {
+        fmt::print(stderr, "millwright: {}\n", to_text(notice));
+    }
 }
 
 CutProgram read_cut_program_to_use(const std::string& file, const ProgramReading& reading) {
     CutProgram program = read_cut_program(file, reading);
-    for (const Diagnostic& notice : program.notices) {
-        fmt::print(stderr, "millwright: {}\n", to_text(notice));
+    print_program_notices(program);
+    return program;
+}
+
+/// That is to be cut. Throws Error where nobody can say where it would go.
+CutProgram read_cut_program_to_cut(const std::string& file, const ProgramReading& reading) {
+    CutProgram program = read_cut_program(file, reading);
+    if (!program.unplaced.empty()) {
+        throw Error(program.unplaced.front());
     }
+    print_program_notices(program);
     return program;
 }
 
@@ -241,6 +262,9 @@ void add_program_options(CLI::App& command, ProgramReading& reading) {
         ->check(CLI::Range(shortest_chord, longest_chord));
     command.add_option("--tools", reading.tools, "Of a G-code program: LinuxCNC tool table file")
         ->type_name("FILE");
+    command.add_option("--parameters", reading.parameters, "Of a G-code program: LinuxCNC parameter file")
+        ->type_name("FILE");
+    add_origin_option(command, reading.origin, "--work-origin");
 }
 
 bool takes_program(const CLI::App& command, const std::string& file) {
@@ -304,7 +328,7 @@ std::vector<Vec3> program_points(const std::string& file,
                                  plot::DecodeSettings decoding,
                                  const std::optional<double>& fastest,
                                  bool flat) {
-    const CutProgram program = read_cut_program_to_use(file, reading);
+    const CutProgram program = read_cut_program_to_cut(file, reading);
     if (std::ranges::find(program.path, plot::CutMove::tool_change, &plot::CutPoint::move) !=
         program.path.end()) {
         fmt::print(stderr,
@@ -324,7 +348,7 @@ int program_toolpath(const std::string& file,
                      const ProgramReading& reading,
                      StrokeCutting cutting,
                      const CLI::App& command) {
-    const CutProgram program = read_cut_program_to_use(file, reading);
+    const CutProgram program = read_cut_program_to_cut(file, reading);
     if (!given(command, "--spindle") && program.spindle_rpm > 0.0) {
         cutting.cutting.spindle_rpm = program.spindle_rpm;
     } else if (!given(command, "--spindle")) {

@@ -18,7 +18,8 @@ namespace millwright::app {
 
 /// How a program is read. Not given: as its options say nothing.
 struct ProgramReading {
-    std::string tools;
+    std::string tools, parameters;
+    std::vector<double> origin; ///< as add_origin_option() has it
     std::optional<double> chord_length;
     std::optional<double> chord_tolerance;
     std::optional<double> safe_height;

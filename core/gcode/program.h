@@ -63,6 +63,9 @@ struct Block {
     PauseKind pause = PauseKind::program_stop; ///< of a pause
     double duration = 0.0;                     ///< feed: of the move, s; dwell: s
     double feed = 0.0;                         ///< feed: mean speed of the tool tip on the part, mm/s
+    /// feed: there if the program has not said where one of its axes is before it, so that the move has a
+    /// speed and no length (`duration` is that from Program::start). mm/s along linear axes, else rad/s.
+    std::optional<double> programmed_speed;
     double spindle_rpm = 0.0;
     int path_point = -1;             ///< the point of the tool path where the block ends, or -1
     int source_line = 0;             ///< of the G-code file that it was read from, from 1; 0: none

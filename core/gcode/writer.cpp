@@ -226,13 +226,15 @@ private:
             motion_code_.clear();
             std::fill(words_.begin(), words_.end(), std::string());
         }
-        std::vector<std::string> text = codes(move.code, feeds);
+        std::vector<std::string> text = codes(move.code, feeds, block.programmed_speed.has_value());
         const std::vector<std::string> axes = axis_words(block);
         text.insert(text.end(), axes.begin(), axes.end());
         if (!move.behind.empty()) {
             text.push_back(move.behind);
         }
-        if (feeds) {
+        if (feeds && block.programmed_speed) {
+            append_speed(text, block);
+        } else if (feeds) {
             const FeedWay way = feed_way(program_.axes, words(block_).from, words(block_).to);
             append_feed(text, way, block.duration);
         }
@@ -288,9 +290,15 @@ private:
     }
 
     /// Feed mode and motion, as far as they are not in force.
-    std::vector<std::string> codes(const std::string& motion, bool feeds) {
+    /// `by_speed`: a feed of unknown length, which has no time.
+    std::vector<std::string> codes(const std::string& motion, bool feeds, bool by_speed = false) {
         std::vector<std::string> text;
-        const std::string& mode = feeds ? format_.feed.feed_code : format_.feed.rapid_code;
+        const bool timed = format_.feed.mode == FeedWriting::inverse_time;
+        if (by_speed && timed && format_.feed.rapid_code.empty()) {
+            refuse("its feed has no time, since the program has not said where it begins");
+        }
+        const bool as_feed = feeds && !(by_speed && timed);
+        const std::string& mode = as_feed ? format_.feed.feed_code : format_.feed.rapid_code;
         if (mode != feed_code_ && !mode.empty()) {
             feed_code_ = mode;
             text.push_back(mode);
@@ -335,7 +343,16 @@ private:
     }
 
     void append_feed(std::vector<std::string>& text, const FeedWay& way, double duration) {
-        std::string word = format_.feed.word + format_.numbers.feed.text(feed_of(way, duration));
+        append_feed_word(text, feed_of(way, duration));
+    }
+
+    void append_speed(std::vector<std::string>& text, const Block& block) {
+        append_feed_word(text,
+                         speed_a_minute(*block.programmed_speed, !names_linear(program_.axes, block.named)));
+    }
+
+    void append_feed_word(std::vector<std::string>& text, double feed) {
+        std::string word = format_.feed.word + format_.numbers.feed.text(feed);
         if (!format_.feed.modal || word != feed_) {
             text.push_back(word);
         }
@@ -353,11 +370,17 @@ private:
             const double steps = std::floor(moves_a_minute / number.digit() + rounding);
             return std::max(1.0, steps) * number.digit();
         }
-        const double length = way.angular ? to_degrees(way.length) : way.length / format_.length_unit();
-        const double feed = number.rounded(length * moves_a_minute);
+        return speed_a_minute(way.length / duration, way.angular);
+    }
+
+    /// Of mm/s or rad/s, as it is written.
+    [[nodiscard]] double speed_a_minute(double speed, bool angular) const {
+        constexpr double seconds_a_minute = 60.0;
+        const double a_second = angular ? to_degrees(speed) : speed / format_.length_unit();
+        const double feed = format_.numbers.feed.rounded(a_second * seconds_a_minute);
         if (!(feed > 0.0)) {
-            refuse(fmt::format("its feed, {} a minute, is too small to be written",
-                               way.angular      ? "degrees"
+            refuse(fmt::format("its feed, {} per minute, is too small to be written",
+                               angular          ? "degrees"
                                : format_.inches ? "inch"
                                                 : "mm"));
         }

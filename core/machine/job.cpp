@@ -3,6 +3,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/line_ends.h"
+#include "core/gcode/reader/program_text.h"
 #include "core/gcode/reader/word_column.h"
 #include "core/kinematics/travel.h"
 #include "core/machine/internal/planned_text.h"
@@ -104,7 +105,7 @@ int Job::block_count() const {
 
 Job text_job(std::string text, const std::filesystem::path& file) {
     gcode::Listing listing;
-    text = gcode::with_newlines(std::move(text));
+    text = gcode::with_newlines(std::string(gcode::program_text(text)));
     if (!text.empty() && text.back() != '\n') {
         text += '\n';
     }

@@ -61,6 +61,7 @@ struct ProgrammedStep {
     double end = 0.0;
     double speed = 0.0; ///< scaled
     bool rapid = false; ///< `speed` is the top speed of the axes
+    bool rests = false; ///< the axes rest at its end
 };
 
 struct AxisLimits {

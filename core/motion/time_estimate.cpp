@@ -2,9 +2,8 @@
 
 #include "core/motion/internal/leg.h"
 #include "core/motion/internal/mechanism.h"
-#include "core/motion/internal/phases.h"
 #include "core/motion/internal/road_builder.h"
-#include "core/motion/internal/stretches.h"
+#include "core/motion/internal/rounding_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,75 +35,21 @@ void FilterTime::add(const gcode::Block& block) {
     }
 }
 
-/// Lays the way of the axes, and leaves behind what is settled.
 class TimeEstimate::Window {
 public:
     Window(const MachineModel& machine,
            const PlannerSettings& settings,
            const AxisPositions& start,
            double filter_time)
-        : mechanism_(machine), settings_(settings), filter_time_(filter_time),
-          road_(mechanism_, settings_, filter_time, start, false) {}
+        : mechanism_(machine), settings_(settings),
+          choice_(mechanism_, settings_, start, filter_time, false) {}
 
-    void add(const gcode::Block& block) {
-        road_.add(block);
-        if (block.kind == gcode::BlockKind::dwell && block.duration > 0.0) {
-            time_ += block.duration;
-        }
-        if (road_.block_count() >= full_) {
-            pass(false);
-            full_ =
-                std::max(least_window, 2 * road_.block_count()); // so that a block is looked at twice or so
-        }
-    }
-
-    [[nodiscard]] double finish() {
-        road_.finish();
-        pass(true);
-        return time_;
-    }
-
-    [[nodiscard]] int block_count() const { return road_.block_count(); }
+    internal::RoundingChoice& choice() { return choice_; }
 
 private:
-    static constexpr int least_window = 4096; ///< blocks
-
     internal::MachineMechanism mechanism_;
     PlannerSettings settings_;
-    double filter_time_;
-    internal::RoadBuilder road_;
-    int full_ = least_window;
-    double way_ = 0.0, speed_ = 0.0; ///< up to which the time is counted
-    bool moving_ = false;            ///< since the last rest
-    double time_ = 0.0;
-
-    /// Counts the time of what is settled, or of all, and forgets it.
-    void pass(bool all) {
-        const Path& path = road_.with_limits();
-        const double kept_from = road_.kept_from();
-        const std::vector<internal::Stretch> stretches =
-            internal::stretches_of(path, {kept_from, way_, road_.limited_to()}, {});
-        const std::size_t count =
-            all ? stretches.size() : internal::settled(path, stretches, road_.limited_to() - road_.reach());
-        if (count == 0) {
-            return;
-        }
-        const std::vector<double> speeds =
-            internal::reached_speeds(stretches, internal::allowed_speeds(path, stretches), speed_);
-        internal::PhaseList list({Phase{0.0, way_, speed_, 0.0}});
-        for (std::size_t n = 0; n < count; ++n) {
-            list.go(stretches[n], speeds[n], speeds[n + 1]);
-            moving_ = moving_ || stretches[n].end > stretches[n].begin;
-            if (moving_ && !(speeds[n + 1] > 0.0)) {
-                list.stand(filter_time_);
-                moving_ = false;
-            }
-        }
-        time_ += list.time();
-        way_ = stretches[count - 1].end;
-        speed_ = speeds[count];
-        road_.forget_before(way_);
-    }
+    internal::RoundingChoice choice_;
 };
 
 TimeEstimate::TimeEstimate(const MachineModel& machine,
@@ -118,15 +63,15 @@ TimeEstimate::TimeEstimate(const MachineModel& machine,
 TimeEstimate::~TimeEstimate() = default;
 
 void TimeEstimate::add(const gcode::Block& block) {
-    window_->add(block);
+    window_->choice().add(block);
 }
 
 double TimeEstimate::finish() {
-    return window_->finish();
+    return window_->choice().finish();
 }
 
 int TimeEstimate::blocks_kept() const {
-    return window_->block_count();
+    return window_->choice().block_count();
 }
 
 } // namespace millwright::motion

@@ -121,6 +121,9 @@ void PlotDerivation::time_as_drawn() {
 /// As it stands, like a path file.
 void PlotDerivation::cut_program() {
     const gcode::CutProgram read = gcode::read_cut_program_file(result_.input.file);
+    if (!read.unplaced.empty()) {
+        throw Error(read.unplaced.front());
+    }
     result_.notices = read.notices;
     result_.program_rpm = read.spindle_rpm;
     if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - result_.spindle_rpm()) > 0.5) {

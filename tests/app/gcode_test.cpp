@@ -68,6 +68,50 @@ TEST(Gcode, CheckAnswersInJson) {
     EXPECT_EQ(answer.at("errors")[0].at("message"), "division by zero");
 }
 
+/// Byte order marks, the end of file of DOS and lines behind the program: what `check` passes the others
+/// take.
+TEST(Gcode, EveryCommandTakesWhatCheckPasses) {
+    const ScratchFolder folder;
+    const auto file = (folder.path() / "part.nc").string();
+    const std::string mark = "\xEF\xBB\xBF";
+    const std::string dos_end = "\x1A";
+    for (const std::string& text : {mark + "; options\nG21 G90\nG0 Z5\nG0 X0 Y0\nG1 Z-1 F100\nM2\n",
+                                    "G21 G90\nG0 X1 Y1 Z1\nG1 X2 F10\nM2\n" + dos_end,
+                                    "%\nG21 G90\nG0 X1 Y1 Z1\nG1 X2 F10\nM30\n%\n" + dos_end}) {
+        write_content(file, text);
+        EXPECT_THAT(run({"gcode", "check", file}).out, HasSubstr(", 0 errors"));
+        EXPECT_EQ(run({"gcode", "check", file, "--dialect", "grbl"}).exit_code, 0);
+        EXPECT_EQ(run({"gcode", "canon", file}).exit_code, 0);
+        EXPECT_EQ(run({"gcode", "time", file, "--machine", "router-xyz"}).exit_code, 0);
+        const Ended converted = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl"});
+        EXPECT_EQ(converted.exit_code, 0) << converted.err;
+        const Ended sent = run({"send",
+                                file,
+                                "--driver",
+                                "virtual",
+                                "--machine",
+                                "router-xyz",
+                                "--log",
+                                folder.path().string()});
+        EXPECT_EQ(sent.exit_code, 0) << sent.err;
+    }
+}
+
+TEST(Gcode, CheckReadsKlartextAndNamesOtherLanguages) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "part.h";
+    write_content(file, "0 BEGIN PGM PART MM\n1 L X+1 R0 FMAX\n2 L Z-1 R0 F100\n3 M30\n4 END PGM PART MM\n");
+    EXPECT_EQ(run({"gcode", "check", file}).out, "5 lines of Heidenhain Klartext, 2 moves, 0 errors\n");
+    const Ended timed = run({"gcode", "time", file, "--machine", "router-xyz"});
+    EXPECT_EQ(timed.exit_code, 1);
+    EXPECT_THAT(timed.err, HasSubstr("part.h:1:1: this is Heidenhain Klartext, not G-code"));
+    write_content(file, "N10 R1=5\nN20 G1 X=R1 F100\nN30 M30\n");
+    const Ended other = run({"gcode", "check", file});
+    EXPECT_EQ(other.exit_code, 1);
+    EXPECT_THAT(other.err, HasSubstr("part.h:1:1: this is the Sinumerik language of Siemens, not G-code"));
+    EXPECT_THAT(other.out, HasSubstr(" 1 errors"));
+}
+
 TEST(Gcode, TheDialectDecides) {
     EXPECT_EQ(run({"gcode", "check", loops, "--dialect", "linuxcnc"}).exit_code, 0);
     const Ended ended = run({"gcode", "check", loops, "--dialect", "grbl"});

@@ -31,7 +31,7 @@ struct Posts : testing::Test {
 };
 
 TEST_F(Posts, ConvertWritesAProgramForAnotherControl) {
-    write_content(part, "G21 G90 G94\nS8000 M3\nG0 Z50\nG0 X10 A5 C30\nG1 Z0 F600\nG1 X12 A7\nM2\n");
+    write_content(part, "G21 G90 G94\nS8000 M3\nG0 Z50\nG0 X10 Y0 A5 C30\nG1 Z0 F600\nG1 X12 A7\nM2\n");
     const Ended klartext = convert("ac-table", "heidenhain");
     EXPECT_EQ(klartext.exit_code, 0) << klartext.err;
     EXPECT_THAT(klartext.out, StartsWith("0 BEGIN PGM PART MM\n"));
@@ -123,9 +123,92 @@ TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise
     EXPECT_THAT(ended.err, HasSubstr(":3:1: a feed cannot be kept in step with the spindle"));
     write_content(part, "G21 G90\nM7\nG0 X0 Y0 Z5\nG1 X9 F300\nG53 G0 Z0\nM2\n");
     ended = convert("router-xyz", "grbl");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err,
+                HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero lies"));
+    ended = convert("router-xyz", "grbl", {"--origin", "1,2,-20"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("warning: " + part + ":2:1: mist (M7)"));
-    EXPECT_THAT(ended.err, HasSubstr(":5:1: G53 goes to a machine position"));
+    EXPECT_THAT(ended.out, HasSubstr("G0 X1.000 Y2.000 Z-15.000\nG1 X10.000 F300.0\nG0 Z0.000\n"));
+}
+
+/// A retract to a reference point that nobody stored never goes down; a parameter file says where it is.
+TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
+    write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG1 X9 F300\nG28 G91 Z0\nM2\n");
+    const std::string remembered = (scratch / "linuxcnc.var").string();
+    Ended ended = convert("router-xyz", "grbl", {"--origin", "0,0,10"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr(":4:1: G28 would take Z from 15.000 to 0.000, towards the part"));
+    write_content(remembered, "5163 50\n5221 1\n5222 2\n5223 -20\n");
+    ended = convert("router-xyz", "grbl", {"--parameters", remembered});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("G0 X1.000 Y2.000 Z-15.000\n"));
+    EXPECT_THAT(ended.out, HasSubstr("Z50.000\n"));
+    write_content(remembered, "5163\n");
+    ended = convert("router-xyz", "grbl", {"--parameters", remembered});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("linuxcnc.var:1: a line has the number of a parameter and its value"));
+}
+
+/// G0 without axes in the head of the thesis's program became a rapid to X0 Y0 Z0.
+TEST_F(Posts, ConvertMovesNoAxisThatTheProgramHasNotNamed) {
+    const Ended ended = run({"gcode",
+                             "convert",
+                             "assets/samples/gcode/thesis-plate.ngc",
+                             "--machine",
+                             "router-xyz",
+                             "--post",
+                             "linuxcnc-xyz"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\nG0 X-7.0000 Y13.0000\nZ10.0000\n"));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("X0.0000 Y0.0000")));
+    EXPECT_THAT(ended.err, HasSubstr("where Z is at the start is not known"));
+}
+
+/// A feed to where the axes may or may not be has no length: it was refused.
+TEST_F(Posts, ConvertWritesAFirstFeedForEveryControl) {
+    write_content(part, "G21\nG1 X0 Y0 F300\nG1 X10\nM2\n");
+    EXPECT_THAT(convert("router-xyz", "grbl").out, HasSubstr("\nG1 X0.000 Y0.000 F300.0\nX10.000\n"));
+    EXPECT_THAT(convert("router-xyz", "linuxcnc").out,
+                HasSubstr("\nG1 X0.0000 Y0.0000 F300.0000\nG93 X10.0000 F30.0000\n"));
+    write_content(part, "G20\nG1 X0 Y0 F10\nX1\nM2\n");
+    EXPECT_THAT(convert("router-xyz", "linuxcnc").out, HasSubstr("\nG1 X0.0000 Y0.0000 F254.0000\n"));
+}
+
+TEST_F(Posts, ConvertRefusesTipsOfAxesThatTheProgramNeverNames) {
+    write_content(part, "G21 G90\nG0 X10 Y0 Z50\nG1 Z0 F600\nM2\n");
+    const Ended ended = convert("ac-table", "heidenhain");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("the program has not said where A is when it begins to move"));
+    EXPECT_EQ(convert("ac-table", "linuxcnc").exit_code, 0);
+}
+
+/// Ends of chords were compared with other digits than those that stand in the text.
+TEST_F(Posts, ConvertWritesArcsOfInchesAsTheyAre) {
+    for (const char* depth : {"0.0625", "0.03125", "0.015625", "0.4375"}) {
+        write_content(part,
+                      std::string("G20 G90 G17 F10\nG0 X0 Y0 Z0.25\nG1 Z-") + depth +
+                          "\nG2 X0 Y0 I0.5 J0\nG2 X-0.71875 Y-0.59375 R5\nG18 G3 X0.0625 Z0.03125 R3\nG0 "
+                          "Z0.25\nM2\n");
+        for (const char* post : {"grbl", "linuxcnc", "linuxcnc-xyz", "virtual"}) {
+            for (const char* tolerance : {"0", "0.01"}) {
+                const Ended ended = convert("router-xyz", post, {"--arcs", tolerance});
+                EXPECT_EQ(ended.exit_code, 0) << depth << " " << post << ": " << ended.err;
+            }
+        }
+    }
+}
+
+TEST_F(Posts, ConvertFindsSubroutinesInTheFoldersThatAreGiven) {
+    const fs::path folder = scratch / "subs";
+    fs::create_directory(folder);
+    write_content(folder / "hole.ngc", "o<hole> sub\nG0 Z5\no<hole> endsub\nM2\n");
+    write_content(part, "G21 G90\nG0 X1 Y1 Z1\no<hole> call\nM2\n");
+    EXPECT_EQ(convert("router-xyz", "grbl").exit_code, 1);
+    const Ended ended = convert("router-xyz", "grbl", {"--subroutines", folder.string()});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("\nZ5.000\n"));
 }
 
 TEST_F(Posts, ConvertSaysWhatCannotBe) {

@@ -74,7 +74,8 @@ private:
         int end = first;
         while (end < program_.block_count() && end - first < most_feeds) {
             const Block& now = block(end);
-            const bool alike = now.kind == BlockKind::feed && now.role == begin.role && others_still(end) &&
+            const bool alike = now.kind == BlockKind::feed && !now.programmed_speed &&
+                               now.role == begin.role && others_still(end) &&
                                std::abs(speed(end) - speed(first)) <= same_speed * speed(first);
             if (!alike) {
                 break;

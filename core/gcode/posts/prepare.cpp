@@ -75,12 +75,14 @@ public:
             return;
         }
         const AxisPositions meant_from = std::exchange(meant_, block.target);
-        block.target = rounded(block.target);
+        block.target = with_named(rounded(block.target), block.named);
         if (block.kind == BlockKind::feed) {
-            if (goes_nowhere(block)) {
+            if (!block.programmed_speed && goes_nowhere(block)) {
                 return; // too short to be written
             }
-            if (format_.feed.mode == FeedWriting::per_minute) {
+            if (block.programmed_speed) {
+                // has no length that its time could be kept for
+            } else if (format_.feed.mode == FeedWriting::per_minute) {
                 keep_speed(block, meant_from);
             } else {
                 keep_to_digits(block);
@@ -88,12 +90,20 @@ public:
             }
         }
         moved_ = true;
+        for (int n = 0; n < machine_.axis_count(); ++n) {
+            if (block.named.contains(n)) {
+                named_.insert(n);
+            }
+        }
         if (format_.positions == PositionsOf::axes || without_tip) {
             tip_ = false;
             retracted_ = true;
             append(std::move(block), false);
         } else {
-            block.named = all_; // whatever turns, the tip's three coordinates change
+            if (!machine_.rotary_axes().empty()) {
+                expect_all_named(block);
+                block.named = all_; // whatever turns, the tip's three coordinates change
+            }
             add_for_tip(std::move(block));
         }
     }
@@ -110,7 +120,23 @@ private:
     AxisPositions meant_; ///< where the last move ended before it was rounded
     bool tip_ = false;
     bool moved_ = false;
+    AxisSet named_;          ///< so far: where these are is known
     bool retracted_ = false; ///< in machine positions
+
+    /// The tip is where all axes are.
+    void expect_all_named(const Block& block) const {
+        for (int n = 0; n < machine_.axis_count(); ++n) {
+            if (!named_.contains(n) || block.programmed_speed) {
+                throw Error(
+                    Diagnostic{{{}, block.source_line, 0, -1},
+                               fmt::format("{} is told where the tool's tip is, and the program has not "
+                                           "said where {} is when it begins to move",
+                                           format_.name,
+                                           machine_.axis(n).letter),
+                               "begin with rapids that name all axes of the machine"});
+            }
+        }
+    }
 
     /// Rounded ends make a move a little longer or shorter: its speed stays, so that a feed stays the feed.
     void keep_speed(Block& block, const AxisPositions& meant_from) const {
@@ -175,6 +201,14 @@ private:
         return internal::written(machine_, positions, digits_, result_.program.block_count());
     }
 
+    /// Axes without a word stay where the text has left them.
+    [[nodiscard]] AxisPositions with_named(AxisPositions target, const AxisSet& named) const {
+        for (int n = 0; n < machine_.axis_count(); ++n) {
+            target[n] = named.contains(n) ? target[n] : here()[n];
+        }
+        return target;
+    }
+
     /// What the words say with the tip in place of X Y Z, as it will be read.
     [[nodiscard]] AxisPositions words(const AxisPositions& positions) const {
         const Vec3 tip = kinematics::forward(machine_, positions).tip;
@@ -231,8 +265,8 @@ private:
             }
             append(entry, false);
         }
-        if (block.kind == BlockKind::feed) {
-            entry.named = all_;
+        if (block.kind == BlockKind::feed && !block.programmed_speed) {
+            entry.named = machine_.rotary_axes().empty() ? block.named : all_;
             append(std::move(entry), true);
         }
     }

@@ -152,7 +152,7 @@ private:
     }
 
     /// Where the axes stand before is not known, so each has to be named before it counts. A feed that is the
-    /// first to name one has its length from where the program takes it to be.
+    /// first to name one, and has no speed of its own, has its length from where the program takes it to be.
     [[nodiscard]] AxisValues strange_start() const {
         AxisValues start = values_of(program_.start);
         AxisSet named;
@@ -160,7 +160,7 @@ private:
             for (std::size_t n = 0; n < program_.axes.size() && block.moves(); ++n) {
                 const auto axis = static_cast<int>(n);
                 const bool first = block.named.contains(axis) && !named.contains(axis);
-                if (first && block.kind == BlockKind::rapid) {
+                if (first && (block.kind == BlockKind::rapid || block.programmed_speed)) {
                     constexpr double far_away = -17.0; // mm or degrees
                     start[axis_of(program_.axes[n].letter)] += far_away;
                 }
@@ -243,7 +243,9 @@ private:
             differ(step.tip ? "tip control is on" : "tip control is off");
         }
         compare_positions(words, block.named, step.target);
-        if (block.kind == BlockKind::feed) {
+        if (block.kind == BlockKind::feed && block.programmed_speed) {
+            compare_speed(block, step);
+        } else if (block.kind == BlockKind::feed) {
             const FeedWay way = feed_way(program_.axes, words.from, words.to);
             const double length = way.angular ? to_degrees(way.length) : way.length / format_.length_unit();
             compare_feed({length, step.value}, {length, block.duration});
@@ -292,6 +294,29 @@ private:
             return (inverse ? 1.0 : length) / duration * seconds_a_minute;
         }
     };
+
+    /// Of a feed from anywhere: by its length from where the text was taken to begin.
+    void compare_speed(const Block& block, const WrittenStep& step) const {
+        constexpr double seconds_a_minute = 60.0;
+        const auto positions = [&](const AxisValues& values) {
+            AxisPositions found(static_cast<Eigen::Index>(program_.axes.size()));
+            for (std::size_t n = 0; n < program_.axes.size(); ++n) {
+                const double value = values[axis_of(program_.axes[n].letter)];
+                found[static_cast<Eigen::Index>(n)] =
+                    program_.axes[n].kind == AxisKind::rotary ? from_degrees(value) : value;
+            }
+            return found;
+        };
+        const FeedWay way = feed_way(program_.axes, positions(at_), positions(step.target));
+        const auto shown = [&](double speed) {
+            return (way.angular ? to_degrees(speed) : speed / format_.length_unit()) * seconds_a_minute;
+        };
+        const double meant = shown(*block.programmed_speed);
+        const double read = shown(way.length / step.value);
+        if (!(std::abs(read - meant) <= half_of(format_.numbers.feed) + 1e-9 * meant)) {
+            differ(fmt::format("the feed is {:.6f} in the text and {:.6f} in the program", read, meant));
+        }
+    }
 
     /// Inverse time is never rounded up, unless to the smallest feed there is.
     void compare_feed(const TimedWay& read, const TimedWay& meant) const {

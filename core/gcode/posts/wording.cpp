@@ -59,6 +59,15 @@ FeedWay feed_way(const std::vector<ProgramAxis>& axes,
     return {distance_along(axes, from, to, "ABC"), true};
 }
 
+bool names_linear(const std::vector<ProgramAxis>& axes, const AxisSet& named) {
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        if (axes[n].kind == kinematics::AxisKind::linear && named.contains(static_cast<int>(n))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 double length_of_feeds(const Program& program, const Wording& wording, const FittedArc& arc) {
     double length = 0.0;
     for (int n = arc.first; n <= arc.last; ++n) {

@@ -47,6 +47,9 @@ struct FeedWay {
                                const kinematics::AxisPositions& from,
                                const kinematics::AxisPositions& to);
 
+/// Whether one of `named` is a linear axis.
+[[nodiscard]] bool names_linear(const std::vector<ProgramAxis>& axes, const AxisSet& named);
+
 /// Of the feeds that an arc stands for, mm: the speed of the arc is theirs along it. The arc itself is longer
 /// by a hair.
 [[nodiscard]] double length_of_feeds(const Program& program, const Wording& wording, const FittedArc& arc);

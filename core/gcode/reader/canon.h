@@ -32,6 +32,28 @@ struct SourceLine {
 
 enum class MoveKind : std::uint8_t { traverse, feed, arc, probe, rigid_tap };
 
+/// In whose terms the program gives the end of a move.
+enum class MoveFrame : std::uint8_t {
+    work,        ///< the active coordinate system
+    machine,     ///< G53
+    reference,   ///< the stored position of G28
+    reference_2, ///< that of G30
+};
+
+/// Axes, one bit each in the order of axis_letters.
+using AxisBits = std::uint16_t;
+
+/// What a line says about the ends of its moves.
+struct MoveWords {
+    AxisBits named = 0;        ///< axes with a word
+    bool incremental = false;  ///< the words count from where the axes are
+    bool inverse_time = false; ///< the feed is a time, whatever the length
+    MoveFrame frame = MoveFrame::work;
+    bool reference_set = false; ///< reference, reference_2: somebody has stored the position
+
+    [[nodiscard]] bool names(std::size_t axis) const { return ((named >> axis) & 1U) != 0; }
+};
+
 /// A motion from where the axes are to `target`. An arc turns in `plane`, whose axes are X Y (xy), Z X (xz)
 /// or Y Z (yz), and moves the other axes linearly with the angle.
 struct Move {
@@ -40,6 +62,7 @@ struct Move {
     std::uint8_t probe = 2; ///< probe: 2 to 5, as in G38.2 to G38.5
     std::int32_t turns = 0; ///< arc: full and partial turns, > 0 counter-clockwise, < 0 clockwise
     SourcePlace source;     ///< of the line that asks for it
+    MoveWords words;
     AxisValues target;
     double centre_1 = 0.0; ///< arc: along the plane's first axis
     double centre_2 = 0.0; ///< arc: along the plane's second axis
@@ -124,7 +147,10 @@ enum class CommandKind : std::uint8_t {
     optional_program_stop,
     program_end,
     finish, ///< the text ended with %, without M2
-    on_reset
+    on_reset,
+    /// An offset or a reference point is taken from where the axes are. index: of G, in tenths (920: G92,
+    /// 100: G10 L10, L11 and L20, 281, 301); mode: which axes, AxisBits. Not one of LinuxCNC's.
+    measure_position
 };
 
 struct Command {

@@ -4,6 +4,8 @@
 #include "core/gcode/reader/internal/cut_program_builder.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/machine_program.h"
+#include "core/gcode/reader/program_text.h"
+#include "core/gcode/reader/work_origin.h"
 
 #include <fmt/format.h>
 
@@ -102,21 +104,37 @@ ReaderSettings reader_settings(const CutProgramSettings& settings) {
     reading.tools = settings.tools.value_or(ToolTable());
     reading.any_tool = !settings.tools;
     reading.block_delete = settings.block_delete;
+    reading.parameters = settings.parameters;
+    if (settings.origin) {
+        put_origin(reading, *settings.origin);
+    }
     return reading;
 }
 
-CutProgram made_of(const MachineProgram& read,
+/// Back to positions of the work.
+void take_off(Program& program, const Vec3& origin) {
+    program.start -= origin;
+    for (Block& block : program.blocks) {
+        block.target -= origin;
+    }
+}
+
+CutProgram made_of(MachineProgram read,
                    const ProgramAndTools& tools,
                    const std::filesystem::path& file,
                    const CutProgramSettings& settings) {
     throw_first(read.faults);
     throw_first(read.lost);
+    take_off(read.program, settings.origin.value_or(Vec3::Zero()));
     internal::CutProgramBuilder cut(read.program, file, settings.safe_height);
     for (std::size_t n = 0; n < read.program.blocks.size(); ++n) {
         cut.add(read.program.blocks[n], tools.tool_of(n));
     }
     CutProgram made = cut.take();
-    made.notices.insert(made.notices.begin(), read.simplified.begin(), read.simplified.end());
+    for (const auto* found : {&read.unplaced, &read.simplified}) {
+        made.notices.insert(made.notices.begin(), found->begin(), found->end());
+    }
+    made.unplaced = read.unplaced;
     if (made.strokes.empty()) {
         throw Error(made.safe_height
                         ? fmt::format("there is nothing to cut in it below z {:.3f} mm", *made.safe_height)
@@ -168,6 +186,7 @@ CutProgram read_cut_program_file(const std::filesystem::path& file, const CutPro
 }
 
 bool is_gcode(std::string_view text) {
+    text = program_text(text);
     while (!text.empty()) {
         const auto end = std::min(text.find_first_of("\r\n"), text.size());
         std::string_view line = text.substr(0, end);

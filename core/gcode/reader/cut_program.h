@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/gcode/reader/parameter_file.h"
 #include "core/gcode/reader/tool_table.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/strokes.h"
@@ -23,6 +24,8 @@ struct CutProgramSettings {
     /// At and above it a feed across is in the air. Not given: the greatest height at which the program goes
     /// across at rapid, unless it cuts nothing below.
     std::optional<double> safe_height{};
+    Parameters parameters{};      ///< that the controller remembers
+    std::optional<Vec3> origin{}; ///< where the program's zero lies on the machine, mm; not given: not known
 };
 
 /// What is cut with one tool at one height. Its strokes have its pen.
@@ -51,6 +54,8 @@ struct CutProgram {
     double dwell_time = 0.0;         ///< in which it stands
     double spindle_rpm = 0.0;        ///< the first speed that it is switched on with; 0: none
     std::vector<Diagnostic> notices; ///< what is read in another way, and what a path has no record of
+    /// MachineProgram::unplaced: who cuts this refuses; they are among the notices, too.
+    std::vector<Diagnostic> unplaced;
 };
 
 /// The program `text`, called `file` in diagnostics. Throws Error with the line for the first thing that is

@@ -6,12 +6,15 @@
 #include "core/gcode/reader/internal/grbl_rules.h"
 #include "core/gcode/reader/internal/held_moves.h"
 #include "core/gcode/reader/internal/number.h"
+#include "core/gcode/reader/internal/o_line.h"
 #include "core/gcode/reader/internal/offsets.h"
+#include "core/gcode/reader/language.h"
 #include "core/gcode/reader/word_column.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -19,6 +22,7 @@ namespace millwright::gcode {
 
 using internal::ControlFlow;
 using internal::Cursor;
+using internal::is_percent;
 using internal::LineSource;
 using internal::ParsedLine;
 using internal::Refusal;
@@ -37,14 +41,13 @@ std::vector<std::filesystem::path> folders_for(const std::filesystem::path& file
     return folders;
 }
 
-bool is_percent(std::string_view line) {
-    Cursor cursor(line);
-    return cursor.take('%') && cursor.at_end();
-}
-
 /// Left out when a program is sent to Grbl, wherever it stands.
 bool is_grbl_percent(std::string_view line) {
     return is_percent(line.substr(0, line.find_first_of("(;")));
+}
+
+Refusal of_other_language(Language language) {
+    return {1, fmt::format("this is {}, not G-code", name_of(language)), std::string(advice_for(language))};
 }
 
 bool says_the_end(std::string_view line) {
@@ -76,8 +79,8 @@ struct Interpreter::Parts {
     void execute(std::string_view text);
     void execute_words(Cursor& cursor);
     bool execute_flow(Cursor& cursor);
-    void repeat_from_the_top();
     void look_for_percent();
+    void refuse_lines_behind_the_end();
     void check_repetition();
     void report(SourcePlace place, const Refusal& refusal);
 
@@ -92,7 +95,6 @@ struct Interpreter::Parts {
     bool started = false;
     bool stopped = false;
     bool seen_text = false;   ///< a line that is not blank
-    bool in_percents = false; ///< the program began with %
     bool end_refused = false; ///< there is an end, in a line with something wrong
     bool watching_turns = false;
 };
@@ -115,7 +117,9 @@ void Interpreter::Parts::start() {
     }
     s.position = internal::relative_to_system(run.to_program(settings.start), s);
     run.out.send(CommandKind::use_length_units, static_cast<int>(s.unit));
-    run.out.send(internal::command_of(CommandKind::set_g5x_offset, s.g5x_offset, s.coordinate_system));
+    Command system = internal::command_of(CommandKind::set_g5x_offset, s.g5x_offset, s.coordinate_system);
+    system.mode = run.variables.knows_system(s.coordinate_system) ? 1 : 0;
+    run.out.send(system);
     run.out.send(internal::command_of(CommandKind::set_g92_offset, s.g92_offset));
     run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
     run.out.send(CommandKind::set_feed_reference);
@@ -143,10 +147,17 @@ bool Interpreter::Parts::step() {
             execute(text);
         }
     } catch (const Refusal& refusal) {
-        report(files.place(), refusal);
+        if (const std::optional<Language> language = language_of_line(text)) {
+            stopped = true; // each further line would only say it again
+            report(files.place(), of_other_language(*language));
+        } else {
+            report(files.place(), refusal);
+        }
         end_refused = end_refused || says_the_end(text);
     }
-    if (run.ended && in_percents) {
+    if (run.ended && is_grbl()) {
+        refuse_lines_behind_the_end();
+    } else if (run.ended && run.in_percents) {
         look_for_percent();
     }
     const bool enough = !settings.read_on && std::ssize(errors) >= settings.most_errors;
@@ -167,6 +178,27 @@ void Interpreter::Parts::look_for_percent() {
     }
     run.out.send(
         internal::command_of(CommandKind::comment, "interpreter: percent sign missing from end of file"));
+}
+
+/// M2 ends nothing for Grbl: it would execute what is sent behind it.
+void Interpreter::Parts::refuse_lines_behind_the_end() {
+    std::string_view text;
+    while (files.next(text)) {
+        Cursor cursor(text);
+        try {
+            while (cursor.peek() == '(') {
+                static_cast<void>(internal::read_comment(cursor));
+            }
+            if (!cursor.at_end() && cursor.peek() != ';' && !is_grbl_percent(text)) {
+                internal::refuse(cursor.column(),
+                                 "this line is behind the end of the program, and Grbl would execute it",
+                                 "take it out, or the M2 or M30 above it");
+            }
+        } catch (const Refusal& refusal) {
+            report(files.place(), refusal);
+            return;
+        }
+    }
 }
 
 /// The outermost loop that has gone round in the second half of the patience is taken for the one without
@@ -198,7 +230,7 @@ void Interpreter::Parts::end_of_text() {
                              fmt::format("the text ends inside of a subroutine that line {} called",
                                          flow.called_from().line));
         }
-        if (in_percents) {
+        if (run.in_percents) {
             internal::refuse(1, "the program begins with % and does not end with one", "M2 or % is missing");
         }
         if (!seen_text) {
@@ -233,10 +265,10 @@ void Interpreter::Parts::execute(std::string_view text) {
     }
     if (!is_grbl() && cursor.peek() == '%' && is_percent(text)) {
         if (!seen_text) {
-            in_percents = seen_text = true;
+            run.in_percents = seen_text = true;
             return;
         }
-        if (in_percents) {
+        if (run.in_percents) {
             internal::finish_waiting(run);
             run.out.send(CommandKind::finish);
             stopped = true;
@@ -290,25 +322,21 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
         }
         line.clear();
         internal::parse_words(ahead, run.variables, line);
-        flow.call_fanuc(line.block);
+        flow.call_fanuc(line);
         return true;
     }
-    return code > 98.9 && code < 99.1 && flow.return_fanuc();
+    return code > 98.9 && code < 99.1 && flow.return_fanuc(ahead);
 }
 
 void Interpreter::Parts::execute_words(Cursor& cursor) {
     line.clear();
     internal::parse_words(cursor, run.variables, line);
-    internal::execute_line(run, line);
-    if (run.from_the_top) {
-        repeat_from_the_top();
+    constexpr int m99 = 99;
+    if (line.block.code(internal::MGroup::stopping) == m99 && flow.in_subroutine()) {
+        internal::refuse(line.block.column_of(internal::MGroup::stopping),
+                         "M99 in a subprogram stands alone in its line");
     }
-}
-
-/// M99 in the main program: LinuxCNC begins again for ever; a reader stops after one pass.
-void Interpreter::Parts::repeat_from_the_top() {
-    run.from_the_top = false;
-    run.ended = true;
+    internal::execute_line(run, line);
 }
 
 /// A line of a loop or a subroutine is wrong once, however often it is come to.

@@ -4,6 +4,7 @@
 #include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/internal/chords.h"
 #include "core/gcode/reader/internal/losses.h"
+#include "core/gcode/reader/internal/placement.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
 #include "core/gcode/reader/line_ends.h"
 #include "core/kinematics/travel.h"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -26,23 +26,6 @@ using internal::same_place;
 
 namespace {
 
-/// The axes of the machine that have a word in `line`. What stands in comments, brackets and names is none.
-AxisSet axes_with_words(std::string_view line, const kinematics::MachineModel& machine) {
-    AxisSet set;
-    int depth = 0;
-    for (const char c : line) {
-        if (c == ';') {
-            break;
-        }
-        depth += c == '(' || c == '[' || c == '<' ? 1 : c == ')' || c == ']' || c == '>' ? -1 : 0;
-        const int axis = machine.axis_index(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
-        if (depth == 0 && axis >= 0) {
-            set.insert(axis);
-        }
-    }
-    return set;
-}
-
 /// What the end of a program does by itself.
 bool switches_off(const Block& block) {
     return block.kind == BlockKind::spindle_off || block.kind == BlockKind::coolant_off;
@@ -55,7 +38,8 @@ public:
     Parts(const kinematics::MachineModel& machine,
           std::filesystem::path file,
           const MachineProgramSettings& settings)
-        : machine_(machine), file_(std::move(file)), settings_(settings), losses_(file_) {
+        : machine_(machine), file_(std::move(file)), settings_(settings), losses_(file_),
+          placement_(machine, file_, settings.start.has_value()) {
         expects(settings.chord_tolerance > 0.0, "a chord tolerance is positive");
         expects(!settings.chord_length || *settings.chord_length > 0.0, "a chord has a length");
         Program& program = result_.program;
@@ -74,8 +58,8 @@ public:
 
     void move(const Move& move, const SourceLine& now) {
         text_ = now.place == move.source ? now.text : std::string_view();
-        worded_ = axes_with_words(text_, machine_);
         losses_.move(move, text_);
+        placement_.move(move, at_, frame_.to_machine(move.target), text_);
         const AxisValues start = frame_.from_machine(at_);
         switch (move.kind) {
         case MoveKind::traverse:
@@ -110,7 +94,7 @@ public:
 
     void curve(const Curve& curve, const SourceLine& now) {
         text_ = now.place == curve.source ? now.text : std::string_view();
-        worded_ = {};
+        placement_.curve(curve.source, text_);
         const AxisValues start = frame_.from_machine(at_);
         internal::curve_chords(start, curve, tolerance(), [&](const AxisValues& end) {
             go(BlockKind::feed, end, curve.source);
@@ -118,9 +102,11 @@ public:
     }
 
     void command(const Command& command, const SourceLine& now) {
+        const std::string_view line = now.place == command.source ? now.text : std::string_view();
         frame_.command(command);
         feed_.command(command, frame_.unit());
-        losses_.command(command, now.place == command.source ? now.text : std::string_view());
+        losses_.command(command, line);
+        placement_.command(command, line);
         switch (command.kind) {
         case CommandKind::set_motion_control_mode:
             path_ = {static_cast<PathMode>(command.index), command.value * frame_.unit()};
@@ -188,6 +174,8 @@ public:
     [[nodiscard]] MachineProgram take() {
         result_.lost = losses_.take_lost();
         result_.simplified = losses_.take_simplified();
+        result_.unplaced = placement_.take_unplaced();
+        result_.start_notice = placement_.start_notice();
         return std::move(result_);
     }
 
@@ -217,6 +205,7 @@ private:
     MachineProgramSettings settings_;
     MachineProgram result_;
     internal::Losses losses_;
+    internal::Placement placement_;
     std::size_t taken_ = 0; ///< blocks that are not in it any more
     kinematics::AxisPositions last_taken_;
     CanonFrame frame_;
@@ -228,7 +217,6 @@ private:
     bool pallet_moves_ = false;                   ///< and then the program stops
     AxisValues at_;                               ///< on the machine, mm and degrees
     std::string_view text_;  ///< the line of the move at hand; empty where another line brought it
-    AxisSet worded_;         ///< axes that it names
     std::set<char> missing_; ///< axes that were complained about
     AxisSet beyond_;         ///< the same for their travel
     bool no_feed_said_ = false;
@@ -336,22 +324,34 @@ private:
         return can;
     }
 
-    /// Axes with a word in the line, and those that move; a move that names none names all.
+    /// Axes with a word in the line, and those that move.
     [[nodiscard]] AxisSet named_by(const AxisValues& end) const {
-        AxisSet named = worded_;
+        AxisSet named = placement_.named();
         for (int n = 0; n < machine_.axis_count(); ++n) {
             const std::size_t letter = index_of(machine_.axis(n).letter);
             if (std::abs(end[letter] - at_[letter]) > same_place) {
                 named.insert(n);
             }
         }
-        return named == AxisSet() ? AxisSet::all(machine_.axis_count()) : named;
+        return named;
+    }
+
+    [[nodiscard]] bool has_linear(const AxisSet& axes) const {
+        return std::ranges::any_of(machine_.linear_axes(), [&](int n) { return axes.contains(n); });
     }
 
     /// To `target` in the frame of the program.
     void go(BlockKind kind, const AxisValues& target, SourcePlace source) {
-        const AxisValues end = frame_.to_machine(target);
+        AxisValues end = frame_.to_machine(target);
         if (!can_go(end, source)) {
+            return;
+        }
+        const AxisSet named = named_by(end);
+        for (int n = 0; n < machine_.axis_count(); ++n) { // to the last bit, or it may round to another digit
+            const std::size_t letter = index_of(machine_.axis(n).letter);
+            end[letter] = named.contains(n) ? end[letter] : at_[letter];
+        }
+        if (named == AxisSet()) { // G0 alone, as in the head of a program: no axis is to go anywhere
             return;
         }
         double duration = 0.0;
@@ -369,7 +369,7 @@ private:
             duration = *found;
         }
         Block& block = add(kind, source);
-        block.named = named_by(end);
+        block.named = named;
         block.duration = duration;
         block.path = path_;
         for (int n = 0; n < machine_.axis_count(); ++n) {
@@ -380,6 +380,9 @@ private:
         }
         const double way = linear_distance(at_, end);
         block.feed = duration > 0.0 ? way / duration : 0.0;
+        if (kind == BlockKind::feed && placement_.starts_anywhere()) {
+            block.programmed_speed = has_linear(named) ? feed_.speed() : feed_.angular_speed();
+        }
         result_.length += way;
         at_ = end;
     }

@@ -38,9 +38,16 @@ struct MachineProgram {
     /// feed in step with the spindle. Its moves are in the program; who makes motion of them refuses.
     std::vector<Diagnostic> lost;
     /// What blocks say in another way or not at all, the first of each kind: mist (flood), work systems
-    /// whose offset nobody told (it is zero), machine positions of G53, G28 and G30 (of a machine whose
-    /// offsets are zero), outputs, override switches.
+    /// whose offset nobody told (it is zero), outputs, override switches.
     std::vector<Diagnostic> simplified;
+    /// That axes move while the program has not named others yet, which it does later.
+    std::optional<Diagnostic> start_notice;
+    /// What depends on where the axes are at the start, or on where the work lies on the machine, while the
+    /// program has said neither, the first of each kind: increments and arcs from there, offsets taken from
+    /// there (G92, G10 L20), machine positions among those of the work (G53, G28, G30), two systems without
+    /// offsets, a retract to a reference point nobody has stored that would go down. The blocks take zero;
+    /// who makes another program of them refuses.
+    std::vector<Diagnostic> unplaced;
     double length = 0.0; ///< of the ways of X Y Z, rapids too, mm
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/gcode/reader/program_text.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ namespace millwright::gcode {
 namespace {
 
 constexpr int largest_number = 99999;
-constexpr double largest_length = 1e6;
+constexpr double largest_length = 1e9; // as the words of a program
 
 /// One line of the file and where it stands.
 struct Line {
@@ -134,6 +135,7 @@ Tool& ToolTable::at_row(int row) {
 ToolTable parse_tool_table(std::string_view text, const std::filesystem::path& file) {
     ToolTable table;
     int number = 0;
+    text = program_text(text);
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         read_line(table, {line, line, ++number, &file});

@@ -31,6 +31,15 @@ void set_axis_limits(Leg& leg, const std::vector<AxisLimits>& limits) {
             leg.acceleration_cause = {Limit::axis_acceleration, letter};
         }
     }
+    leg.axis_speed = leg.speed;
+}
+
+/// In scaled axes.
+AxisPositions scaled_step(const std::vector<AxisLimits>& limits, AxisPositions step) {
+    for (int n = 0; n < static_cast<int>(limits.size()); ++n) {
+        step[n] /= limits[static_cast<std::size_t>(n)].acceleration;
+    }
+    return step;
 }
 
 void set_path_acceleration(Leg& leg, const Mechanism& machine, double path_acceleration) {
@@ -80,6 +89,11 @@ std::vector<AxisLimits> limits_of(const Mechanism& machine) {
     return limits;
 }
 
+AxisPositions
+unit_of(const std::vector<AxisLimits>& limits, const AxisPositions& from, const AxisPositions& to) {
+    return scaled_step(limits, to - from).normalized();
+}
+
 Leg leg_of(const Mechanism& machine,
            const std::vector<AxisLimits>& limits,
            const PlannerSettings& settings,
@@ -89,10 +103,7 @@ Leg leg_of(const Mechanism& machine,
            double path_acceleration) {
     Leg leg;
     const AxisPositions step = to - from;
-    leg.unit = step;
-    for (int n = 0; n < static_cast<int>(limits.size()); ++n) {
-        leg.unit[n] /= limits[static_cast<std::size_t>(n)].acceleration;
-    }
+    leg.unit = scaled_step(limits, step);
     leg.length = leg.unit.norm();
     leg.unit /= leg.length;
     leg.direction = step / leg.length;

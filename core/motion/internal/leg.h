@@ -23,6 +23,7 @@ struct Leg {
     kinematics::AxisPositions direction; ///< by the way, in axis units
     bool rapid = false;
     std::vector<FeedStep> feed; ///< of a rapid: the top speed of the axes
+    double axis_speed = 0.0;    ///< the top speed of the axes
     double speed = 0.0;         ///< that it never exceeds, by axes and feed with the highest override
     double acceleration = 0.0;
     Cause speed_cause, acceleration_cause;
@@ -30,6 +31,11 @@ struct Leg {
         std::numeric_limits<double>::infinity(); ///< of the linear axes together, mm/s2
     gcode::PathControl path;
 };
+
+/// The direction from `from` to `to` in scaled axes, of length 1.
+[[nodiscard]] kinematics::AxisPositions unit_of(const std::vector<AxisLimits>& limits,
+                                                const kinematics::AxisPositions& from,
+                                                const kinematics::AxisPositions& to);
 
 /// The limits of a machine's axes.
 [[nodiscard]] std::vector<AxisLimits> limits_of(const Mechanism& machine);

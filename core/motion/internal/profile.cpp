@@ -16,6 +16,7 @@ struct ZonePiece {
     double own_value = 0.0; ///< of its zone
     Cause own_cause;
     double reach = 0.0;
+    bool rests = false; ///< at its end
 };
 
 struct Active {
@@ -48,13 +49,17 @@ public:
         }
     }
 
+    void clear() {
+        steps_.clear();
+        first_ = 0;
+    }
+
     void pass(double position) {
         while (first_ < steps_.size() && !(steps_[first_].until > position)) {
             ++first_;
         }
         if (first_ == steps_.size()) {
-            steps_.clear();
-            first_ = 0;
+            clear();
         }
     }
 
@@ -68,12 +73,16 @@ private:
     std::size_t first_ = 0; ///< those before it are passed
 };
 
-/// Each zone's limit also on what comes after it, as far as it reaches.
-std::vector<ZonePiece> carried_on(const std::vector<ZonePiece>& stretches) {
+/// Each zone's limit also on what comes after it, as far as it reaches, and no rest comes between. `turned`:
+/// the pieces are in reverse, and rest at their begin.
+std::vector<ZonePiece> carried_on(const std::vector<ZonePiece>& stretches, bool turned) {
     std::vector<ZonePiece> result;
     result.reserve(stretches.size() + stretches.size() / 2);
     Staircase active;
     for (const ZonePiece& stretch : stretches) {
+        if (turned && stretch.rests) {
+            active.clear();
+        }
         active.pass(stretch.from);
         double from = stretch.from;
         for (const Active& zone : active) {
@@ -85,15 +94,20 @@ std::vector<ZonePiece> carried_on(const std::vector<ZonePiece>& stretches) {
             part.to = std::min(zone.until, stretch.to);
             part.value = zone.value;
             part.cause = zone.cause;
+            part.rests = stretch.rests && (turned ? !(from > stretch.from) : !(part.to < stretch.to));
             from = part.to;
             result.push_back(part);
         }
         if (from < stretch.to || !(stretch.from < stretch.to)) {
             ZonePiece rest = stretch;
             rest.from = from;
+            rest.rests = stretch.rests && !(turned && from > stretch.from);
             result.push_back(rest);
         }
         active.add({stretch.own_value, stretch.to + stretch.reach, stretch.own_cause});
+        if (!turned && stretch.rests) {
+            active.clear();
+        }
     }
     return result;
 }
@@ -134,12 +148,13 @@ Profile profile_of(const std::vector<Zone>& zones, double begin) {
     stretches.reserve(zones.size());
     double from = begin;
     for (const Zone& zone : zones) {
-        stretches.push_back({from, zone.end, zone.value, zone.cause, zone.value, zone.cause, zone.reach});
+        stretches.push_back(
+            {from, zone.end, zone.value, zone.cause, zone.value, zone.cause, zone.reach, zone.rests});
         from = zone.end;
     }
-    stretches = carried_on(stretches);
+    stretches = carried_on(stretches, false);
     turn_round(stretches);
-    stretches = carried_on(stretches);
+    stretches = carried_on(stretches, true);
     turn_round(stretches);
     for (const ZonePiece& stretch : stretches) {
         append(profile, stretch.to, stretch.value, stretch.cause);

@@ -12,6 +12,7 @@ struct Zone {
     double value = 0.0;
     double reach = 0.0;
     Cause cause;
+    bool rests = false; ///< at its end the axes rest: no limit holds across that
 };
 
 /// The least of all zones that hold at each place, from `begin` to the end of the last.

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/motion/internal/corner_speed.h"
+#include "core/motion/override.h"
 
 #include <fmt/format.h>
 
@@ -18,10 +19,6 @@ using kinematics::AxisPositions;
 
 namespace {
 
-bool keeps_moving(BlockKind kind) {
-    return kind == BlockKind::comment || kind == BlockKind::rapid || kind == BlockKind::feed;
-}
-
 /// No motion is faster along the way: its direction is of length 1 in scaled axes.
 double greatest_speed(const std::vector<AxisLimits>& limits) {
     double squares = 0.0;
@@ -31,18 +28,46 @@ double greatest_speed(const std::vector<AxisLimits>& limits) {
     return std::sqrt(squares);
 }
 
-/// Of the parts of both moves that are rounded.
-double slowest_feed(const Leg& last, const Leg& next, double d) {
+/// Of the last `d` of a move.
+double slowest_at_end(const Leg& leg, double d) {
     double slowest = std::numeric_limits<double>::infinity();
-    for (const FeedStep& step : last.feed) {
-        slowest = step.end > last.length - d ? std::min(slowest, step.speed) : slowest;
+    for (const FeedStep& step : leg.feed) {
+        slowest = step.end > leg.length - d ? std::min(slowest, step.speed) : slowest;
     }
+    return slowest;
+}
+
+/// Of the first `d`.
+double slowest_at_begin(const Leg& leg, double d) {
+    double slowest = std::numeric_limits<double>::infinity();
     double begin = 0.0;
-    for (const FeedStep& step : next.feed) {
+    for (const FeedStep& step : leg.feed) {
         slowest = begin < d ? std::min(slowest, step.speed) : slowest;
         begin = step.end;
     }
     return slowest;
+}
+
+/// The speeds that the program asks for on both halves of a rounding. Of linear axes each half has that of
+/// its own move, as far as the blended direction is no faster than the faster move. A turn of rotary axes may
+/// take the tip farther than either move: there both halves have the lower one.
+std::pair<double, double>
+feeds_of_halves(const Mechanism& machine, const Leg& last, const Leg& next, double d) {
+    const double before = slowest_at_end(last, d);
+    const double after = slowest_at_begin(next, d);
+    const bool turns = std::ranges::any_of(machine.rotary_axes(), [&](int n) {
+        return std::abs(last.direction[n]) > 0.0 || std::abs(next.direction[n]) > 0.0;
+    });
+    if (turns) {
+        return {std::min(before, after), std::min(before, after)};
+    }
+    const double rate_before = machine.linear_length(last.direction); // mm by the way
+    const double rate_after = machine.linear_length(next.direction);
+    const double fastest = std::max(before * rate_before, after * rate_after);
+    const auto within = [&](double own, double own_rate, double other_rate) {
+        return std::min(own, fastest / (0.5 * (own_rate + std::max(own_rate, other_rate))));
+    };
+    return {within(before, rate_before, rate_after), within(after, rate_after, rate_before)};
 }
 
 template <class Places> void drop_up_to(Places& places, double way) {
@@ -51,6 +76,28 @@ template <class Places> void drop_up_to(Places& places, double way) {
 }
 
 } // namespace
+
+bool keeps_moving(BlockKind kind) {
+    return kind == BlockKind::comment || kind == BlockKind::rapid || kind == BlockKind::feed;
+}
+
+Meeting meeting_of(const gcode::PathControl& last_path,
+                   const AxisPositions& last_unit,
+                   bool last_rapid,
+                   const AxisPositions& next_unit,
+                   bool next_rapid) {
+    constexpr double straight = 1e-15; // rounding of a unit vector
+    const bool turns = (next_unit - last_unit).cwiseAbs().maxCoeff() > straight;
+    const bool rounded = last_path.mode == gcode::PathMode::continuous && turns;
+    if (last_path.mode == gcode::PathMode::exact_stop || (rounded && last_rapid != next_rapid)) {
+        return Meeting::rest;
+    }
+    return rounded ? Meeting::rounding : Meeting::corner;
+}
+
+double rounding_tolerance_of(const gcode::PathControl& path, const PlannerSettings& settings) {
+    return path.tolerance > 0.0 ? path.tolerance : settings.rounding_tolerance;
+}
 
 void check_axes(const std::vector<gcode::ProgramAxis>& axes,
                 const std::string& machine_of_program,
@@ -214,7 +261,12 @@ void RoadBuilder::limit_up_to(
 
 void RoadBuilder::limit_corner(double speed) {
     const double reach = 0.5 * path_.filter_time * speed;
-    speeds_.push_back({limited_to_, speed, reach, {Limit::corner, -1}});
+    const bool rests = !(speed > 0.0);
+    speeds_.push_back({limited_to_, speed, reach, {Limit::corner, -1}, rests});
+    if (rests) { // for as long as the filter: what held before holds no more
+        accelerations_.back().rests = true;
+        path_.programmed.back().rests = true;
+    }
 }
 
 /// The programmed speeds of a move that starts at `start`, on what of it is not done yet and before
@@ -235,16 +287,16 @@ double RoadBuilder::programmed_to() const {
 
 /// The corner between the last move and the next one, which starts where it ends.
 void RoadBuilder::meet(const Leg& next, const AxisPositions& position) {
-    constexpr double straight = 1e-15; // rounding of a unit vector
     const Leg& last = *last_;
-    const double turn = (next.unit - last.unit).cwiseAbs().maxCoeff();
-    const bool rounded = last.path.mode == gcode::PathMode::continuous && turn > straight;
-    if (last.path.mode == gcode::PathMode::exact_stop || (rounded && last.rapid != next.rapid)) {
+    const Meeting meeting = meeting_of(last.path, last.unit, last.rapid, next.unit, next.rapid);
+    const double tolerance =
+        std::min(rounding_step(rounding_tolerance_of(last.path, settings_)), largest_rounding_);
+    if (meeting == Meeting::rest || (meeting == Meeting::rounding && !(tolerance > 0.0))) {
         return stop();
     }
-    if (rounded) {
+    if (meeting == Meeting::rounding) {
         const double acceleration = std::min(last.path_acceleration, next.path_acceleration);
-        return round({position, last.direction, next.direction, acceleration}, next);
+        return round({position, last.direction, next.direction, acceleration}, next, tolerance);
     }
     limit_last_up_to(way_);
     const double speed = corner_speed(machine_, settings_, last, next);
@@ -253,21 +305,27 @@ void RoadBuilder::meet(const Leg& next, const AxisPositions& position) {
     }
 }
 
-void RoadBuilder::round(const Corner& corner, const Leg& next) {
+void RoadBuilder::round(const Corner& corner, const Leg& next, double tolerance) {
     const Leg& last = *last_;
-    const RoundingTolerance tolerance{last.path.tolerance > 0.0 ? last.path.tolerance
-                                                                : settings_.rounding_tolerance,
-                                      settings_.rounding_angle};
     const double longest = 0.5 * std::min(last.length, next.length);
-    const double d = rounding_length(machine_, corner, tolerance, longest);
-    const RoundingLimits limits = rounding_limits(
-        machine_, path_.limits, corner, d, std::min(last.speed, next.speed), path_.filter_time);
+    const double d = rounding_length(machine_, corner, {tolerance, settings_.rounding_angle}, longest);
+    const double top = std::min(last.axis_speed, next.axis_speed);
     segment_of(last).rounding_end = segment_of(next).rounding_start = d;
     segment_of(last).after = next.block;
     segment_of(next).before = last.block;
     limit_last_up_to(std::max(limited_to_, way_ - d));
-    limit_up_to(way_ + d, limits.speed, limits.speed_cause, limits.acceleration, limits.acceleration_cause);
-    path_.programmed.push_back({way_ + d, slowest_feed(last, next, d), last.rapid});
+    const auto [before, after] = feeds_of_halves(machine_, last, next, d);
+    limit_half(corner, d, way_, last.rapid ? top : std::min(top, highest_override * before));
+    limit_half(corner, d, way_ + d, next.rapid ? top : std::min(top, highest_override * after));
+    path_.programmed.push_back({way_, before, last.rapid});
+    path_.programmed.push_back({way_ + d, after, next.rapid});
+}
+
+/// One half of a rounding, up to `end`, at no more than `fastest`.
+void RoadBuilder::limit_half(const Corner& corner, double d, double end, double fastest) {
+    const RoundingLimits limits =
+        rounding_limits(machine_, path_.limits, corner, d, fastest, path_.filter_time);
+    limit_up_to(end, limits.speed, limits.speed_cause, limits.acceleration, limits.acceleration_cause);
 }
 
 void RoadBuilder::add_part_length(const AxisPositions& position, bool moved) {

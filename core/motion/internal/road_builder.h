@@ -30,6 +30,19 @@ void check_settings(const PlannerSettings& settings,
 [[nodiscard]] kinematics::AxisPositions position_after(const gcode::Block& block,
                                                        const kinematics::AxisPositions& before);
 
+/// Whether the axes go on moving.
+[[nodiscard]] bool keeps_moving(gcode::BlockKind kind);
+
+/// How two moves meet.
+enum class Meeting { rest, rounding, corner };
+[[nodiscard]] Meeting meeting_of(const gcode::PathControl& last_path,
+                                 const kinematics::AxisPositions& last_unit,
+                                 bool last_rapid,
+                                 const kinematics::AxisPositions& next_unit,
+                                 bool next_rapid);
+/// mm, of a continuous path.
+[[nodiscard]] double rounding_tolerance_of(const gcode::PathControl& path, const PlannerSettings& settings);
+
 class RoadBuilder {
 public:
     /// Machine and settings must outlive it. Without `part` the way on the part is not measured, which takes
@@ -41,6 +54,9 @@ public:
                 bool part);
 
     void reserve(std::size_t blocks);
+    /// From the next corner on roundings are within at most this tolerance, mm; 0: such corners are met at
+    /// rest.
+    void set_largest_rounding(double tolerance) { largest_rounding_ = tolerance; }
     /// The linear axes together accelerate along it by `path_acceleration` mm/s2 at most. Throws what plan()
     /// throws for a block.
     void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
@@ -66,13 +82,14 @@ private:
     bool part_;
     Path path_;
     std::vector<Zone> speeds_, accelerations_;
-    double kept_from_ = 0.0;  ///< the way before is forgotten
-    int forgotten_ = 0;       ///< blocks
-    double reach_ = 0.0;      ///<
-    std::optional<Leg> last_; ///< the last move
-    bool open_ = false;       ///< its end has no limits yet
-    double limited_to_ = 0.0; ///< the way that has limits
-    double way_ = 0.0;        ///< up to the end of the last block
+    double kept_from_ = 0.0;                                            ///< the way before is forgotten
+    int forgotten_ = 0;                                                 ///< blocks
+    double reach_ = 0.0;                                                ///<
+    double largest_rounding_ = std::numeric_limits<double>::infinity(); ///< tolerance, mm
+    std::optional<Leg> last_;                                           ///< the last move
+    bool open_ = false;                                                 ///< its end has no limits yet
+    double limited_to_ = 0.0;                                           ///< the way that has limits
+    double way_ = 0.0;                                                  ///< up to the end of the last block
     Vec3 last_tip_;
 
     Segment& segment_of(const Leg& leg) {
@@ -89,7 +106,8 @@ private:
     void add_feed(const Leg& leg, double start, double end);
     [[nodiscard]] double programmed_to() const;
     void meet(const Leg& next, const kinematics::AxisPositions& position);
-    void round(const Corner& corner, const Leg& next);
+    void round(const Corner& corner, const Leg& next, double tolerance);
+    void limit_half(const Corner& corner, double d, double end, double fastest);
     void add_part_length(const kinematics::AxisPositions& position, bool moved);
 };
 

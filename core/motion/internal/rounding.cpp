@@ -3,6 +3,7 @@
 #include "core/base/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace millwright::motion::internal {
@@ -18,6 +19,9 @@ constexpr double most_third = 1.5;            // of w'' / (2 d)^2, times d^2
 constexpr double normal_share = 0.75;         // of an axis's acceleration and jerk, for the turning itself
 constexpr double most_turn_of_rounding = 0.5; // rad by which rotary axes may turn on half a rounding
 const double growth = std::exp(most_turn_of_rounding); // of distances from rotary axes meanwhile
+
+constexpr std::array rounding_steps{1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0,
+                                    5.0,  10.0, 20.0, 50.0, 100., 200., 500., 1e3, 2e3, 5e3, 1e4}; // mm
 
 /// How much moves in a direction: all that bounds the curvature of the tip's path.
 struct Amount {
@@ -78,6 +82,17 @@ double length_with_rotary(const Mechanism& machine,
 }
 
 } // namespace
+
+double rounding_step(double tolerance) {
+    constexpr double same = 1.0 + 1e-9; // products of ten, and of inches
+    const auto above = std::ranges::upper_bound(rounding_steps, tolerance * same);
+    return above == rounding_steps.begin() ? 0.0 : *(above - 1);
+}
+
+double next_rounding_step(double step) {
+    const auto above = std::ranges::upper_bound(rounding_steps, step);
+    return above == rounding_steps.end() ? std::numeric_limits<double>::infinity() : *above;
+}
 
 // First order at the corner, and what the second derivatives can add between the corner and the place (`d`
 // away at most) and from the place to the rounding (3/16 d |change| away at most).

@@ -24,6 +24,13 @@ struct RoundingTolerance {
     double angle = 0.0; ///< of each rotary axis, rad
 };
 
+/// The largest of 1e-4, 1e-3, 2e-3, 5e-3, 0.01 ... mm that is not above `tolerance`; 0 below the first. With
+/// steps that are the same for every program, what may be chosen under a tolerance may be chosen under a
+/// larger one.
+[[nodiscard]] double rounding_step(double tolerance);
+/// The first above `step`.
+[[nodiscard]] double next_rounding_step(double step);
+
 /// The greatest d that keeps the tip on the part within its tolerance of where it would be on the programmed
 /// path, and each rotary axis within its own; at most `longest`.
 [[nodiscard]] double rounding_length(const Mechanism& machine,

@@ -17,7 +17,8 @@ Profile programmed_speeds(const Path& path, const Reach& reach, const Override& 
          step != path.programmed.end() && (zones.empty() || zones.back().end < reach.end);
          ++step) {
         const double speed = step->speed * (step->rapid ? rates.rapid : rates.feed);
-        zones.push_back({std::min(step->end, reach.end), speed, 0.5 * path.filter_time * speed, {}});
+        zones.push_back(
+            {std::min(step->end, reach.end), speed, 0.5 * path.filter_time * speed, {}, step->rests});
     }
     return profile_of(zones, reach.filtered);
 }

@@ -53,6 +53,24 @@ TEST(Profile, IsTheLeastOfAllZonesThatReachAPlace) {
     }
 }
 
+// At rest the filter comes to rest, too: what held before does not hold behind it, nor the other way round.
+TEST(Profile, NoLimitHoldsAcrossARest) {
+    const Cause none;
+    for (const bool rests : {true, false}) {
+        const Profile slow_before = profile_of({{1.0, 1.0, 0.5, none, rests}, {2.0, 5.0, 0.5, none}}, 0.0);
+        EXPECT_EQ(value_at(slow_before, 0.9), 1.0);
+        EXPECT_EQ(value_at(slow_before, 1.1), rests ? 5.0 : 1.0);
+        const Profile slow_behind = profile_of({{1.0, 5.0, 0.5, none, rests}, {2.0, 1.0, 0.5, none}}, 0.0);
+        EXPECT_EQ(value_at(slow_behind, 0.9), rests ? 5.0 : 1.0);
+        EXPECT_EQ(value_at(slow_behind, 1.1), 1.0);
+        // A limit from before that cuts the zone at whose end the axes rest.
+        const Profile cut =
+            profile_of({{1.0, 1.0, 0.5, none}, {3.0, 5.0, 0.5, none, rests}, {4.0, 2.0, 0.5, none}}, 0.0);
+        EXPECT_EQ(value_at(cut, 1.4), 1.0);
+        EXPECT_EQ(value_at(cut, 2.9), rests ? 5.0 : 2.0);
+    }
+}
+
 TEST(Profile, KeepsAPointThatDoesNotReachAnywhere) {
     const Profile profile = profile_of({{1.0, 5.0, 1.0, {}}, {1.0, 0.0, 0.0, {}}, {2.0, 5.0, 1.0, {}}}, 0.0);
     ASSERT_EQ(profile.size(), 3U);

@@ -69,6 +69,25 @@ int turns_of(const Block& block, int motion) {
     return motion == clockwise ? -static_cast<int>(turns) : static_cast<int>(turns);
 }
 
+/// Programs of other controls give centres in coordinates of the work.
+bool is_circle_about_absolute_centre(const Block& block,
+                                     const ModalState& s,
+                                     const Vec2& start,
+                                     const Vec2& end,
+                                     const Vec2& relative_centre,
+                                     const ArcTolerances& within) {
+    const CentreWords words = centre_words(s.plane);
+    if (s.absolute_centres || !block.has(words.first) || !block.has(words.second)) {
+        return false;
+    }
+    const auto is_circle = [&](const Vec2& centre) {
+        const double at_start = (start - centre).norm();
+        const double at_end = (end - centre).norm();
+        return at_start >= within.smallest_radius && std::abs(at_start - at_end) <= within.free_difference;
+    };
+    return !is_circle(relative_centre) && is_circle({block[words.first], block[words.second]});
+}
+
 /// Along the helix; LinuxCNC counts the radius at the arc's start.
 double arc_length(const Vec2& start, const Vec2& centre, double sweep, double rise) {
     return std::hypot((start - centre).norm() * sweep, rise);
@@ -106,7 +125,14 @@ void make_arc(Run& run, const Block& block, int motion) {
         centre = {block.value_or(words.first, 0.0), block.value_or(words.second, 0.0)};
         centre += s.absolute_centres ? Vec2(Vec2::Zero()) : start_2;
     }
-    check_centre(start_2, end_2, centre, within, s.plane, column);
+    try {
+        check_centre(start_2, end_2, centre, within, s.plane, column);
+    } catch (Refusal& refusal) {
+        if (is_circle_about_absolute_centre(block, s, start_2, end_2, centre, within)) {
+            refusal.hint = "its centre words are absolute, as G90.1 takes them: put G90.1 before it";
+        }
+        throw;
+    }
     const double sweep = sweep_of(start_2, end_2, centre, turns);
     set_inverse_time_feed(run, block, arc_length(start_2, centre, sweep, end[axes.third] - from[axes.third]));
 

@@ -64,6 +64,8 @@ struct Block {
     int motion = no_code; ///< the motion to make, given or modal
     int m_count = 0;
     bool polar_radius = false, polar_angle = false;
+    bool all_spindles = false;        ///< $-1
+    int spindle_column = 0;           ///< of $; 0: none
     double radius = 0.0, angle = 0.0; ///< polar coordinates @ and ^
     std::string_view comment;         ///< the last one that is not after a semicolon
     bool has_comment = false;
@@ -82,6 +84,8 @@ struct Block {
         motion = no_code;
         m_count = 0;
         polar_radius = polar_angle = false;
+        all_spindles = false;
+        spindle_column = 0;
         has_comment = false;
     }
 

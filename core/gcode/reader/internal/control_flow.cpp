@@ -21,7 +21,7 @@ void ControlFlow::execute(Cursor& cursor) {
     const Line line = read_head(cursor);
     switch (line.word) {
     case OWord::sub:
-        define(line);
+        define(line, cursor);
         break;
     case OWord::call:
         call(line, cursor);
@@ -36,7 +36,7 @@ void ControlFlow::execute(Cursor& cursor) {
     case OWord::elseif:
     case OWord::else_:
     case OWord::endif:
-        leave_branch(line);
+        leave_branch(line, cursor);
         break;
     case OWord::do_:
         open_block(line, cursor, OWord::do_);
@@ -48,14 +48,14 @@ void ControlFlow::execute(Cursor& cursor) {
         begin_repeat(line, cursor);
         break;
     case OWord::endwhile:
-        end_loop(line, OWord::while_);
+        end_loop(line, cursor, OWord::while_);
         break;
     case OWord::endrepeat:
-        end_loop(line, OWord::repeat);
+        end_loop(line, cursor, OWord::repeat);
         break;
     case OWord::break_:
     case OWord::continue_:
-        break_or_continue(line);
+        break_or_continue(line, cursor);
         break;
     case OWord::bare:
         break; // the beginning of a subprogram that is also run through
@@ -116,13 +116,13 @@ void ControlFlow::open_block(const Line& line, Cursor& cursor, OWord kind) {
     if (open_.size() >= deepest_blocks) {
         refuse(line.column, fmt::format("blocks are nested more than {} deep", deepest_blocks));
     }
-    expect_end_of_o_line(cursor);
+    expect_end_of_line(cursor);
     open_.push_back({kind, line.label, files_.here(), run_.out.place()});
 }
 
 bool ControlFlow::condition(Cursor& cursor) const {
     const double value = read_bracketed(cursor, run_.variables);
-    expect_end_of_o_line(cursor);
+    expect_end_of_line(cursor);
     return value < 0.0 || value > 0.0;
 }
 
@@ -153,7 +153,10 @@ void ControlFlow::skip_branches(const Line& line) {
 }
 
 /// A branch was executed to its end.
-void ControlFlow::leave_branch(const Line& line) {
+void ControlFlow::leave_branch(const Line& line, Cursor& cursor) {
+    if (line.word != OWord::elseif) { // whose condition does not matter any more
+        expect_end_of_line(cursor);
+    }
     const Open* open = find_open(line.label);
     if (open == nullptr || open->kind != OWord::if_) {
         refuse(line.column, fmt::format("O{} has no if", line.label));
@@ -200,7 +203,8 @@ void ControlFlow::begin_repeat(const Line& line, Cursor& cursor) {
     }
 }
 
-void ControlFlow::end_loop(const Line& line, OWord kind) {
+void ControlFlow::end_loop(const Line& line, Cursor& cursor, OWord kind) {
+    expect_end_of_line(cursor);
     Open* open = find_open(line.label);
     if (open == nullptr || open->kind != kind) {
         refuse(line.column,
@@ -242,7 +246,8 @@ std::optional<SourcePlace> ControlFlow::turned() const {
     return frames_.empty() ? std::nullopt : std::optional(frames_.front().called_from);
 }
 
-void ControlFlow::break_or_continue(const Line& line) {
+void ControlFlow::break_or_continue(const Line& line, Cursor& line_end) {
+    expect_end_of_line(line_end);
     const Open* open = find_open(line.label);
     if (open == nullptr || (open->kind != OWord::while_ && open->kind != OWord::do_)) {
         refuse(line.column, fmt::format("O{} is no while and no do that could be left here", line.label));
@@ -263,19 +268,28 @@ void ControlFlow::break_or_continue(const Line& line) {
     close(line.label);
 }
 
+bool ControlFlow::closes_program(std::string_view text) const {
+    return run_.in_percents && files_.place().file == 0 && is_percent(text);
+}
+
 OWord ControlFlow::skip_to(const std::string& label,
                            std::initializer_list<OWord> words,
                            Cursor* cursor,
                            SourcePlace opened) {
     const bool defines = std::ranges::find(words, OWord::endsub) != words.end();
     std::string_view text;
-    while (files_.next(text)) {
+    while (files_.next(text) && !closes_program(text)) {
         Cursor here(text);
         const auto head = read_plain_o_head(here);
         if (head && head->label == label &&
             std::find(words.begin(), words.end(), head->word) != words.end()) {
             if (cursor != nullptr) {
                 *cursor = here;
+            }
+            const bool has_value =
+                head->word == OWord::elseif || head->word == OWord::while_ || head->word == OWord::endsub;
+            if (!has_value) {
+                expect_end_of_line(here);
             }
             return head->word;
         }

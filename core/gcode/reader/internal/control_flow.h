@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/gcode/reader/internal/cursor.h"
+#include "core/gcode/reader/internal/line_parser.h"
 #include "core/gcode/reader/internal/run.h"
 #include "core/gcode/reader/internal/source_files.h"
 
@@ -41,9 +42,9 @@ public:
     /// The line whose O is at the cursor. Throws Refusal.
     void execute(Cursor& cursor);
     /// M98 with its words read.
-    void call_fanuc(const Block& block);
-    /// M99; false in the main program.
-    [[nodiscard]] bool return_fanuc();
+    void call_fanuc(const ParsedLine& line);
+    /// M99, with the cursor behind it; false in the main program.
+    [[nodiscard]] bool return_fanuc(Cursor& cursor);
 
     [[nodiscard]] bool in_subroutine() const { return !frames_.empty(); }
     /// Where the innermost subroutine was called; line 0 outside of any.
@@ -96,13 +97,13 @@ private:
 
     void begin_if(const Line& line, Cursor& cursor);
     void skip_branches(const Line& line);
-    void leave_branch(const Line& line);
+    void leave_branch(const Line& line, Cursor& cursor);
     void while_or_end_of_do(const Line& line, Cursor& cursor);
     void begin_repeat(const Line& line, Cursor& cursor);
-    void end_loop(const Line& line, OWord kind);
-    void break_or_continue(const Line& line);
+    void end_loop(const Line& line, Cursor& cursor, OWord kind);
+    void break_or_continue(const Line& line, Cursor& line_end);
 
-    void define(const Line& line);
+    void define(const Line& line, Cursor& cursor);
     void call(const Line& line, Cursor& cursor);
     void leave_subroutine(const Line& line, Cursor& cursor);
     void enter(const std::string& name, bool fanuc, int repeats);
@@ -117,6 +118,8 @@ private:
     void note_turn(std::size_t depth, SourcePlace place);
     /// Blocks that are open in the subroutines that wait.
     [[nodiscard]] std::size_t outer_depth() const;
+    /// The % that closes the program: what stands behind it is not of it.
+    [[nodiscard]] bool closes_program(std::string_view text) const;
     [[nodiscard]] Open* find_open(const std::string& label);
     void close(const std::string& label);
     [[nodiscard]] std::string scope() const { return frames_.empty() ? std::string() : frames_.back().name; }

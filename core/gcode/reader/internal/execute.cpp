@@ -283,6 +283,28 @@ void execute_settings(Run& run, const Block& block) {
     }
 }
 
+MoveWords words_of_moves(const Run& run, const Block& block) {
+    constexpr int g53 = 530;
+    constexpr int g91 = 910;
+    MoveWords words;
+    for (std::size_t n = 0; n < axis_count; ++n) {
+        const bool polar = block.polar() && n < 2;
+        words.named |= polar || block.has(axis_letters[n]) ? static_cast<AxisBits>(1U << n) : AxisBits{};
+    }
+    constexpr int threading = 760;
+    if (is_drilling_cycle(block.motion)) { // goes across at the height where it is, before the word counts
+        words.named &= static_cast<AxisBits>(~(1U << static_cast<unsigned>(axes_of(run.state.plane).third)));
+    } else if (block.motion == threading) {
+        words.named = 0;
+    }
+    const int distance = block.code(GGroup::distance);
+    words.frame = block.code(GGroup::non_modal) == g53 ? MoveFrame::machine : MoveFrame::work;
+    words.incremental =
+        words.frame == MoveFrame::work && (distance == no_code ? run.state.incremental : distance == g91);
+    words.inverse_time = run.state.feed_mode == FeedMode::inverse_time;
+    return words;
+}
+
 } // namespace
 
 void execute_line(Run& run, ParsedLine& line) {
@@ -303,6 +325,9 @@ void execute_line(Run& run, ParsedLine& line) {
     }
     if (block.m_groups != 0) {
         execute_m_codes(run, block);
+    }
+    if (block.motion != no_code || block.code(GGroup::non_modal) != no_code) {
+        run.out.set_words(words_of_moves(run, block));
     }
     if ((block.g_groups & ~bit(GGroup::motion)) != 0) {
         execute_g_codes(run, block);

@@ -17,7 +17,7 @@ namespace {
 constexpr int deepest_nesting = 60;
 
 /// Numbers that differ by less are equal for EQ and NE (LinuxCNC's TOLERANCE_EQUAL).
-constexpr double equal_within = 1e-6;
+constexpr double equal_within = 1e-4;
 
 double read_any(Cursor& cursor, const Variables& variables);
 

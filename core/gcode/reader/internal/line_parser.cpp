@@ -22,9 +22,6 @@ constexpr double code_within = 0.001;
 
 [[noreturn]] void refuse_character(Cursor& cursor) {
     const char c = cursor.at_end() ? '\0' : *cursor.position();
-    if (cursor.column() == 1 && c == '\xEF') {
-        refuse(1, "a byte order mark (of UTF-8) begins no word", "save the file without it");
-    }
     if (cursor.column() == 1 && (c == '\xFF' || c == '\xFE')) {
         refuse(1, "the text is UTF-16", "save it as plain text");
     }
@@ -143,13 +140,19 @@ void read_polar(Cursor& cursor, const Variables& variables, Block& block) {
     (is_radius ? block.radius : block.angle) = value;
 }
 
-/// Only spindle 0 exists here.
-void read_spindle(Cursor& cursor, const Variables& variables) {
+/// Only spindle 0 exists here, which is all of them.
+void read_spindle(Cursor& cursor, const Variables& variables, Block& block) {
     const int column = cursor.column();
     cursor.advance();
-    if (read_integer(cursor, variables) != 0) {
-        refuse(column, "there is one spindle only, $0");
+    const int spindle = read_integer(cursor, variables);
+    if (block.spindle_column > 0) {
+        refuse(column, "a line has one $ word at most");
     }
+    if (spindle != 0 && spindle != -1) {
+        refuse(column, "there is one spindle only: $0, or $-1 for all");
+    }
+    block.all_spindles = spindle == -1;
+    block.spindle_column = column;
 }
 
 void read_assignment(Cursor& cursor, const Variables& variables, std::vector<Assignment>& assignments) {
@@ -210,7 +213,7 @@ void parse_words(Cursor& cursor, const Variables& variables, ParsedLine& line) {
         } else if (c == '@' || c == '^') {
             read_polar(cursor, variables, block);
         } else if (c == '$') {
-            read_spindle(cursor, variables);
+            read_spindle(cursor, variables, block);
         } else {
             refuse_character(cursor);
         }

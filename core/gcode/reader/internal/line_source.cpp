@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/gcode/reader/line_ends.h"
+#include "core/gcode/reader/program_text.h"
 
 #include <cerrno>
 #include <cstring>
@@ -61,7 +62,12 @@ std::size_t LineSource::find_end() {
 
 bool LineSource::next(std::string_view& line) {
     cut_ = false;
-    const std::size_t end = find_end();
+    std::size_t end = find_end();
+    if (buffer_begin_ + (at_ - data_) == 0) {
+        const std::size_t mark = length_of_byte_order_mark({at_, end});
+        at_ += mark;
+        end -= mark;
+    }
     const std::string_view rest(at_, static_cast<std::size_t>(end_ - at_));
     if (rest.empty()) {
         return false;
@@ -76,7 +82,7 @@ bool LineSource::next(std::string_view& line) {
         skip_rest_of_line();
         return true;
     }
-    line = rest.substr(0, end);
+    line = end == rest.size() ? without_dos_end(rest) : rest.substr(0, end);
     at_ += end + length_of_line_end(rest, end);
     return true;
 }

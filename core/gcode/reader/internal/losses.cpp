@@ -1,5 +1,6 @@
 #include "core/gcode/reader/internal/losses.h"
 
+#include "core/gcode/reader/internal/placement.h"
 #include "core/gcode/reader/word_column.h"
 
 #include <fmt/format.h>
@@ -19,16 +20,6 @@ Diagnostic at_word(const std::filesystem::path& file,
         {file, source.line, word > 0 ? word : std::max(first_column(line), 1), -1}, std::move(message), {}};
 }
 
-namespace {
-
-/// G54 to G59.3, of 1 to 9.
-std::string name_of_system(int system) {
-    constexpr int whole = 6; // G54 to G59
-    return system <= whole ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - whole);
-}
-
-} // namespace
-
 void Losses::note(
     Kind kind, SourcePlace source, std::string_view line, char letter, const std::string& message) {
     std::vector<Diagnostic>& all = kind == Kind::lost ? lost_ : simplified_;
@@ -38,17 +29,6 @@ void Losses::note(
 }
 
 void Losses::move(const Move& move, std::string_view line) {
-    for (const int code : {53, 28, 30}) {
-        if (column_of_word(line, 'G', code) > 0) {
-            note(Kind::simplified,
-                 move.source,
-                 line,
-                 'G',
-                 fmt::format("G{} goes to a machine position: it is taken for one of the work, as if no "
-                             "offset were set",
-                             code));
-        }
-    }
     if (move.kind == MoveKind::probe) {
         note(Kind::lost,
              move.source,

@@ -333,9 +333,6 @@ void execute_stop(Run& run, const Block&, int code) {
     case 1:
         run.out.send(CommandKind::optional_program_stop);
         break;
-    case 99:
-        run.from_the_top = true;
-        break;
     default:
         end_program(run, code == 30);
         break;

@@ -3,6 +3,8 @@
 #include "core/gcode/reader/internal/expression.h"
 #include "core/gcode/reader/internal/line_parser.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace millwright::gcode::internal {
@@ -87,13 +89,18 @@ std::optional<OHead> read_plain_o_head(Cursor& cursor) {
     return head;
 }
 
-void expect_end_of_o_line(Cursor& cursor) {
+void expect_end_of_line(Cursor& cursor, std::string_view what) {
     while (cursor.peek() == '(') {
         static_cast<void>(read_comment(cursor));
     }
     if (!cursor.at_end() && cursor.peek() != ';') {
-        refuse(cursor.column(), "only a comment may stand behind an O-word");
+        refuse(cursor.column(), fmt::format("only a comment may stand behind {}", what));
     }
+}
+
+bool is_percent(std::string_view line) {
+    Cursor cursor(line);
+    return cursor.take('%') && cursor.at_end();
 }
 
 } // namespace millwright::gcode::internal

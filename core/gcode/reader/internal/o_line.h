@@ -18,7 +18,10 @@ struct OHead {
 /// The head of a line that is read over: nothing where it has no O-word, or one with a computed label.
 [[nodiscard]] std::optional<OHead> read_plain_o_head(Cursor& cursor);
 
-/// Nothing but comments stands behind the cursor. Throws Refusal.
-void expect_end_of_o_line(Cursor& cursor);
+/// Nothing but comments stands behind the cursor. `what` is for the message. Throws Refusal.
+void expect_end_of_line(Cursor& cursor, std::string_view what = "an O-word");
+
+/// A line of nothing but %.
+[[nodiscard]] bool is_percent(std::string_view line);
 
 } // namespace millwright::gcode::internal

@@ -36,6 +36,17 @@ void send_system(Run& run) {
     run.out.send(selected);
 }
 
+/// The axes that have a word take something from where they are.
+void send_measured(Run& run, const Block& block, int code) {
+    AxisBits axes = 0;
+    for (std::size_t n = 0; n < axis_count; ++n) {
+        axes |= block.has(axis_letters[n]) ? static_cast<AxisBits>(1U << n) : AxisBits{};
+    }
+    Command measured = command_of(CommandKind::measure_position, code);
+    measured.mode = axes;
+    run.out.send(measured);
+}
+
 AxisValues given_axes(const Block& block, AxisValues otherwise) {
     for (std::size_t n = 0; n < axis_count; ++n) {
         otherwise[n] = block.value_or(axis_letters[n], otherwise[n]);
@@ -155,6 +166,7 @@ void set_axis_offsets(Run& run, const Block& block, int code) {
     const AxisValues before = s.g92_offset;
     AxisValues offset;
     if (code == 920) {
+        send_measured(run, block, code);
         offset = before + s.position - given_axes(block, s.position);
     } else if (code == 520) {
         offset = given_axes(block, before);
@@ -173,6 +185,8 @@ void set_axis_offsets(Run& run, const Block& block, int code) {
 // ---- G10
 
 namespace {
+
+constexpr int g10 = 100; // in tenths
 
 /// The position in `system` of the point of the machine that the tool's length is measured from.
 AxisValues without_tool_length(const Run& run, int system, bool with_g92) {
@@ -212,6 +226,9 @@ void set_tool_data(Run& run, const Block& block) {
     }
     Tool& tool = run.tools.at_row(row);
     const AxisValues old_offset = run.to_program(tool.offset);
+    if (static_cast<int>(block['L']) != 1) {
+        send_measured(run, block, g10);
+    }
     tool.offset = run.to_machine(static_cast<int>(block['L']) == 1 ? given_axes(block, old_offset)
                                                                    : touched_off(run, block, old_offset));
     if (block.has('R')) {
@@ -257,6 +274,7 @@ void set_system_data(Run& run, const Block& block) {
     const AxisValues bare = without_systems(s);
     AxisValues offset = given_axes(block, old_offset);
     if (relative) {
+        send_measured(run, block, g10);
         const AxisValues here = in_system(bare, old_offset, rotation, s.g92_offset);
         offset = old_offset + rotated(here - given_axes(block, here), rotation);
     }
@@ -293,14 +311,18 @@ void go_to_reference(Run& run, const Block& block, int code) {
     Move move = run.out.new_move(MoveKind::traverse);
     move.target = end_of_move(block, s);
     run.out.send(move);
-    const AxisValues reference = relative_to_system(
-        run.to_program(run.variables.axes_from(code == 280 ? parameter_g28 : parameter_g30)), s);
+    const int stored = code == 280 ? parameter_g28 : parameter_g30;
+    const AxisValues reference = relative_to_system(run.to_program(run.variables.axes_from(stored)), s);
     const bool all = !block.has_any(axis_words);
     for (std::size_t n = 0; n < axis_count; ++n) {
         if (all || block.has(axis_letters[n])) {
             move.target[n] = reference[n];
+            move.words.named |= static_cast<AxisBits>(1U << n);
         }
     }
+    move.words.frame = code == 280 ? MoveFrame::reference : MoveFrame::reference_2;
+    move.words.incremental = false;
+    move.words.reference_set = run.variables.was_set(stored, static_cast<int>(axis_count));
     run.out.send(move);
     s.position = move.target;
 }
@@ -310,6 +332,9 @@ void set_reference(Run& run, int code) {
     if (s.cutter.on()) {
         refuse(1, "the reference point cannot be set while cutter compensation is on");
     }
+    Command measured = command_of(CommandKind::measure_position, code);
+    measured.mode = (1 << axis_count) - 1;
+    run.out.send(measured);
     const AxisValues machine = without_systems(s) + s.tool_offset;
     run.variables.set_axes(code == 281 ? parameter_g28 : parameter_g30, run.to_machine(machine));
 }

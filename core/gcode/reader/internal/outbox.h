@@ -27,8 +27,11 @@ public:
     /// From here on operations come from this line.
     void begin(const SourceLine& line) {
         now_ = line;
+        words_ = {};
         moves_ = 0;
     }
+    /// What new moves of the line say.
+    void set_words(const MoveWords& words) { words_ = words; }
     [[nodiscard]] SourcePlace place() const { return now_.place; }
 
     /// Before the first of the many moves of a cycle, so that a line that is refused moves nothing. Throws
@@ -40,6 +43,7 @@ public:
         Move move;
         move.kind = kind;
         move.source = now_.place;
+        move.words = words_;
         return move;
     }
 
@@ -64,6 +68,7 @@ private:
 
     CanonSink* sink_;
     SourceLine now_;
+    MoveWords words_;
     int most_moves_;
     int moves_ = 0;
     int further_moves_ = 0;

@@ -1,5 +1,6 @@
 // LinuxCNC's predefined named parameters: what is in force, as numbers.
 #include "core/gcode/reader/internal/codes.h"
+#include "core/gcode/reader/internal/offsets.h"
 #include "core/gcode/reader/internal/variables.h"
 
 #include <algorithm>
@@ -42,10 +43,16 @@ template <Axis axis> double position(const Asked& a) {
     return a.state.position[axis];
 }
 
+/// In machine coordinates.
+template <Axis axis> double machine_position(const Asked& a) {
+    const ModalState& s = a.state;
+    return (rotated(s.position + s.g92_offset, s.rotation_deg) + s.g5x_offset + s.tool_offset)[axis];
+}
+
 constexpr double version_major = 2.9; // of the LinuxCNC that is described
 constexpr double version_minor = 0.0;
 
-const std::array<Entry, 50> entries{{
+const std::array<Entry, 56> entries{{
     {"_line", [](const Asked& a) -> double { return a.program.line; }},
     {"_motion_mode", [](const Asked& a) -> double { return a.state.motion; }},
     {"_plane", [](const Asked& a) -> double { return plane_code(a.state.plane); }},
@@ -89,6 +96,12 @@ const std::array<Entry, 50> entries{{
     {"_u", position<Axis::u>},
     {"_v", position<Axis::v>},
     {"_w", position<Axis::w>},
+    {"_abs_x", machine_position<Axis::x>},
+    {"_abs_y", machine_position<Axis::y>},
+    {"_abs_z", machine_position<Axis::z>},
+    {"_abs_a", machine_position<Axis::a>},
+    {"_abs_b", machine_position<Axis::b>},
+    {"_abs_c", machine_position<Axis::c>},
     {"_value", [](const Asked& a) { return a.program.return_value; }},
     {"_value_returned", [](const Asked& a) { return yes(a.program.value_returned); }},
     {"_call_level", [](const Asked& a) -> double { return a.program.call_level; }},

@@ -1,6 +1,7 @@
 #include "core/gcode/reader/internal/programmed_feed.h"
 
 #include "core/base/numbers.h"
+#include "core/base/units.h"
 
 #include <cmath>
 #include <initializer_list>
@@ -70,8 +71,17 @@ std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const Axi
     if (way <= same_place) {
         return 0.0;
     }
-    const double rate = angular_rate_ * times_a_minute().value_or(0.0);
+    const double rate = angular_rate();
     return rate > 0.0 ? std::optional(way / rate * seconds_a_minute) : std::nullopt;
+}
+
+double ProgrammedFeed::angular_rate() const {
+    return angular_rate_ * times_a_minute().value_or(0.0);
+}
+
+std::optional<double> ProgrammedFeed::angular_speed() const {
+    const double found = angular_rate();
+    return found > 0.0 ? std::optional(from_degrees(found) / seconds_a_minute) : std::nullopt;
 }
 
 double ProgrammedFeed::rate() const {

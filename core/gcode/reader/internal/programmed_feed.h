@@ -27,10 +27,14 @@ public:
     [[nodiscard]] std::optional<double> duration(double length) const;
     /// Of the way of X Y Z, mm/s; nothing without a feed.
     [[nodiscard]] std::optional<double> speed() const;
+    /// Where only rotary axes move, rad/s; nothing without a feed.
+    [[nodiscard]] std::optional<double> angular_speed() const;
 
 private:
     /// mm a minute; not above 0 without a feed.
     [[nodiscard]] double rate() const;
+    /// Degrees a minute, the same.
+    [[nodiscard]] double angular_rate() const;
     /// What a rate has to be multiplied by, for it to be a minute; nothing where nobody knows.
     [[nodiscard]] std::optional<double> times_a_minute() const;
 

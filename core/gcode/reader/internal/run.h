@@ -46,8 +46,8 @@ struct Run {
     bool compensated_begin_known = false;
     Vec2 flushed_to = Vec2::Zero(); ///< where the last compensated move that was sent ended, in the plane
     Bookmark line_begin;            ///< of the line being executed
-    bool ended = false;             ///< by M2 or M30
-    bool from_the_top = false;      ///< by M99 in the main program
+    bool ended = false;             ///< by M2, M30, or M99 of the main program
+    bool in_percents = false;       ///< the program began with %
 
     /// The row of tool `number` in the table, which may grow by it; 0 of tool 0, the spindle; -1: there is
     /// none.

@@ -18,7 +18,8 @@ constexpr std::size_t most_subroutines = 100'000;
 
 } // namespace
 
-void ControlFlow::define(const Line& line) {
+void ControlFlow::define(const Line& line, Cursor& cursor) {
+    expect_end_of_line(cursor);
     const SourcePlace place = run_.out.place();
     if (in_subroutine()) {
         refuse(line.column, "a subroutine is defined inside of a subroutine");
@@ -48,7 +49,7 @@ void ControlFlow::call(const Line& line, Cursor& cursor) {
         }
         arguments[count++] = read_bracketed(cursor, run_.variables);
     }
-    expect_end_of_o_line(cursor);
+    expect_end_of_line(cursor);
     enter(line.label, false, 0);
     for (std::size_t n = 0; n < arguments.size(); ++n) {
         frames_.back().caller_arguments[n] = run_.variables.stored(static_cast<int>(n) + 1);
@@ -88,10 +89,11 @@ void ControlFlow::go_to_subroutine(const std::string& name, OWord head) {
     const Bookmark before = files_.here();
     const bool in_file = files_.open_subroutine(name);
     std::string_view text;
-    while (files_.next(text)) {
+    while (files_.next(text) && !closes_program(text)) {
         Cursor cursor(text);
         const auto found = read_plain_o_head(cursor);
         if (found && found->label == name && found->word == head) {
+            expect_end_of_line(cursor);
             subroutines_.insert_or_assign(name, files_.here());
             defined_at_.insert_or_assign(name, files_.place());
             return;
@@ -111,7 +113,7 @@ void ControlFlow::leave_subroutine(const Line& line, Cursor& cursor) {
     const bool returns_value = cursor.peek() == '[';
     run_.variables.program.return_value = returns_value ? read_bracketed(cursor, run_.variables) : 0.0;
     run_.variables.program.value_returned = returns_value;
-    expect_end_of_o_line(cursor);
+    expect_end_of_line(cursor);
     for (std::size_t n = 0; n < argument_count; ++n) {
         run_.variables.set(static_cast<int>(n) + 1, frames_.back().caller_arguments[n]);
     }
@@ -133,7 +135,13 @@ void ControlFlow::pop_frame() {
 
 // ---- Fanuc's manner
 
-void ControlFlow::call_fanuc(const Block& block) {
+void ControlFlow::call_fanuc(const ParsedLine& line) {
+    const Block& block = line.block;
+    constexpr std::uint32_t used = words_of("PL");
+    if ((block.words & ~used) != 0 || block.g_groups != 0 || block.m_groups != 0 || block.polar() ||
+        !line.assignments.empty()) {
+        refuse(1, "only P and L may stand beside M98: nothing else in its line would be executed");
+    }
     const double p = block.value_or('P', -1.0);
     constexpr double largest_number = 1e8;
     if (!(p >= 0.0 && p <= largest_number) || std::abs(p - std::round(p)) > 1e-4) {
@@ -145,10 +153,16 @@ void ControlFlow::call_fanuc(const Block& block) {
     }
 }
 
-bool ControlFlow::return_fanuc() {
+bool ControlFlow::return_fanuc(Cursor& cursor) {
     if (!in_subroutine()) {
         return false;
     }
+    if (cursor.peek() == 'P') {
+        refuse(cursor.column(),
+               "M99 with P goes on at another line of the caller, which LinuxCNC does not know",
+               "return with M99 alone");
+    }
+    expect_end_of_line(cursor, "M99");
     if (!frames_.back().fanuc) {
         refuse(1, "M99 returns from a subprogram that M98 called; this one ends by endsub");
     }

@@ -110,10 +110,14 @@ AxisValues Variables::axes_from(int first) const {
     return values;
 }
 
+bool Variables::was_set(int first, int count) const {
+    const auto begin = told_.begin() + first;
+    return std::find(begin, begin + count, true) != begin + count;
+}
+
 bool Variables::knows_system(int system) const {
     constexpr int members = 10; // nine offsets and the rotation
-    const auto first = told_.begin() + parameter_g5x(system);
-    return std::find(first, first + members, true) != first + members;
+    return was_set(parameter_g5x(system), members);
 }
 
 void Variables::set_axes(int first, const AxisValues& values) {

@@ -71,7 +71,9 @@ public:
     /// Nine values from `first` on.
     [[nodiscard]] AxisValues axes_from(int first) const;
     void set_axes(int first, const AxisValues& values);
-    /// Whether anything of coordinate system `system` (1 to 9) was ever set, be it to 0.
+    /// Whether any of `count` parameters from `first` on was ever set, be it to 0.
+    [[nodiscard]] bool was_set(int first, int count) const;
+    /// Whether anything of coordinate system `system` (1 to 9) was.
     [[nodiscard]] bool knows_system(int system) const;
 
     ProgramView program;

@@ -263,6 +263,26 @@ constexpr std::array<WordUse, 10> word_uses{{
      "G2, G3, G10, G41.1, G42.1, a canned cycle, G76 or M19"},
 }};
 
+/// Of the users some are for one spindle only.
+void check_spindle(const Block& block) {
+    if (block.spindle_column == 0) {
+        return;
+    }
+    constexpr int g95 = 950;
+    const bool for_one = is_m19(block) || block.code(MGroup::overrides) == 51 ||
+                         one_of(block.motion, {330, 331, 760}) || block.code(GGroup::feed_mode) == g95 ||
+                         block.code(GGroup::spindle_mode) != no_code;
+    const bool for_all = one_of(block.code(MGroup::spindle), {3, 4, 5}) || block.has('S');
+    if (block.all_spindles && (for_one || !for_all)) {
+        refuse(block.spindle_column, "$-1 is for M3, M4, M5 and S only");
+    }
+    if (!for_one && !for_all) {
+        refuse(block.spindle_column,
+               "$ word without anything that uses it (M3, M4, M5, M19, M51, S, G33, G33.1, G76, G95, G96 or "
+               "G97)");
+    }
+}
+
 constexpr std::uint32_t optional_words = words_of("DEHIJKLPQR");
 
 void check_uses(const Block& block) {
@@ -337,6 +357,7 @@ void apply_word_rules(Block& block, const ModalState& state, Dialect dialect) {
     if (block.has_any(optional_words)) {
         check_uses(block);
     }
+    check_spindle(block);
     if (block.code(GGroup::spindle_mode) == 960 && !block.has('S')) {
         refuse(block.column_of(GGroup::spindle_mode), "G96 needs its speed, S");
     }

@@ -146,7 +146,8 @@ TEST(Release, WritesOrRefusesEverySampleForEveryControlOnMachinesWithAndWithoutR
                 }
             }
         }
-        EXPECT_GE(written, 100) << name;
+        // Those that never name the rotary axes are not written with positions of the tip.
+        EXPECT_GE(written, machine.rotary_axes().empty() ? 100 : 60) << name;
     }
 }
 
@@ -232,7 +233,7 @@ TEST(Release, RefusesWhatAControlCannotDo) {
     Program program = test::empty_program(machine);
     test::add_move(program, kinematics::AxisPositions(Vec3(1.0, 0.0, 0.0)), 1e5);
     EXPECT_EQ(release_refusal(program, "router-xyz", format),
-              "block 1: its feed, mm a minute, is too small to be written");
+              "block 1: its feed, mm per minute, is too small to be written");
 }
 
 TEST(Release, RefusesALineThatTheControlDoesNotKnow) {

@@ -140,7 +140,6 @@ TEST(Interpreter, BinaryIsRefusedWithThePlace) {
                             13);
     EXPECT_EQ(error_of(bytes), "2:1: byte 0x7F is no character of a program");
     EXPECT_EQ(error_of(std::string("G0\0X1", 5)), "1:3: byte 0x00 is in no text: this is a binary file");
-    EXPECT_EQ(error_of("\xEF\xBB\xBFG0 X1\n"), "1:1: a byte order mark (of UTF-8) begins no word");
     EXPECT_EQ(error_of("\xFF\xFEG"), "1:1: the text is UTF-16");
 }
 

@@ -164,6 +164,26 @@ TEST_F(Rs274Reader, TakesArcsWhoseEndsWereRoundedAndRefusesTheSameOnes) {
     EXPECT_EQ(number, 90);
 }
 
+// Where a line was read otherwise, or refused.
+TEST_F(Rs274Reader, DoesTheSameWithLinesThatWereTakenOtherwise) {
+    int number = 0;
+    for (const std::string text :
+         {"G21 G90\nG92 X5\nG0 X10\n#1=[#<_abs_x>+1]\nG0 X#1\nM2\n",
+          "G20 G90\nG10 L2 P1 X1 R90\nG92 Y2\nG43.1 Z3\nG0 X2 Y3 Z4 A5\nX#<_abs_x> Y#<_abs_y> Z#<_abs_z> "
+          "A#<_abs_a> B#<_abs_b> C#<_abs_c>\nM2\n",
+          "G21 G90 G1 F500\n#1=1\no1 while [#1 NE 0]\n#1=[#1-0.33333]\nG1 X#1\no2 if [#1 LT -3]\no1 "
+          "break\no2 endif\no1 endwhile\nM2\n",
+          "G21\nG0 X[0.00009 EQ 0] Y[0.00011 EQ 0] Z[10000.00009 NE 10000]\nM2\n",
+          "S100 M3\nG4 P1\nM5 $-1\nM2\n",
+          "S100 M3 $-1\nS200 $-1\nM4 $0\nM2\n",
+          "G21 G90\nG0 X1\nM99\n",
+          "%\nG21\nM98 P1\nM2\nO1\nG0 X1\nM99 (back)\n%\nO1\nG0 X5\nM99\n",
+          "%\nG21\nG0 X1\nM99\n%\n",
+          "G21\nM98 P1\nM2\nO1\nG0 X1\nM99 ; back\n"}) {
+        expect_same_text(text, "program " + std::to_string(++number));
+    }
+}
+
 TEST_F(Rs274Reader, CountsLinesInFractionsToo) {
     expect_same_text("N10.5 G21 G90 F100\nN10.75 G1 X1\nN10 M2\n", "numbers");
 }
@@ -181,6 +201,8 @@ TEST_F(Rs274Reader, RefusesMostOfTheBadProgramsToo) {
                                              "g10-p-fraction",
                                              "g76-steep",
                                              "io-channel",
+                                             "m98-other-motion",
+                                             "o-skipped-else-words",
                                              "nested-deep",
                                              "number-huge",
                                              "parameter-same-line",

@@ -1,0 +1,288 @@
+#include "core/gcode/reader/internal/placement.h"
+
+#include "core/gcode/reader/internal/losses.h"
+#include "core/gcode/reader/internal/programmed_feed.h"
+#include "core/gcode/retract.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace millwright::gcode::internal {
+
+namespace {
+
+constexpr const char* place_by_rapid = "move the axis to a position first, in G90";
+constexpr const char* place_the_work = "say where the program's zero lies on the machine: --origin X,Y,Z (of "
+                                       "plots --work-origin) or --parameters";
+
+std::string_view code_of_frame(MoveFrame frame) {
+    switch (frame) {
+    case MoveFrame::machine:
+        return "G53";
+    case MoveFrame::reference:
+        return "G28";
+    case MoveFrame::reference_2:
+        return "G30";
+    case MoveFrame::work:
+        break;
+    }
+    return "a move";
+}
+
+std::string code_in_tenths(int tenths) {
+    return tenths % 10 == 0 ? fmt::format("G{}", tenths / 10)
+                            : fmt::format("G{}.{}", tenths / 10, tenths % 10);
+}
+
+} // namespace
+
+std::string name_of_system(int system) {
+    constexpr int whole = 6; // G54 to G59
+    return system <= whole ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - whole);
+}
+
+Placement::Placement(const kinematics::MachineModel& machine, std::filesystem::path file, bool start_known)
+    : machine_(machine), file_(std::move(file)),
+      known_(start_known ? AxisSet::all(machine.axis_count()) : AxisSet()) {
+    for (int n = 0; n < machine.axis_count(); ++n) {
+        index_of_.push_back(
+            static_cast<std::size_t>(std::ranges::find(axis_letters, letter_of(n)) - axis_letters.begin()));
+    }
+}
+
+void Placement::refuse(Kind kind, SourcePlace source, std::string_view line, char letter, Diagnostic found) {
+    if (refused_.insert(kind).second) {
+        std::string hint = std::move(found.hint);
+        Diagnostic placed = at_word(file_, source, line, letter, std::move(found.message));
+        placed.hint = std::move(hint);
+        unplaced_.push_back(std::move(placed));
+    }
+}
+
+std::string Placement::letters_of(const std::vector<int>& axes) const {
+    std::string text;
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        const bool last = n + 1 == axes.size();
+        text += n == 0 ? "" : last ? " and " : ", ";
+        text += letter_of(axes[n]);
+    }
+    return text;
+}
+
+void Placement::command(const Command& command, std::string_view line) {
+    if (command.kind == CommandKind::set_g5x_offset) {
+        system_ = command.index;
+        system_known_ = command.mode != 0;
+        return;
+    }
+    if (command.kind != CommandKind::measure_position) {
+        return;
+    }
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        const bool measured = ((command.mode >> index_of_[static_cast<std::size_t>(n)]) & 1) != 0;
+        if (measured && !known_.contains(n)) {
+            refuse(Kind::measured,
+                   command.source,
+                   line,
+                   'G',
+                   {{},
+                    fmt::format("{} takes {} from where the axis is, and the program has not said where",
+                                code_in_tenths(command.index),
+                                letter_of(n)),
+                    place_by_rapid});
+        }
+    }
+}
+
+void Placement::curve(SourcePlace source, std::string_view line) {
+    named_ = {};
+    starts_anywhere_ = false;
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        const bool in_plane = letter_of(n) == 'X' || letter_of(n) == 'Y';
+        if (in_plane && !known_.contains(n)) {
+            refuse(Kind::arc,
+                   source,
+                   line,
+                   'G',
+                   {{},
+                    fmt::format("a curve begins where the program has not said what {} is", letter_of(n)),
+                    place_by_rapid});
+        }
+    }
+}
+
+void Placement::move(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line) {
+    std::vector<int> moving;
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        const std::size_t index = index_of_[static_cast<std::size_t>(n)];
+        if (std::abs(to[index] - from[index]) > same_place) {
+            moving.push_back(n);
+        }
+    }
+    expect_known_begin(move, moving, line);
+    look_at_reference(move, from, to, line);
+    take_words(move, line);
+    if (!(named_ == AxisSet()) || !moving.empty()) {
+        look_at_frame(move, line);
+        note_first_move(move, moving);
+    }
+}
+
+/// An arc has its centre from where it begins; an axis without a word of its own is moved by as much as its
+/// beginning is off.
+void Placement::expect_known_begin(const Move& move, const std::vector<int>& moving, std::string_view line) {
+    const std::string_view plane = move.plane == Plane::xy   ? "XY"
+                                   : move.plane == Plane::xz ? "XZ"
+                                   : move.plane == Plane::yz ? "YZ"
+                                                             : "UVW";
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        if (known_.contains(n)) {
+            continue;
+        }
+        const bool moves = std::ranges::find(moving, n) != moving.end();
+        const char letter = letter_of(n);
+        if (move.kind == MoveKind::arc && (moves || plane.find(letter) != std::string_view::npos)) {
+            refuse(Kind::arc,
+                   move.source,
+                   line,
+                   'G',
+                   {{},
+                    fmt::format("an arc begins where the program has not said what {} is", letter),
+                    place_by_rapid});
+        } else if (moves &&
+                   (!move.words.names(index_of_[static_cast<std::size_t>(n)]) || move.words.incremental)) {
+            refuse(Kind::increment,
+                   move.source,
+                   line,
+                   letter,
+                   {{},
+                    fmt::format("{} moves from where it is, and the program has not said where", letter),
+                    place_by_rapid});
+        }
+    }
+}
+
+void Placement::take_words(const Move& move, std::string_view line) {
+    named_ = {};
+    starts_anywhere_ = false;
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        if (!move.words.names(index_of_[static_cast<std::size_t>(n)])) {
+            continue;
+        }
+        if (!known_.contains(n) && !move.words.incremental) {
+            known_.insert(n);
+            starts_anywhere_ = true;
+            if (first_move_.line > 0) {
+                named_later_.emplace_back(n, move.source.line);
+            }
+        }
+        if (known_.contains(n)) {
+            named_.insert(n);
+        }
+    }
+    if (starts_anywhere_ && move.words.inverse_time && move.kind == MoveKind::feed) {
+        refuse(Kind::inverse_time,
+               move.source,
+               line,
+               'F',
+               {{},
+                "a feed in inverse time (G93) begins where the program has not said: it has no speed",
+                "begin with a rapid that names the axes"});
+    }
+}
+
+/// All positions are written in one system: those of the work, or those of the machine where it is known how
+/// the two lie to each other.
+void Placement::look_at_frame(const Move& move, std::string_view line) {
+    const bool of_machine = move.words.frame != MoveFrame::work;
+    if (of_machine && !system_known_) {
+        refuse(Kind::machine_position,
+               move.source,
+               line,
+               'G',
+               {{},
+                fmt::format("{} goes to a machine position, and where the program's zero lies on the machine "
+                            "is not known",
+                            code_of_frame(move.words.frame)),
+                place_the_work});
+        return;
+    }
+    const int frame = of_machine || system_known_ ? 0 : system_;
+    const int before = frame_used_.value_or(frame);
+    frame_used_ = before;
+    if (frame != before) {
+        const int unknown = frame == 0 ? before : frame;
+        refuse(Kind::two_systems,
+               move.source,
+               line,
+               'G',
+               {{},
+                fmt::format("the program also moves in another system than {}, whose offset is not known: "
+                            "how their positions lie to each other nobody can say",
+                            name_of_system(unknown)),
+                place_the_work});
+    }
+}
+
+/// Where nobody has stored a reference point it is taken for machine zero: no retract goes down to that.
+void Placement::look_at_reference(const Move& move,
+                                  const AxisValues& from,
+                                  const AxisValues& to,
+                                  std::string_view line) {
+    const bool stored =
+        move.words.frame != MoveFrame::reference && move.words.frame != MoveFrame::reference_2;
+    if (stored || !system_known_ || move.words.reference_set || machine_.linear_axes().empty()) {
+        return;
+    }
+    const RetractAxis retract = retract_axis(machine_);
+    const std::size_t index = index_of_[static_cast<std::size_t>(retract.axis)];
+    if (known_.contains(retract.axis) && retract.sense * (to[index] - from[index]) < -same_place) {
+        refuse(
+            Kind::lowers,
+            move.source,
+            line,
+            'G',
+            {{},
+             fmt::format("{} would take {} from {:.3f} to {:.3f}, towards the part: its position was never "
+                         "stored, and machine zero is taken for it",
+                         code_of_frame(move.words.frame),
+                         letter_of(retract.axis),
+                         from[index],
+                         to[index]),
+             "give the stored position: --parameters FILE"});
+    }
+}
+
+void Placement::note_first_move(const Move& move, const std::vector<int>& moving) {
+    if (first_move_.line > 0 || known_ == AxisSet::all(machine_.axis_count())) {
+        return;
+    }
+    first_move_ = move.source;
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        if (named_.contains(n) || std::ranges::find(moving, n) != moving.end()) {
+            first_moving_.push_back(n);
+        }
+    }
+}
+
+std::optional<Diagnostic> Placement::start_notice() const {
+    if (named_later_.empty()) {
+        return std::nullopt;
+    }
+    const auto [axis, line] = named_later_.front();
+    return Diagnostic{
+        {file_, first_move_.line, 0, -1},
+        fmt::format("where {} is at the start is not known: {} {} here, and the program names {} "
+                    "in line {} for the first time",
+                    letter_of(axis),
+                    letters_of(first_moving_),
+                    first_moving_.size() > 1 ? "move" : "moves",
+                    letter_of(axis),
+                    line),
+        "before the start bring the tool where nothing is in its way"};
+}
+
+} // namespace millwright::gcode::internal

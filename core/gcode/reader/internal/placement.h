@@ -1,0 +1,74 @@
+// What a program takes for known and never says: where the axes are at the start, and where the work lies on
+// the machine. Its text is the same program for another control only if nothing in it depends on either.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/gcode/program.h"
+#include "core/gcode/reader/canon.h"
+#include "core/kinematics/machine_model.h"
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace millwright::gcode::internal {
+
+class Placement {
+public:
+    /// `start_known`: the axes are where the first move takes them to be. The machine must outlive it.
+    Placement(const kinematics::MachineModel& machine, std::filesystem::path file, bool start_known);
+
+    /// `line`: as in Losses.
+    void command(const Command& command, std::string_view line);
+    /// From `from` to `to`, machine positions in mm and degrees; before its blocks are made.
+    void move(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line);
+    /// A spline in X and Y.
+    void curve(SourcePlace source, std::string_view line);
+
+    /// The machine's axes that the last move names: those with a word whose position the program has said by
+    /// now.
+    [[nodiscard]] const AxisSet& named() const { return named_; }
+    /// The last move is the first to name one of its axes: nobody knows its length.
+    [[nodiscard]] bool starts_anywhere() const { return starts_anywhere_; }
+
+    /// What depends on a position that was not said, the first of each kind.
+    [[nodiscard]] std::vector<Diagnostic> take_unplaced() { return std::move(unplaced_); }
+    /// That axes move while others have not been named yet; none where all are named first.
+    [[nodiscard]] std::optional<Diagnostic> start_notice() const;
+
+private:
+    enum class Kind { increment, arc, measured, machine_position, two_systems, lowers, inverse_time };
+
+    void refuse(Kind kind, SourcePlace source, std::string_view line, char letter, Diagnostic found);
+    void expect_known_begin(const Move& move, const std::vector<int>& moving, std::string_view line);
+    void take_words(const Move& move, std::string_view line);
+    void look_at_frame(const Move& move, std::string_view line);
+    void
+    look_at_reference(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line);
+    void note_first_move(const Move& move, const std::vector<int>& moving);
+    [[nodiscard]] char letter_of(int axis) const { return machine_.axis(axis).letter; }
+    [[nodiscard]] std::string letters_of(const std::vector<int>& axes) const;
+
+    const kinematics::MachineModel& machine_;
+    std::filesystem::path file_;
+    std::vector<std::size_t> index_of_; ///< of each axis among axis_letters
+    AxisSet known_, named_;
+    bool starts_anywhere_ = false;
+    int system_ = 1;                ///< 1: G54 to 9: G59.3
+    bool system_known_ = false;     ///< its offset
+    std::optional<int> frame_used_; ///< of the moves so far: a system without known offset, or 0: the machine
+    std::set<Kind> refused_;
+    std::vector<Diagnostic> unplaced_;
+    SourcePlace first_move_;
+    std::vector<int> first_moving_;
+    std::vector<std::pair<int, int>> named_later_; ///< than the first move: axis, line
+};
+
+/// G54 to G59.3, of 1 to 9.
+[[nodiscard]] std::string name_of_system(int system);
+
+} // namespace millwright::gcode::internal

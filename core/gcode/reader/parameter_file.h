@@ -1,0 +1,20 @@
+// LinuxCNC's parameter file (*.var): what a controller remembers, offsets and reference points above all. One
+// parameter a line, its number and its value; lengths are in the machine's unit.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace millwright::gcode {
+
+using Parameters = std::vector<std::pair<int, double>>;
+
+/// Throws Error with the line for anything that is no parameter, and for one that stands there twice.
+[[nodiscard]] Parameters parse_parameter_file(std::string_view text, const std::filesystem::path& file);
+
+/// Throws Error also if `file` cannot be read.
+[[nodiscard]] Parameters read_parameter_file(const std::filesystem::path& file);
+
+} // namespace millwright::gcode

@@ -1,0 +1,111 @@
+#include "core/motion/internal/rounding_choice.h"
+
+#include <iterator>
+#include <utility>
+
+namespace millwright::motion::internal {
+
+using gcode::Block;
+using kinematics::AxisPositions;
+
+RoundingChoice::RoundingChoice(const Mechanism& machine,
+                               const PlannerSettings& settings,
+                               const AxisPositions& start,
+                               double filter_time,
+                               bool keep)
+    : machine_(machine), settings_(settings), filter_time_(filter_time), keep_(keep),
+      limits_(limits_of(machine)), at_(start) {
+    open_section();
+}
+
+void RoundingChoice::open_section() {
+    tries_.clear();
+    tries_.push_back(
+        {std::numeric_limits<double>::infinity(), TimeWindow(machine_, settings_, at_, filter_time_)});
+    begin_ = block_;
+}
+
+/// The fastest one; of equals the one with the larger roundings.
+void RoundingChoice::close_section() {
+    double fastest = std::numeric_limits<double>::infinity();
+    double tolerance = 0.0;
+    for (auto one = tries_.rbegin(); one != tries_.rend(); ++one) {
+        if (const double time = one->window.finish(); time < fastest) {
+            fastest = time;
+            tolerance = one->tolerance;
+        }
+    }
+    if (keep_ && tries_.size() > 1) {
+        sections_.push_back({begin_, tolerance});
+        sections_.push_back({block_, std::numeric_limits<double>::infinity()});
+    }
+    time_ += fastest;
+}
+
+double RoundingChoice::finish() {
+    close_section();
+    return time_;
+}
+
+void RoundingChoice::add(const Block& block, double path_acceleration) {
+    const AxisPositions after = position_after(block, at_);
+    const bool moves = (after - at_).cwiseAbs().maxCoeff() > 0.0;
+    if (moves) {
+        const Straight next{unit_of(limits_, at_, after),
+                            block.kind == gcode::BlockKind::rapid,
+                            block.path.value_or(settings_.path)};
+        if (last_) {
+            meet(next);
+        }
+        last_ = next;
+    } else if (!keeps_moving(block.kind)) {
+        last_.reset();
+    }
+    if (!last_ && tries_.size() > 1) {
+        close_section();
+        open_section();
+    }
+    for (Try& one : tries_) {
+        one.window.add(block, path_acceleration);
+    }
+    at_ = after;
+    ++block_;
+}
+
+void RoundingChoice::meet(const Straight& next) {
+    switch (meeting_of(last_->path, last_->unit, last_->rapid, next.unit, next.rapid)) {
+    case Meeting::rest:
+        if (tries_.size() > 1) {
+            close_section();
+            open_section();
+        }
+        break;
+    case Meeting::rounding:
+        try_up_to(rounding_tolerance_of(last_->path, settings_));
+        break;
+    case Meeting::corner:
+        break;
+    }
+}
+
+/// Up to here the way within a new tolerance is the one within all tolerances that came.
+void RoundingChoice::try_up_to(double tolerance) {
+    const double largest = rounding_step(tolerance);
+    const auto insert = [&](double step) {
+        Try again{step, tries_.back().window};
+        again.window.set_largest_rounding(step);
+        tries_.insert(std::prev(tries_.end()), std::move(again));
+    };
+    if (tries_.size() == 1) {
+        insert(0.0);
+    }
+    double known = std::prev(tries_.end(), 2)->tolerance;
+    for (double step = 0.0; step < largest; step = next_rounding_step(step)) {
+        if (step > known) {
+            insert(step);
+            known = step;
+        }
+    }
+}
+
+} // namespace millwright::motion::internal

@@ -1,0 +1,70 @@
+// How large the roundings of a program are made: between two rests with the tolerance, up to the programmed
+// one, that is fastest. A larger rounding is not always faster: its bend takes acceleration from the motion
+// along it, on a longer way (docs/reference/motion.md#how-large-a-rounding-is).
+#pragma once
+
+#include "core/motion/internal/time_window.h"
+
+#include <list>
+#include <optional>
+#include <vector>
+
+namespace millwright::motion::internal {
+
+class RoundingChoice {
+public:
+    /// Blocks from `first` on, up to the next section, have no rounding within more than `tolerance`, mm.
+    struct Section {
+        int first = 0;
+        double tolerance = std::numeric_limits<double>::infinity();
+    };
+
+    /// As TimeWindow. With `keep` the sections are kept.
+    RoundingChoice(const Mechanism& machine,
+                   const PlannerSettings& settings,
+                   const kinematics::AxisPositions& start,
+                   double filter_time,
+                   bool keep);
+
+    void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
+    /// Of all blocks, s, with the fastest roundings. Nothing is added after it.
+    [[nodiscard]] double finish();
+    /// Blocks that are in memory now, of one choice.
+    [[nodiscard]] int block_count() const { return tries_.back().window.block_count(); }
+    /// After finish(), in their order.
+    [[nodiscard]] const std::vector<Section>& sections() const { return sections_; }
+
+private:
+    /// The blocks since the last rest, with roundings within one tolerance. The last one has the programmed
+    /// ones.
+    struct Try {
+        double tolerance = std::numeric_limits<double>::infinity();
+        TimeWindow window;
+    };
+    /// A move as its corners see it.
+    struct Straight {
+        kinematics::AxisPositions unit;
+        bool rapid = false;
+        gcode::PathControl path;
+    };
+
+    const Mechanism& machine_;
+    const PlannerSettings& settings_;
+    double filter_time_;
+    bool keep_;
+    std::vector<AxisLimits> limits_;
+    kinematics::AxisPositions at_;
+    std::optional<Straight> last_; ///< none: at rest
+    std::list<Try> tries_;         ///< tolerances ascend
+    std::vector<Section> sections_;
+    int block_ = 0;     ///< the next one
+    int begin_ = 0;     ///< of the section
+    double time_ = 0.0; ///< of the sections before
+
+    void meet(const Straight& next);
+    void try_up_to(double tolerance);
+    void close_section();
+    void open_section();
+};
+
+} // namespace millwright::motion::internal

@@ -1,0 +1,41 @@
+// The duration of a way that is laid block by block: what is settled is counted and forgotten.
+#pragma once
+
+#include "core/motion/internal/road_builder.h"
+
+#include <limits>
+
+namespace millwright::motion::internal {
+
+class TimeWindow {
+public:
+    /// From rest at `start`. Machine and settings must outlive it.
+    TimeWindow(const Mechanism& machine,
+               const PlannerSettings& settings,
+               const kinematics::AxisPositions& start,
+               double filter_time);
+
+    /// No rounding is larger than within this tolerance, mm; 0: corners that would be rounded are met at
+    /// rest.
+    void set_largest_rounding(double tolerance) { road_.set_largest_rounding(tolerance); }
+    /// As RoadBuilder::add().
+    void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
+    /// Of all blocks, s, the last one ending at rest. Nothing is added after it.
+    [[nodiscard]] double finish();
+    /// Blocks that are in memory now.
+    [[nodiscard]] int block_count() const { return road_.block_count(); }
+
+private:
+    static constexpr int least_window = 4096; ///< blocks
+
+    double filter_time_;
+    RoadBuilder road_;
+    int full_ = least_window;
+    double way_ = 0.0, speed_ = 0.0; ///< up to which the time is counted
+    bool moving_ = false;            ///< since the last rest
+    double time_ = 0.0;
+
+    void pass(bool all);
+};
+
+} // namespace millwright::motion::internal

@@ -1,0 +1,165 @@
+// What a program leaves open: where the axes are at the start, and where the work lies on the machine.
+#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/reader/machine_program.h"
+#include "core/gcode/reader/work_origin.h"
+#include "tests/support/machines.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace millwright::gcode {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+MachineProgram placed(const std::string& text, const ReaderSettings& settings = {}) {
+    const kinematics::MachineModel model = test::machine("router-xyz"); // its axes are Y X Z
+    MachineProgramBuilder builder(model, "part.ngc");
+    Interpreter interpreter(text, "part.ngc", settings, builder);
+    interpreter.run();
+    EXPECT_THAT(interpreter.errors(), IsEmpty()) << to_text(interpreter.errors().front());
+    return builder.take();
+}
+
+std::vector<std::string> unplaced(const std::string& text, const ReaderSettings& settings = {}) {
+    std::vector<std::string> found;
+    for (const Diagnostic& one : placed(text, settings).unplaced) {
+        found.push_back(to_text(one));
+    }
+    return found;
+}
+
+ReaderSettings with_origin(const Vec3& origin) {
+    ReaderSettings settings;
+    put_origin(settings, origin);
+    return settings;
+}
+
+/// The letters that each move names.
+std::vector<std::string> named(const std::string& text) {
+    std::vector<std::string> all;
+    const Program program = placed(text).program;
+    for (const Block& block : program.blocks) {
+        if (!block.moves()) {
+            continue;
+        }
+        std::string& letters = all.emplace_back();
+        for (const char letter : {'X', 'Y', 'Z'}) {
+            for (std::size_t n = 0; n < program.axes.size(); ++n) {
+                if (program.axes[n].letter == letter && block.named.contains(static_cast<int>(n))) {
+                    letters += letter;
+                }
+            }
+        }
+    }
+    return all;
+}
+
+// The thesis's programs begin so; a rapid to X0 Y0 Z0 came of it.
+TEST(Placement, ARapidWithoutAxesMovesNone) {
+    EXPECT_THAT(named("G21\nG00 G17 G49 G80 G90 G98\nG00 X-7. Y13.\nZ10.\nG1 Z-2 F30\nM2\n"),
+                ElementsAre("XY", "Z", "Z"));
+    EXPECT_THAT(named("G21 G90\nG1 F100\nG0\nX5\nG1\nY4\nM2\n"), ElementsAre("X", "Y"));
+}
+
+// Letters of functions were taken for words.
+TEST(Placement, AFunctionIsNoAxis) {
+    EXPECT_THAT(named("G21 G90\nG0 Y FIX[2.5]\nG0 Y EXP[1]\nG0 Y[ 2 ] (X Z)\nM2\n"),
+                ElementsAre("Y", "Y", "Y"));
+}
+
+TEST(Placement, AnIncrementNamesAnAxisOnceItsPlaceIsKnown) {
+    EXPECT_THAT(named("G21 G91 G0 Z0\nG90 X1 Z5\nG91 Z1 X0\nM2\n"), ElementsAre("XZ", "XZ"));
+    EXPECT_THAT(unplaced("G21 G91 G0 Z0\nG90 X1 Z5\nG91 Z1 X0\nM2\n"), IsEmpty());
+    EXPECT_THAT(
+        unplaced("G21 G90\nG0 X5\nG91 Y2\nM2\n"),
+        ElementsAre(HasSubstr("part.ngc:3:5: Y moves from where it is, and the program has not said where "
+                              "(move the axis to a position first")));
+}
+
+TEST(Placement, AnArcBeginsWhereTheProgramHasSaid) {
+    EXPECT_THAT(unplaced("G21 G90 F100\nG2 X10 Y0 I5\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:2:1: an arc begins")));
+    EXPECT_THAT(unplaced("G21 G90 F100\nG0 X0 Y0\nG2 X10 Y0 I5\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90 F100\nG0 X0 Y0\nG2 X10 Y0 I5 Z-1\nM2\n"),
+                ElementsAre(HasSubstr("what Z is")));
+    EXPECT_THAT(unplaced("G21 G90 F100\nG81 X1 Y1 Z-2 R3\nM2\n"),
+                ElementsAre(HasSubstr("Z moves from where it is")));
+    EXPECT_THAT(unplaced("G21 G90 F100\nG0 Z9\nG81 X1 Y1 Z-2 R3\nM2\n"), IsEmpty());
+}
+
+TEST(Placement, OffsetsAreNotTakenFromWhereNobodyKnows) {
+    EXPECT_THAT(unplaced("G21 G90\nG92 X5\nG0 X10\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:2:1: G92 takes X from where the axis is")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Z3\nG92 X5\nG0 X10\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG10 L20 P1 Z0\nG0 Z10\nM2\n"), ElementsAre(HasSubstr("G10 takes Z from")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG28.1\nG0 Z10\nM2\n"),
+                ElementsAre(HasSubstr("G28.1 takes Z from")));
+    EXPECT_THAT(unplaced("G21 G90\nG52 X5\nG0 X10\nM2\n"), IsEmpty());
+}
+
+// The usual end of a Fusion 360 program became a rapid to Z0 of the work, the spindle turning.
+TEST(Placement, MachinePositionsNeedToKnowWhereTheWorkLies) {
+    const std::string end_of_fusion = "G90 G21\nG0 X10 Y10\nZ25\nG1 Z8 F300\nG0 Z25\nG28 G91 Z0\nM5\nM30\n";
+    EXPECT_THAT(
+        unplaced(end_of_fusion),
+        ElementsAre(HasSubstr("part.ngc:6:1: G28 goes to a machine position, and where the program's zero "
+                              "lies on the machine is not known (say where")));
+    EXPECT_THAT(unplaced("G90 G21\nG53 G0 Z0\nX1 Y1 Z2\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:2:1: G53 goes")));
+    EXPECT_THAT(unplaced("G90 G21 G0 X1 Y1 Z2\nG30\nM2\n"), ElementsAre(HasSubstr("part.ngc:2:1: G30 goes")));
+    EXPECT_THAT(unplaced(end_of_fusion, with_origin(Vec3(5, 5, -40))), IsEmpty());
+    const Block last = placed(end_of_fusion, with_origin(Vec3(5, 5, -40))).program.blocks[4];
+    EXPECT_EQ(last.target, kinematics::AxisPositions(Vec3(15, 15, -15))); // Y X Z, in machine positions
+}
+
+TEST(Placement, ARetractToWhereNobodyStoredAPositionDoesNotGoDown) {
+    const std::string program = "G90 G21\nG0 X0 Y0 Z10\nG28 G91 Z0\nM2\n";
+    EXPECT_THAT(
+        unplaced(program, with_origin(Vec3(0, 0, 20))),
+        ElementsAre(HasSubstr("part.ngc:3:1: G28 would take Z from 30.000 to 0.000, towards the part")));
+    EXPECT_THAT(unplaced(program, with_origin(Vec3(0, 0, -20))), IsEmpty());
+    ReaderSettings stored = with_origin(Vec3(0, 0, 20));
+    stored.parameters.emplace_back(5163, 5.0); // somebody did
+    EXPECT_THAT(unplaced(program, stored), IsEmpty());
+    EXPECT_THAT(unplaced("G90 G21\nG0 X0 Y0 Z1\nG28.1\nG0 Z10\nG28 Z10\nM2\n", with_origin(Vec3(0, 0, 20))),
+                IsEmpty());
+}
+
+TEST(Placement, PositionsOfTwoSystemsNeedBothOffsets) {
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1\nG55\nG0 X1\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:4:1: the program also moves in another system than G55")));
+    EXPECT_THAT(unplaced("G21 G90\nG55\nG0 X1\nG55 X2\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P2 X9\nG0 X1\nG55\nG0 X1\nM2\n"),
+                ElementsAre(HasSubstr("than G54")));
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X0\nG10 L2 P2 X9\nG0 X1\nG55\nG0 X1\nG53 X0\nM2\n"), IsEmpty());
+}
+
+TEST(Placement, AFeedFromAnywhereHasASpeedAndNoLength) {
+    const MachineProgram read = placed("G21\nG1 X0 Y0 F300\nG1 X10\nM2\n");
+    ASSERT_EQ(read.program.blocks.size(), 3U);
+    EXPECT_EQ(read.program.blocks[0].programmed_speed, 5.0);
+    EXPECT_EQ(read.program.blocks[1].programmed_speed, std::nullopt);
+    EXPECT_THAT(read.unplaced, IsEmpty());
+    EXPECT_THAT(unplaced("G21 G93\nG1 X0 Y0 F30\nM2\n"),
+                ElementsAre(HasSubstr("a feed in inverse time (G93)")));
+}
+
+TEST(Placement, SaysThatAxesMoveBeforeOthersAreNamed) {
+    const auto said = [](const std::string& text) {
+        const std::optional<Diagnostic> notice = placed(text).start_notice;
+        return notice ? to_text(*notice) : std::string();
+    };
+    EXPECT_THAT(said("G21 G90\nG0 X1 Y1\nZ3\nM2\n"),
+                HasSubstr("part.ngc:2: where Z is at the start is not known: X and Y move here"));
+    EXPECT_EQ(said("G21 G90\nG0 X1 Y1 Z3\nM2\n"), "");
+    EXPECT_EQ(said("G21 G90\nG0 X1 Y1\nM2\n"), "");
+}
+
+} // namespace
+} // namespace millwright::gcode
