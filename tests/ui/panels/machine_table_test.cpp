@@ -123,7 +123,13 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
 TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     connect();
     person.click("inspector/job/machine_run");
-    ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 8.0; }, 60.0));
+    // Within a row: between two of them the table has answered, and where it stands is known.
+    ASSERT_TRUE(person.live_until(
+        [&] {
+            const machine::DriverStatus status = now().controller.status;
+            return status.position[1] > 8.0 && status.sent_blocks > status.executed_blocks;
+        },
+        60.0));
     person.workshop().run("machine.emergency_stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
     EXPECT_THAT(now().job.outcome->sentence, HasSubstr("was on its way, and nobody knows how far"));
