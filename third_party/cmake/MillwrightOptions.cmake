@@ -44,6 +44,10 @@ if(MILLWRIGHT_SANITIZE)
         -fsanitize=${MILLWRIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(millwright_options INTERFACE -fsanitize=${MILLWRIGHT_SANITIZE})
 endif()
+if(MILLWRIGHT_SANITIZE MATCHES "address")
+    # Eigen would otherwise pad what it allocates, and libraries that were built without the sanitizer free it: KDL.
+    target_compile_definitions(millwright_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
 if(MILLWRIGHT_SANITIZE MATCHES "thread")
     # ThreadSanitizer does not know fences; without them Asio relies on its mutexes alone.
     target_compile_definitions(millwright_options INTERFACE BOOST_ASIO_DISABLE_FENCED_BLOCK)
