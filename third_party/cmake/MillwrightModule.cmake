@@ -8,9 +8,13 @@
 function(millwright_precompile target)
     target_precompile_headers(${target} PRIVATE ${ARGN})
     get_target_property(folder ${target} BINARY_DIR)
+    set(versions "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION}")
+    if("<gtest/gtest.h>" IN_LIST ARGN)
+        string(APPEND versions " GoogleTest ${GTest_VERSION}")
+    endif()
     foreach(ending gch pch)
         file(WRITE ${folder}/CMakeFiles/${target}.dir/cmake_pch.hxx.${ending}.sum
-            "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION} GoogleTest ${GTest_VERSION} ${ARGN}\n")
+            "${versions} ${ARGN}\n")
     endforeach()
 endfunction()
 
