@@ -7,6 +7,7 @@
 #include "core/project/project.h"
 #include "ui/actions/approach.h"
 #include "ui/actions/hand_settings.h"
+#include "ui/actions/start_question.h"
 #include "ui/render/camera.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
@@ -162,6 +163,7 @@ struct Session {
     double machine_speed = 1.0; ///< of the virtual machine, times real time
     FileQuestion question = FileQuestion::none;
     HelpPage help = HelpPage::none;
+    std::shared_ptr<const StartWish> start;          ///< a job that waits for a person's word; null: none
     bool search_wanted = false;                      ///< open the palette in the next frame
     bool fit_wanted = true;                          ///< fit the view in the next frame
     std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame

@@ -106,6 +106,8 @@ public:
     void continue_broken_job();
     /// Of jobs that wait for a person's word.
     [[nodiscard]] StoredQueue& queue() { return queue_; }
+    /// Shows a person what the job would do on the connected machine. Nothing moves before "start.go".
+    void ask_to_start(StartWish wish);
     /// Opens the program of a job that waits, and gives it to the job once it is read, made for the machine
     /// that is connected then. Nothing moves. Throws Error if it cannot be opened.
     void open_queued(machine::QueuedJobId id);
@@ -218,6 +220,7 @@ private:
     std::unique_ptr<SurfaceExport> export_; ///< never null
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
+    std::unique_ptr<StartChecker> start_;
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read

@@ -41,10 +41,15 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return files_.draw(ui, now, ask);
     }
     files_.close();
+    if (!now.session.start) {
+        start_.close();
+    }
     if (now.session.quit_wanted) {
         draw_running_job(ui, now, ask);
     } else if (!now.leaving_to.empty()) {
         draw_unsaved(ui, now, ask);
+    } else if (now.session.start) {
+        start_.draw(ui, now, ask);
     } else if (!now.left_behind.empty()) {
         draw_left_behind(ui, now, ask);
     } else if (!now.broken_jobs->empty()) {

@@ -5,12 +5,14 @@
 #include "ui/panels/file_panel.h"
 #include "ui/panels/help_panel.h"
 #include "ui/panels/panel.h"
+#include "ui/panels/start_sheet.h"
 
 namespace millwright::panels {
 
 class Dialogs final : public Panel {
 public:
-    explicit Dialogs(const actions::Catalogue& catalogue) : catalogue_(catalogue), help_(catalogue) {}
+    explicit Dialogs(const actions::Catalogue& catalogue)
+        : catalogue_(catalogue), help_(catalogue), start_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
@@ -22,6 +24,7 @@ private:
     const actions::Catalogue& catalogue_;
     FilePanel files_;
     HelpPanel help_;
+    StartSheet start_;
 };
 
 } // namespace millwright::panels

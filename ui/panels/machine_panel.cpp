@@ -1,6 +1,7 @@
 #include "ui/panels/machine_panel.h"
 
 #include "core/base/text.h"
+#include "ui/actions/job_source.h"
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
@@ -77,6 +78,9 @@ std::optional<double> spindle_by_hand(const Workbench& now) {
 
 void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
+    if (now.arm_connected()) { // it takes no G-code, and has no spindle and no work offsets
+        return;
+    }
     draw_job(ui, now, ask);
     if (now.controller.connected()) {
         controls_.draw(ui, now, ask);
@@ -175,6 +179,9 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                          "before it runs, {:.0f} 1/min.",
                          *rpm),
              {}});
+    }
+    if (const widgets::Permission axes = actions::axes_ready(now); !axes.allowed) {
+        (void)widgets::banner(ui, "axes", {widgets::Severity::warning, axes.reason, {}});
     }
     draw_findings(ui, now); // below the buttons, which stay where they are whatever is found
     draw_progress(ui, now, ask);

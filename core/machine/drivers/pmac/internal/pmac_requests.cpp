@@ -70,6 +70,9 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     if (!position_known()) {
         throw Error("the position is not known, so there is no program", {}, "home first");
     }
+    for (const std::string& line : lines) {
+        check_guard(line);
+    }
     finish(Stage::loading);
     program_lines_ = static_cast<int>(lines.size());
     executed_ = 0;
@@ -213,6 +216,9 @@ void PmacSession::home_axis(std::size_t n) {
 
 void PmacSession::enable(double /*now*/) {
     require_rest("power");
+    if (!guard_.runs()) {
+        throw Error(guard_is_off, {}, "connect again: that writes it anew");
+    }
     gave_power_ = true;
     ask(every_motor("J/"));
     power_polls_ = patient_polls;
