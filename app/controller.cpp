@@ -249,16 +249,20 @@ void Controller::check_joints(const machine::Job& job, const std::stop_token& st
     }
 }
 
-machine::JobOutcome Controller::run(const machine::Job& job, const std::stop_token& stop) {
+machine::JobOutcome Controller::run(const machine::Job& job, const Interrupt& interrupt) {
     show_warnings(job);
     if (choice_.driver == "pmac") {
-        check_joints(job, stop);
+        check_joints(job, interrupt.token());
     }
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder_);
     JobPrinter printer;
     const JobKeys keys(dispatcher, choice_.keys, {choice_.optional_stop, choice_.single_block});
-    const Progress progress([](const Progress::Report&) {}, stop);
+    const Progress progress([](const Progress::Report&) {}, interrupt.token());
+    bool cut = false;
     return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
+        if (interrupt.insisted() && !std::exchange(cut, true)) {
+            driver_->emergency_stop();
+        }
         remember();
         printer.show(report, keys.listening());
     });

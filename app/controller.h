@@ -1,6 +1,7 @@
 // A job on a controller that plans for itself, on the command line.
 #pragma once
 
+#include "app/interrupt.h"
 #include "core/base/progress.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
@@ -62,7 +63,7 @@ public:
     void look_at(const machine::Job& job) const;
     /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
     /// anything is sent if the text is at fault.
-    [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop);
+    [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const Interrupt& interrupt);
 
 private:
     void expect_rest() const;

@@ -54,7 +54,7 @@ at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_to
 }
 
 int stop_machine(const StopOptions& options) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     machine::SteadyClock clock;
     machine::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
     const auto driver = machine::make_driver(options.machine, {}, clock);

@@ -376,16 +376,21 @@ void Dispatcher::check_position(const Job& job, const DriverStatus& status) cons
     }
 }
 
-/// After something went wrong on our side. A machine that does not come to rest by itself is cut off.
-void Dispatcher::bring_to_rest() {
+/// After something went wrong on our side. A machine that does not come to rest by itself is cut off. What
+/// fails here is no reason to leave the log without its end.
+void Dispatcher::bring_to_rest() noexcept {
     constexpr double patience = 10.0; // s
-    driver_.stop();
-    for (double waited = 0.0; !ended(driver_.status().state); waited += poll_time) {
-        if (waited > patience) {
-            driver_.emergency_stop();
-            return;
+    try {
+        driver_.stop();
+        for (double waited = 0.0; !ended(driver_.status().state); waited += poll_time) {
+            if (waited > patience) {
+                driver_.emergency_stop();
+                return;
+            }
+            clock_.wait(poll_time);
         }
-        clock_.wait(poll_time);
+    } catch (const std::exception&) {
+        // A link that takes no word any more is lost, and its status says so.
     }
 }
 

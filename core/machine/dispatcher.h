@@ -65,7 +65,7 @@ private:
     check(const Job& job, const Capabilities& able, const DriverStatus& before) const;
     void check_position(const Job& job, const DriverStatus& status) const;
     [[nodiscard]] std::vector<Request> take_requests();
-    void bring_to_rest();
+    void bring_to_rest() noexcept;
 
     Driver& driver_;
     Clock& clock_;

@@ -38,7 +38,8 @@ std::string reason(int error_number) {
 std::string file_stem(const std::string& name) {
     constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
     std::string stem;
-    for (const char c : name) {
+    constexpr std::size_t longest_stem = 200; // bytes; a name may have 255, and ours have ends
+    for (const char c : std::string_view(name).substr(0, longest_stem)) {
         stem += allowed.find(c) == std::string_view::npos ? '_' : c;
     }
     const bool visible = !stem.empty() && stem.front() != '.';

@@ -100,8 +100,9 @@ struct Workbench {
     [[nodiscard]] std::string failure() const;
     /// Something is asked or told over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
-        return session.question != FileQuestion::none || session.start || session.help != HelpPage::none ||
-               session.quit_wanted || !leaving_to.empty() || !left_behind.empty() || !broken_jobs->empty();
+        return session.question != FileQuestion::none || session.replacing || session.start ||
+               session.help != HelpPage::none || session.quit_wanted || !leaving_to.empty() ||
+               !left_behind.empty() || !broken_jobs->empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.

@@ -167,6 +167,8 @@ void Workshop::guarded(const std::function<void()>& action) {
              error.diagnostic().message + (hint.empty() ? "" : " (" + hint + ")"),
              where.substr(0, where.size() - std::min<std::size_t>(2, where.size())));
         session_.notices.back().passing = dynamic_cast<const MachineError*>(&error) != nullptr;
+    } catch (const std::filesystem::filesystem_error& failure) { // links in a loop, a folder that is gone
+        tell(session_, widgets::Severity::danger, failure.code().message(), failure.path1().string());
     }
 }
 

@@ -1,5 +1,5 @@
-// What is asked over everything else, one question at a time: a file, unsaved changes, work and jobs that a
-// crash left behind.
+// What is asked over everything else, one question at a time: a file, one that would be replaced, unsaved
+// changes, work and jobs that a crash left behind.
 #pragma once
 
 #include "ui/panels/file_panel.h"
@@ -17,6 +17,7 @@ public:
 
 private:
     void draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;

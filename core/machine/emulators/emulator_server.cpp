@@ -62,7 +62,7 @@ void EmulatorServer::turn(double& last) {
     emulator_->advance(passes);
     silence_ += passes;
     for (const auto& link : links_) {
-        const std::string bytes = link->read();
+        const std::string bytes = emulator_->full() ? std::string() : link->read();
         silence_ = bytes.empty() ? silence_ : 0.0;
         passed_ += static_cast<std::int64_t>(bytes.size());
         emulator_->receive(bytes);

@@ -44,12 +44,20 @@ public:
         boost::asio::post(context_, [this, copy = std::string(bytes)] {
             if (client_.is_open()) {
                 waiting_ += copy;
+                if (waiting_.size() > most_waiting) { // of one who does not listen
+                    Failure ignored;
+                    waiting_.clear();
+                    client_.shutdown(tcp::socket::shutdown_both, ignored);
+                }
                 write_more();
             }
         });
     }
     [[nodiscard]] std::string read() {
         const std::scoped_lock lock(mutex_);
+        if (std::exchange(full_, false)) {
+            boost::asio::post(context_, [this] { read_more(); });
+        }
         return std::exchange(received_, {});
     }
     void wait(double seconds) {
@@ -59,6 +67,9 @@ public:
     }
 
 private:
+    static constexpr std::size_t most_waiting = std::size_t{1} << 20U;  ///< bytes, 1 MiB
+    static constexpr std::size_t most_received = std::size_t{1} << 20U; ///< then the client has to wait
+
     void accept_more() {
         acceptor_.async_accept(visitor_, [this](const Failure& failure) {
             if (failure == boost::asio::error::operation_aborted) {
@@ -127,12 +138,16 @@ private:
                 drop_client();
                 return;
             }
+            bool full = false;
             {
                 const std::scoped_lock lock(mutex_);
                 received_.append(chunk_.data(), n);
+                full = full_ = received_.size() >= most_received;
             }
             changed_.notify_all();
-            read_more();
+            if (!full) {
+                read_more();
+            }
         });
     }
 
@@ -162,8 +177,9 @@ private:
     tcp::socket client_, visitor_;
     std::string waiting_, sending_;
     std::array<char, 4096> chunk_{};
-    mutable std::mutex mutex_; ///< guards holder_ and received_
+    mutable std::mutex mutex_; ///< guards holder_, received_ and full_
     std::condition_variable changed_;
+    bool full_ = false; ///< nothing is read until what came is taken
     std::string holder_, received_;
     std::jthread thread_; ///< last: ends before what it uses
 };

@@ -77,9 +77,6 @@ void Session::lost(const std::string& why) {
 }
 
 void Session::receive(std::string_view bytes, double now) {
-    if (!bytes.empty()) {
-        last_heard_ = now;
-    }
     constexpr std::size_t longest_line = 1024;
     for (const char byte : bytes) {
         if (byte == '\n') {

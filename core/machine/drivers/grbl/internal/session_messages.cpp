@@ -120,7 +120,11 @@ void Session::handle_line(std::string_view line, double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
-    std::visit([&](const auto& message) { handle(message, now); }, read_message(line));
+    const Message message = read_message(line);
+    if (!std::holds_alternative<Garbage>(message) && !std::holds_alternative<Blank>(message)) { // not noise
+        last_heard_ = now;
+    }
+    std::visit([&](const auto& heard) { handle(heard, now); }, message);
 }
 
 void Session::handle(const Blank&, double) {}
