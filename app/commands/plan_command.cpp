@@ -214,9 +214,10 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
 
 void print_cut(const project::Project& project, const project::Plan& plan) {
     const project::CutStudy& cut = *plan.cut;
-    fmt::print("left on the surface: {}; deepest cut below it: {} mm\n",
+    fmt::print("left on the surface: {}; deepest cut below it: {} mm ({})\n",
                project::left_text(project, plan),
-               fixed(cut.deepest, 4));
+               fixed(cut.deepest, 4),
+               project::checked_text(project));
     if (const std::string why = project::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }

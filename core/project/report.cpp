@@ -185,10 +185,12 @@ Json tool(const ToolInput& input) {
 }
 
 /// What the cutter does; cut.json has the whole of it.
-Json cut(const CutStudy& study) {
+Json cut(const Project& project, const CutStudy& study) {
     Json json;
+    json["checked"] = checked_text(project);
     json["scallop_mm"]["max"] = rounded(study.scallops.max);
     json["scallop_mm"]["mean"] = rounded(study.scallops.mean);
+    json["gouged_percent"] = rounded(100.0 * study.scallops.gouged);
     json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
     json["bites"] = std::ssize(study.bites);
@@ -269,7 +271,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["remarks"] = path_remarks(project, plan);
     json["program"] = program_json(plan);
     if (plan.cut) {
-        json["cut"] = cut(*plan.cut);
+        json["cut"] = cut(project, *plan.cut);
     }
     return json_text(json);
 }

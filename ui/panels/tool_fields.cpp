@@ -31,7 +31,7 @@ bool is_asked_for(const Project& project, std::string_view id) {
     return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy;
 }
 
-void bites_text(Ui& ui, const project::CutStudy& cut) {
+void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
     std::ptrdiff_t of_holder = 0;
     for (const project::BlockBite& bite : cut.bites) {
         of_holder += bite.by_holder ? 1 : 0;
@@ -42,6 +42,7 @@ void bites_text(Ui& ui, const project::CutStudy& cut) {
              length_text(cut.deepest),
              "mm",
              "How deep the cutter goes below the surface at most");
+    ui.note(as_sentence(project::checked_text(project)));
     ui.value("bites",
              "Too deep",
              fmt::format("{} blocks", of_cutter),
@@ -183,7 +184,7 @@ void cut_fields(Ui& ui, const Workbench& now) {
     if (const std::string why = project::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
         (void)widgets::banner(ui, "left_higher", {widgets::Severity::warning, why + ".", {}});
     }
-    bites_text(ui, cut);
+    bites_text(ui, now.plan->project, cut);
 }
 
 void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
