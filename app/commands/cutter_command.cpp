@@ -115,6 +115,7 @@ int cut(const CutterOptions& options) {
                   opened.file);
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
+    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
     print_cutter_summary(plan, project);
     print_why_higher(project, plan);
     if (const std::string why = project::why_not_kept(project, *plan.program_path(project)); !why.empty()) {

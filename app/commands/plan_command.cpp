@@ -152,6 +152,7 @@ void print_plan_summary(const project::Plan& plan, const project::Project& proje
         fmt::print("strategy: {}\n", project::strategy_text(project));
     }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
+    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
     fmt::print("{} points, path {} mm, estimated time {}\n",
                chosen.toolpath.points.size(),
                fixed(chosen.path_length, 1),

@@ -59,6 +59,7 @@ std::string cut_report_text(const Project& project, const Plan& plan) {
     json["made_by"] = "Millwright " + std::string(version());
     json["project"] = project.name;
     json["tool"] = tool_text(project.tool);
+    json["tool_length"] = tool_length_text(project.tool, plan.workpiece->machine);
     json["strategy"] = row_of(strategies(), project.toolpath.strategy).id;
     json["grid"] = row_of(grid_methods(), program_grid(project)).id;
     json["error_mm"]["max"] = rounded(evaluation.closest.max);

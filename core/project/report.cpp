@@ -178,9 +178,12 @@ Json machine_json(const Project& project, const Plan& plan) {
     return json;
 }
 
-Json tool(const ToolInput& input) {
+Json tool(const ToolInput& input, const kinematics::MachineModel& machine) {
+    const std::optional<double> length = machine.description().tool_length;
     Json json = json_of(input);
     json["text"] = tool_text(input);
+    json["assumed_gauge_length_mm"] = length ? Json(rounded(*length)) : Json();
+    json["assumed_length"] = tool_length_text(input, machine);
     return json;
 }
 
@@ -258,7 +261,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["project"] = project.name;
     json["surface"] = surface_json(project, plan);
     json["machine"] = machine_json(project, plan);
-    json["tool"] = tool(project.tool);
+    json["tool"] = tool(project.tool, plan.workpiece->machine);
     json["grid"] = grid_json(project, chosen);
     json["error"] = all_errors(project, plan);
     json["singular_points"] = singular_points(plan);

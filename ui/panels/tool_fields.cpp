@@ -22,13 +22,14 @@ namespace {
 using project::Project;
 using toolpath::CutterKind;
 
-/// The scallop of a strategy is asked for there.
+/// The scallop of a strategy is asked for there; a point without a length is not called by a number.
 bool is_asked_for(const Project& project, std::string_view id) {
     const project::ToolInput& tool = project.tool;
     const bool of_no_holder = id == "holder_length_mm" && !(tool.holder_diameter_mm > 0.0);
     const bool of_strategy =
         id == "scallop_mm" && project.toolpath.strategy == project::StrategyInput::constant_scallop;
-    return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy;
+    const bool of_no_call = id == "number" && !project::gauge_length_mm(tool);
+    return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy && !of_no_call;
 }
 
 void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
