@@ -37,7 +37,11 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
     job.project = opened.file.string();
     job.started_at = now_for_people();
     job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
-    PostedText text = posted(*plan.program, *job.machine, choice, job.name);
+    gcode::Program program = *plan.program;
+    if (options.machine.driver == "cordic") { // which waits for nobody to change a tool
+        program.tool.reset();
+    }
+    PostedText text = posted(program, *job.machine, choice, job.name);
     print_notes(text);
     job.program = std::make_shared<const gcode::Program>(std::move(text.text.program));
     job.listing = std::make_shared<const gcode::Listing>(std::move(text.text.listing));
