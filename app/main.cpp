@@ -24,6 +24,7 @@
 #include "app/commands/thesis_command.h"
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
+#include "app/kept_outputs.h"
 #include "app/output_files.h"
 #include "app/output_streams.h"
 #include "app/threads_option.h"
@@ -145,6 +146,7 @@ int main(int argc, char** argv) {
     }
     return run([&] {
         expect_outputs_apart(app);
+        const KeptOutputs kept(named_outputs(app));
         return chosen();
     });
 }

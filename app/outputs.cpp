@@ -1,19 +1,18 @@
 #include "app/outputs.h"
 
+#include "app/kept_outputs.h"
 #include "app/written_files.h"
 #include "core/base/draft.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <system_error>
 #include <thread>
@@ -52,28 +51,6 @@ public:
 private:
     int handle_;
 };
-
-/// "program-kept-1.ngc"
-fs::path kept_name(const fs::path& file) {
-    std::error_code unknown;
-    constexpr std::size_t longest_stem = 200; // bytes; a name may have 255
-    const std::string stem = file.stem().string().substr(0, longest_stem);
-    for (int n = 1;; ++n) {
-        fs::path name = file.parent_path() / fmt::format("{}-kept-{}{}", stem, n, file.extension().string());
-        if (!fs::exists(fs::symlink_status(name, unknown))) {
-            return name;
-        }
-    }
-}
-
-void say_kept(const fs::path& file, const fs::path& name) {
-    fmt::print(stderr,
-               "millwright: {}\n",
-               to_text(Diagnostic{{file, 0, 0, -1},
-                                  "was not as Millwright wrote it last; what was there is now in " +
-                                      name.filename().string(),
-                                  {}}));
-}
 
 void expect_replaceable(const fs::path& place, const fs::path& source) {
     std::error_code failure;

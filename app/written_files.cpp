@@ -6,8 +6,12 @@
 #include "core/machine/job.h"
 #include "core/project/recent_files.h"
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <exception>
 #include <system_error>
 
 namespace millwright::app {
@@ -25,6 +29,27 @@ std::string lasting_path(const fs::path& file) {
     return failure ? std::string() : (folder / file.filename()).string();
 }
 
+/// So that two commands that end at once remember the files of both.
+class WrittenLock {
+public:
+    explicit WrittenLock(const fs::path& place)
+        : handle_(::open((place.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
+        if (handle_ >= 0) {
+            (void)::flock(handle_, LOCK_EX);
+        }
+    }
+    WrittenLock(const WrittenLock&) = delete;
+    WrittenLock& operator=(const WrittenLock&) = delete;
+    ~WrittenLock() {
+        if (handle_ >= 0) {
+            ::close(handle_);
+        }
+    }
+
+private:
+    int handle_;
+};
+
 std::map<std::string, std::string> read_written(const fs::path& place) {
     std::error_code missing;
     std::map<std::string, std::string> found;
@@ -36,7 +61,7 @@ std::map<std::string, std::string> read_written(const fs::path& place) {
         for (const JsonValue& entry : json.items()) {
             found[entry.at("file").text()] = entry.at("hash").text();
         }
-    } catch (const Error&) {
+    } catch (const std::exception&) {
         found.clear();
     }
     return found;
@@ -54,7 +79,16 @@ bool WrittenFiles::holds(const fs::path& file) const {
     const auto found = hashes_.find(lasting_path(file));
     try {
         return found != hashes_.end() && machine::program_hash(read_file(file)) == found->second;
-    } catch (const Error&) {
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+bool WrittenFiles::same_bytes(const fs::path& a, const fs::path& b) {
+    try {
+        std::error_code unknown;
+        return fs::file_size(a, unknown) == fs::file_size(b, unknown) && read_file(a) == read_file(b);
+    } catch (const std::exception&) {
         return false;
     }
 }
@@ -64,6 +98,8 @@ void WrittenFiles::add(const std::vector<fs::path>& files) {
         return;
     }
     try {
+        make_folder(place_.parent_path());
+        const WrittenLock lock(place_);
         hashes_ = read_written(place_); // another command may have added some meanwhile
         for (const fs::path& file : files) {
             if (const std::string name = lasting_path(file); !name.empty()) {
@@ -81,11 +117,10 @@ void WrittenFiles::add(const std::vector<fs::path>& files) {
         for (const auto& [name, hash] : hashes_) {
             json.push_back({{"file", name}, {"hash", hash}});
         }
-        make_folder(place_.parent_path());
         write_file(place_,
                    json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n",
                    Privacy::own);
-    } catch (const Error&) {
+    } catch (const std::exception&) {
         // Then they are set aside the next time.
     }
 }

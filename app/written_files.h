@@ -17,6 +17,8 @@ public:
 
     /// Whether `file` still has the bytes that a command wrote there last.
     [[nodiscard]] bool holds(const std::filesystem::path& file) const;
+    /// False for what cannot be read.
+    [[nodiscard]] static bool same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
     /// From now on, also for commands to come. What cannot be kept is forgotten.
     void add(const std::vector<std::filesystem::path>& files);
 

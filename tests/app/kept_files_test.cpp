@@ -59,6 +59,28 @@ TEST_F(KeptFiles, AProgramThatAPersonHasEditedIsKeptUnderAnotherName) {
     EXPECT_TRUE(drafts().empty());
 }
 
+TEST_F(KeptFiles, AFileThatAnOptionNamesIsKeptTooUnlessACommandHasWrittenItLast) {
+    const fs::path file = scratch / "in.ngc";
+    const fs::path made = scratch / "made.ngc";
+    write_content(file, "G21 G90 G17\nG1 X1 Y0 Z0 F100\nM2\n");
+    write_content(made, "by hand");
+    const std::vector<std::string> words{
+        "gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--out", made};
+    const Ended first = run(words);
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr("what was there is now in made-kept-1.ngc"));
+    EXPECT_EQ(content_of(scratch / "made-kept-1.ngc"), "by hand");
+    write_content(file, "G21 G90 G17\nG1 X2 Y0 Z0 F100\nM2\n");
+    EXPECT_THAT(run(words).err, Not(HasSubstr("kept")));
+    EXPECT_THAT(content_of(made), HasSubstr("X2"));
+    const std::string before = content_of(made) + "(by hand)\n";
+    write_content(made, before);
+    write_content(file, "nonsense");
+    EXPECT_NE(run(words).exit_code, 0);
+    EXPECT_EQ(content_of(made), before);
+    EXPECT_FALSE(fs::exists(scratch / "made-kept-2.ngc")) << "nothing was replaced";
+}
+
 TEST_F(KeptFiles, TwoAtOnceLeaveTheFilesOfOne) {
     const fs::path dome = small_project(scratch.path(), "dome");
     const fs::path bells = small_project(scratch.path(), "two-bell");
@@ -126,13 +148,7 @@ TEST_F(KeptFiles, StrangePathsAreErrorsAndNoInternalOnes) {
     fs::create_symlink("a", scratch / "b");
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"plan", (scratch / "a").string(), "--out", out.string()},
-             {"gcode",
-              "convert",
-              (scratch / "a").string(),
-              "--to",
-              "grbl",
-              "--out",
-              (scratch / "c").string()},
+             {"gcode", "check", (scratch / "a").string()},
              {"plan", "assets/projects/dome.json", "--out", (scratch / "a").string()},
              {"jobs", (scratch / "a").string()}}) {
         const Ended ended = run(words);
