@@ -48,6 +48,10 @@ public:
             }
         });
     }
+    [[nodiscard]] int visits() const {
+        const std::scoped_lock lock(mutex_);
+        return visits_;
+    }
     [[nodiscard]] std::string read() {
         const std::scoped_lock lock(mutex_);
         return std::exchange(received_, {});
@@ -87,6 +91,7 @@ private:
         const auto far_end = client_.remote_endpoint(ignored);
         {
             const std::scoped_lock lock(mutex_);
+            ++visits_;
             holder_ = fmt::format("{}:{}", far_end.address().to_string(), far_end.port());
         }
         read_more();
@@ -162,7 +167,8 @@ private:
     tcp::socket client_, visitor_;
     std::string waiting_, sending_;
     std::array<char, 4096> chunk_{};
-    mutable std::mutex mutex_; ///< guards holder_ and received_
+    mutable std::mutex mutex_; ///< guards holder_, received_ and visits_
+    int visits_ = 0;
     std::condition_variable changed_;
     std::string holder_, received_;
     std::jthread thread_; ///< last: ends before what it uses
@@ -178,6 +184,10 @@ std::uint16_t TcpServer::port() const {
 
 std::string TcpServer::holder() const {
     return listener_ ? listener_->holder() : std::string();
+}
+
+int TcpServer::visits() const {
+    return listener_ ? listener_->visits() : 0;
 }
 
 std::string TcpServer::name() const {
