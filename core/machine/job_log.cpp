@@ -85,7 +85,8 @@ LogStart start_from(const JsonValue& value) {
                        "planned_time_s",
                        "from_line",
                        "address",
-                       "options"});
+                       "options",
+                       "position_confirmed"});
     if (value.at("record").text() != "start" || value.at("format").text() != log_format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -116,6 +117,9 @@ LogStart start_from(const JsonValue& value) {
     }
     if (const auto options = value.find("options")) {
         start.options = options->text();
+    }
+    if (const auto confirmed = value.find("position_confirmed")) {
+        start.position_confirmed = confirmed->text();
     }
     if (const auto line = value.find("from_line")) {
         start.from_line = line->integer(1);
@@ -263,6 +267,9 @@ void JobLog::write(const LogStart& start) {
     }
     if (start.from_line > 1) {
         line["from_line"] = start.from_line;
+    }
+    if (!start.position_confirmed.empty()) {
+        line["position_confirmed"] = start.position_confirmed;
     }
     append(one_line(line));
 }

@@ -51,7 +51,10 @@ Permission position_ready(const Workbench& now, int from_line) {
                          "The machine does not tell where it stands: read it there, and enter it.")
                    : Permission{};
     }
-    const bool wrong = now.controller.connected() && from_line > 1 && !doubt.empty();
+    const bool wrong =
+        now.controller.connected() &&
+        (from_line > 1 ? !doubt.empty()
+                       : machine::needs_confirmation(now.controller.status, now.controller.offsets));
     return wrong ? Permission::refused(machine::doubt_sentence(doubt) +
                                        " Or say that it stands where the controller says.")
                  : Permission{};

@@ -195,22 +195,14 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
     if (now.job.running && now.job.report) {
         const machine::JobReport& report = *now.job.report;
-        const double fraction =
-            report.blocks > 0 ? static_cast<double>(report.driver.executed_blocks) / report.blocks : 0.0;
         ui.value("state", "State", machine::to_text(report.driver.state));
         const std::optional<double> left = job_time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
         ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
-        const bool told_late = report.driver.sent_blocks > report.driver.executed_blocks;
-        if (told_late) {
-            ui.value("sent", "Sent to it", fmt::format("{} blocks", report.driver.sent_blocks));
+        if (report.driver.sent_blocks > report.driver.executed_blocks) {
+            ui.value("sent", "Blocks sent", fmt::format("{}", report.driver.sent_blocks));
         }
-        if (ui.progress("progress",
-                        fmt::format("Block {} of {}{}",
-                                    report.driver.executed_blocks,
-                                    report.blocks,
-                                    told_late ? " for certain" : ""),
-                        fraction)) {
+        if (ui.progress("progress", report.progress_text(), report.fraction())) {
             ask.run("machine.stop");
         }
     } else if (now.job.outcome) {

@@ -53,6 +53,10 @@ public:
             }
         });
     }
+    [[nodiscard]] int visits() const {
+        const std::scoped_lock lock(mutex_);
+        return visits_;
+    }
     [[nodiscard]] std::string read() {
         const std::scoped_lock lock(mutex_);
         if (std::exchange(full_, false)) {
@@ -98,6 +102,7 @@ private:
         const auto far_end = client_.remote_endpoint(ignored);
         {
             const std::scoped_lock lock(mutex_);
+            ++visits_;
             holder_ = fmt::format("{}:{}", far_end.address().to_string(), far_end.port());
         }
         read_more();
@@ -177,7 +182,8 @@ private:
     tcp::socket client_, visitor_;
     std::string waiting_, sending_;
     std::array<char, 4096> chunk_{};
-    mutable std::mutex mutex_; ///< guards holder_, received_ and full_
+    mutable std::mutex mutex_; ///< guards holder_, received_, full_ and visits_
+    int visits_ = 0;
     std::condition_variable changed_;
     bool full_ = false; ///< nothing is read until what came is taken
     std::string holder_, received_;
@@ -194,6 +200,10 @@ std::uint16_t TcpServer::port() const {
 
 std::string TcpServer::holder() const {
     return listener_ ? listener_->holder() : std::string();
+}
+
+int TcpServer::visits() const {
+    return listener_ ? listener_->visits() : 0;
 }
 
 std::string TcpServer::name() const {
