@@ -13,6 +13,7 @@ public:
         count_ = count;
     }
     void forget() { idle_reports_ = 0; }
+    [[nodiscard]] bool is_disarmed() const { return count_ < 0.0; }
     /// One report may be older than what was sent last, and two may follow each other at once.
     [[nodiscard]] bool runs() const { return idle_reports_ < patience; }
 

@@ -75,6 +75,9 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     system_2_ = system->second;
     mark_ = *mark;
     guard_.see(*guard, armed_);
+    if (stage_ == Stage::alarm && !guard_.runs() && guard_.is_disarmed() && !any_power()) {
+        armed_ = false; // it has taken the power while we were not heard, which disarms it
+    }
     polled_ = true;
     unseen_ = false;
     polled_at_ = now;

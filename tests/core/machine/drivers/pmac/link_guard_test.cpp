@@ -202,6 +202,22 @@ TEST(PmacLinkGuardF2, WithoutItMotorsGetNoPowerAndItIsListed) {
     EXPECT_TRUE(wire.powered());
 }
 
+// It disarms itself when it fires, which is no fault of the guard.
+TEST(PmacLinkGuardF2, MotorsGetTheirPowerBackAtOnceAfterItHasFired) {
+    PmacWire wire;
+    wire.session.jog(jog_of(0, 80.0, 5.0), wire.now);
+    wire.pass(1.0);
+    wire.card.advance(1.0); // nobody is heard
+    EXPECT_FALSE(wire.powered());
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 1.0));
+    wire.pass(0.5);
+    wire.session.reset(wire.now);
+    EXPECT_EQ(refusal([&] { wire.session.enable(wire.now); }), "");
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.powered());
+    EXPECT_EQ(wire.state(), DriverState::idle);
+}
+
 // Nobody is heard while a buffer is open.
 TEST(PmacLinkGuardF2, NoBufferIsOpenedBehindALineThatMoves) {
     for (const std::vector<std::string>& lines :
