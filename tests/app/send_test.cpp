@@ -433,7 +433,7 @@ TEST_F(Send, ChecksTheTravelInTheModesThatTheControllerIsIn) {
     Emulator emulator(port, {"--eeprom", eeprom});
     const Ended inches = run(words());
     EXPECT_EQ(inches.exit_code, 1);
-    EXPECT_THAT(inches.err, HasSubstr("axis X would go from 0.000 mm to 254.000 mm"));
+    EXPECT_THAT(inches.err, HasSubstr("254.000 mm, and its whole travel is 200.000 mm"));
 }
 
 TEST_F(Send, SaysWhichAlarmEndedAHoming) {
@@ -455,6 +455,7 @@ TEST_F(Send, RefusesMistWhereGrblWasBuiltWithoutIt) {
         const Ended ended = run(words());
         EXPECT_EQ(ended.exit_code, 1);
         EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:2:1: this Grbl has no mist coolant, M7 (error 20)"));
+        (void)emulator.stop();
     }
     Emulator emulator(port, {"--speed", "20", "--mist"});
     EXPECT_EQ(run(words()).exit_code, 0);

@@ -322,7 +322,7 @@ private:
             if (points.error != error_code::none) {
                 return points.error;
             }
-            use("IJKR");
+            use(words_.has('R') ? "R" : "IJK"); // a centre beside a radius is of no use
             task.points = points.points;
         }
         result_.tasks.push_back(task);
