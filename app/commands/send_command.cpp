@@ -172,9 +172,7 @@ int send_motion(const SendOptions& options) {
         return job;
     };
     steps.ready = [] {};
-    steps.run = [&](const machine::Job& job) {
-        return machine.run(job, options.series.log, interrupt);
-    };
+    steps.run = [&](const machine::Job& job) { return machine.run(job, options.series.log, interrupt); };
     return run_series(options.series, steps, interrupt.token());
 }
 

@@ -182,7 +182,7 @@ void Session::end(bool fault, std::string message, double now) {
     ending_since_ = last_brake_ = now;
     rest_reports_ = 0;
     message_.clear(); // why it paused, or was found moving, is not why it stops
-    output_ = "!"; // whatever was to be sent is not sent any more
+    output_ = "!";    // whatever was to be sent is not sent any more
     next_poll_ = now;
 }
 
