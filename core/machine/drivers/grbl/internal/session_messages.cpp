@@ -103,7 +103,7 @@ void Session::doubt_what_was_found(const StatusMessage& report) {
     } else if (std::ranges::all_of(readout_.machine_position,
                                    [](double axis) { return exactly_equal(axis, 0.0); })) {
         constexpr bool known_loss = false; // where its zero was set since, all is well
-        doubt_.arise("Grbl stands at zero in all axes, as it does when it was switched on and not homed",
+        doubt_.arise("Grbl is at zero in all axes, as it is after it was switched on and not homed",
                      known_loss);
     }
 }
