@@ -13,7 +13,7 @@ namespace millwright {
 
 /// Bytes of the largest file that is read so: 50 million lines of G-code.
 inline constexpr std::size_t largest_snapshot = std::size_t{2} << 30U;
-/// The same of a device or a pipe, whose end nobody knows.
+/// The same of a device or a pipe, of unknown length.
 inline constexpr std::size_t largest_stream = std::size_t{256} << 20U;
 
 class FileSnapshot {

@@ -1,6 +1,7 @@
 #include "core/base/files.h"
 
 #include "core/base/error.h"
+#include "core/base/internal/write_all.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -101,15 +102,8 @@ void FileWriter::write(std::string_view bytes) {
     if (draft_) {
         return draft_->write(bytes);
     }
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(handle_, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) {
-            continue;
-        }
-        if (written < 0) {
-            fail();
-        }
-        bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (!internal::write_all(handle_, bytes)) {
+        fail();
     }
 }
 

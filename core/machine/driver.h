@@ -140,8 +140,8 @@ public:
     /// A person has read at the machine where it stands. Throws Error unless it is at rest, and where
     /// capabilities() says that it tells itself.
     virtual void stands_at(const kinematics::AxisPositions& position);
-    /// Something speaks against DriverStatus::position that the driver cannot know; `why` and `lost` as
-    /// DriverStatus::position_doubt and position_lost. Drivers whose position cannot be wrong unnoticed do
+    /// The caller has a reason to doubt DriverStatus::position that the driver cannot see; `why` and `lost`
+    /// as DriverStatus::position_doubt and position_lost. Drivers whose position cannot be wrong unnoticed do
     /// nothing.
     virtual void doubt_position(std::string why, bool lost);
     /// Stops and drops the link; waits until the machine is at rest. Never throws.

@@ -30,8 +30,21 @@ protected:
 
     ScratchFolder scratch;
     fs::path out = scratch / "out";
+    fs::path logs = scratch / "logs";
 
     [[nodiscard]] Ended plan(const fs::path& project) const { return run({"plan", project, "--out", out}); }
+    [[nodiscard]] Ended sent(const fs::path& file) const {
+        return run({"send",
+                    file,
+                    "--driver",
+                    "virtual",
+                    "--machine",
+                    "rotary-tilt-listing",
+                    "--speed",
+                    "0",
+                    "--log",
+                    logs});
+    }
     [[nodiscard]] std::vector<std::string> drafts() const {
         std::vector<std::string> found;
         for (const auto& entry : fs::directory_iterator(out)) {
@@ -168,45 +181,18 @@ TEST_F(KeptFiles, StrangePathsAreErrorsAndNoInternalOnes) {
 TEST_F(KeptFiles, AProgramOfTheLongestNameIsRunAndLogged) {
     const fs::path file = scratch / (std::string(250, 'n') + ".ngc");
     write_content(file, "G21 G90 F3000\nG1 X1\nM30\n");
-    const Ended ended = run({"send",
-                             file,
-                             "--driver",
-                             "virtual",
-                             "--machine",
-                             "rotary-tilt-listing",
-                             "--speed",
-                             "0",
-                             "--log",
-                             (scratch / "logs").string()});
+    const Ended ended = sent(file);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "logs"), {}), 1);
+    EXPECT_EQ(std::distance(fs::directory_iterator(logs), {}), 1);
 }
 
 TEST_F(KeptFiles, JobsPrintNoControlCharacters) {
     const fs::path file = scratch / "a\x1b[31m\x07.ngc";
     write_content(file, "G21 G90 F3000\nG1 X1\nG1 X999999\nM30\n");
-    (void)run({"send",
-               file,
-               "--driver",
-               "virtual",
-               "--machine",
-               "rotary-tilt-listing",
-               "--speed",
-               "0",
-               "--log",
-               (scratch / "logs").string()});
+    (void)sent(file);
     write_content(file, "G21 G90 F3000\nG1 X1\nM30\n");
-    (void)run({"send",
-               file,
-               "--driver",
-               "virtual",
-               "--machine",
-               "rotary-tilt-listing",
-               "--speed",
-               "0",
-               "--log",
-               (scratch / "logs").string()});
-    const Ended ended = run({"jobs", (scratch / "logs").string()});
+    (void)sent(file);
+    const Ended ended = run({"jobs", logs});
     EXPECT_THAT(ended.out, HasSubstr("\\x1b[31m\\x07"));
     EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("\x1b")), Not(HasSubstr("\x07"))));
 }

@@ -19,7 +19,7 @@ struct KnownFile {
 
 struct Document {
     std::filesystem::path file;            ///< empty for a project never saved
-    project::Project saved;                ///< as it stands on disk, or as it was made
+    project::Project saved;                ///< as it is on disk, or as it was made
     std::string hash = {};                 ///< of `file`, as in KnownFile
     std::optional<KnownFile> program = {}; ///< where the program was written last; nothing: nowhere yet
 

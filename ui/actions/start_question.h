@@ -21,7 +21,7 @@ struct StartWish {
     std::shared_ptr<const machine::Job> job;    ///< never null
     std::optional<machine::QueuedJobId> queued; ///< nothing: the program that is shown
     std::string machine;                        ///< "grbl at /dev/ttyACM0"
-    machine::SurveySettings survey;             ///< from where it stands, with its offsets
+    machine::SurveySettings survey;             ///< from its present position, with its offsets
     machine::MachineLimits limits;
 };
 

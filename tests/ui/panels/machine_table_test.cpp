@@ -123,7 +123,7 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
 TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     connect();
     test::press_run(person);
-    // Within a row: between two of them the table has answered, and where it stands is known.
+    // Within a row: between two rows the table has answered, and its position is known.
     ASSERT_TRUE(person.live_until(
         [&] {
             const machine::DriverStatus status = now().controller.status;

@@ -161,7 +161,7 @@ bool names_guard(std::string_view list) {
     do {
         const auto first = take_index(list);
         if (!first) {
-            return true; // an expression, or nothing: nobody knows
+            return true; // an expression, or nothing: the value is unknown
         }
         int last = *first;
         if (list.starts_with("..")) {

@@ -189,7 +189,8 @@ void PmacSession::watch_stopping() {
         }
     } else if (quiet_polls_ >= 2 && armed_ && !stays_armed_) {
         rest();
-    } else if (quiet_polls_ >= 2) {
+    } else if (quiet_polls_ >= 2 &&
+               queue_.empty()) { // the link may be dropped then, and the guard is disarmed
         if (armed_) {
             rest();
         }

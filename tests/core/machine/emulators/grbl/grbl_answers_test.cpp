@@ -1,9 +1,9 @@
 // The emulated Grbl and the reader of Grbl's dialect against the answers of the firmware itself.
 #include "tests/core/machine/emulators/grbl/grbl_answers.h"
 
-#include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
+#include "tests/core/machine/emulators/grbl/last_target.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -64,22 +64,6 @@ TEST(GrblAnswers, TheEmulatedControllerAnswersAsTheFirmware) {
     }
 }
 
-class LastTarget final : public gcode::CanonSink {
-public:
-    void move(const gcode::Move& move, const gcode::SourceLine&) override {
-        at = frame_.to_machine(move.target);
-    }
-    void curve(const gcode::Curve&, const gcode::SourceLine&) override {}
-    void command(const gcode::Command& command, const gcode::SourceLine&) override {
-        frame_.command(command);
-    }
-
-    gcode::AxisValues at;
-
-private:
-    gcode::CanonFrame frame_;
-};
-
 /// As $G says it.
 std::string modes_text(const gcode::ModalState& state) {
     using gcode::SpindleTurning;
@@ -111,7 +95,7 @@ TEST(GrblAnswers, TheReaderTakesAndRefusesTheSameLines) {
         SCOPED_TRACE(known.line);
         gcode::ReaderSettings settings;
         settings.dialect = gcode::Dialect::grbl;
-        LastTarget ends;
+        test::LastTarget ends;
         gcode::Interpreter reader(known.line, "line.nc", settings, ends);
         reader.run();
         ASSERT_EQ(reader.errors().empty(), known.error == 0)
