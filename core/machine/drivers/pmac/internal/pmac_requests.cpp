@@ -136,7 +136,8 @@ void PmacSession::halt() {
         forget_queue();
         ask(every_motor("J/"));
         finish(Stage::stopping);
-    } else if (stage_ == Stage::commanding || stage_ == Stage::astir || (rests() && (armed_ || !queue_.empty()))) {
+    } else if (stage_ == Stage::commanding || stage_ == Stage::astir ||
+               (rests() && (armed_ || !queue_.empty()))) {
         command_lines_.clear();
         finish(Stage::stopping);
         unbraked_ = true; // the next report tells what the command set going

@@ -268,6 +268,19 @@ TEST(PmacLinkGuardF2, ThatStaysArmedIsDisarmedBeforeTheLinkIsDropped) {
     EXPECT_EQ(wire.card.variable('P', 1001), 0.0);
 }
 
+// Whoever leaves as soon as a command is done leaves while the disarming is still to be sent.
+TEST(PmacLinkGuardF2, IsDisarmedBeforeTheLinkIsDroppedJustAfterACommand) {
+    for (int later = 0; later < 60; ++later) { // steps of 2 ms
+        PmacWire wire({}, true, "XYZA", {}, {}, nullptr, Parting::keeps_power);
+        (void)wire.session.command({"#1J/"}, false);
+        ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 5.0));
+        wire.pass(0.002 * later);
+        wire.leave();
+        wire.card.advance(1.0);
+        EXPECT_TRUE(wire.powered()) << later;
+    }
+}
+
 /// How long the motors keep their power after the last word, s.
 double power_after_the_last_word(const std::string& setup) {
     PmacWire wire({}, true, "XYZA", {}, setup);
