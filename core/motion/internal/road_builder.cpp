@@ -238,16 +238,19 @@ void RoadBuilder::add_move(const Block& block,
 /// The last move ends at rest.
 void RoadBuilder::stop() {
     if (open_) {
-        limit_last_up_to(way_);
+        limit_last_up_to_rounding(0.0);
         limit_corner(0.0);
         open_ = false;
     }
 }
 
-void RoadBuilder::limit_last_up_to(double end) {
-    if (end > limited_to_) {
-        limit_up_to(end, last_->speed, last_->speed_cause, last_->acceleration, last_->acceleration_cause);
+void RoadBuilder::limit_last_up_to_rounding(double d) {
+    const double straight = last_->length - segment_of(*last_).rounding_start - d;
+    if (!(straight > 0.0)) { // by the lengths of the move: places along the way are rounded
+        return;
     }
+    const double end = std::max(limited_to_, way_ - d);
+    limit_up_to(end, last_->speed, last_->speed_cause, last_->acceleration, last_->acceleration_cause);
     add_feed(*last_, way_ - last_->length, end);
 }
 
@@ -298,7 +301,7 @@ void RoadBuilder::meet(const Leg& next, const AxisPositions& position) {
         const double acceleration = std::min(last.path_acceleration, next.path_acceleration);
         return round({position, last.direction, next.direction, acceleration}, next, tolerance);
     }
-    limit_last_up_to(way_);
+    limit_last_up_to_rounding(0.0);
     const double speed = corner_speed(machine_, settings_, last, next);
     if (speed < std::min(last.speed, next.speed)) {
         limit_corner(speed);
@@ -313,7 +316,7 @@ void RoadBuilder::round(const Corner& corner, const Leg& next, double tolerance)
     segment_of(last).rounding_end = segment_of(next).rounding_start = d;
     segment_of(last).after = next.block;
     segment_of(next).before = last.block;
-    limit_last_up_to(std::max(limited_to_, way_ - d));
+    limit_last_up_to_rounding(d);
     const auto [before, after] = feeds_of_halves(machine_, last, next, d);
     limit_half(corner, d, way_, last.rapid ? top : std::min(top, highest_override * before));
     limit_half(corner, d, way_ + d, next.rapid ? top : std::min(top, highest_override * after));

@@ -100,7 +100,7 @@ private:
                   const kinematics::AxisPositions& after,
                   double path_acceleration);
     void stop();
-    void limit_last_up_to(double end);
+    void limit_last_up_to_rounding(double d); ///< which begins `d` before its end; 0: there is none
     void limit_up_to(double end, double speed, Cause by, double acceleration, Cause acceleration_by);
     void limit_corner(double speed);
     void add_feed(const Leg& leg, double start, double end);
