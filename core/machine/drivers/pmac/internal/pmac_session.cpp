@@ -51,6 +51,7 @@ void PmacSession::opened(double now) {
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
+    typed_.clear();
 }
 
 void PmacSession::lost(const std::string& why) {
@@ -232,7 +233,8 @@ void PmacSession::ask_something(double now) {
     tell(true, is_ours(sent_->kind) ? ConsoleKind::query : ConsoleKind::line, sent_->line);
     // Jogs that are renewed leave no time for reports.
     const bool lively = sent_->kind == Kind::step && stage_ == Stage::jogging;
-    talk_.send(addressed ? sign_of_life + addresses_ + sent_->line
+    // A number behind the addresses would be read as a part of the last one.
+    talk_.send(addressed ? sign_of_life + addresses_ + (sets_p0(sent_->line) ? "P0=" : "") + sent_->line
                : lively  ? std::string(sign_of_life) + " " + sent_->line
                          : sent_->line,
                may_repeat(sent_->kind),

@@ -9,6 +9,7 @@
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "core/machine/drivers/pmac/internal/motor_readings.h"
 #include "core/machine/drivers/pmac/internal/steady_speed.h"
+#include "core/machine/drivers/pmac/internal/typed_buffer.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
 
 #include <cstdint>
@@ -58,11 +59,14 @@ public:
     void stop_jog(double now) override;
     /// Lines of a file of settings. Throws Error while a motor has power.
     int load(const std::vector<std::string>& lines);
-    /// Lines of on-line commands; `all`: also those behind a refused one. While motors move, only lines that
-    /// ask or stop, which during a program, a jog and homing do what stop() does; taking power away is an
-    /// alarm then. Throws Error for anything else, and for jogs without an end
-    /// and open loops. In an alarm only variables are set.
-    int command(const std::vector<std::string>& lines, bool all);
+    /// Lines of on-line commands; `all`: also those behind a refused one. Without `all` lines of a buffer
+    /// that is not closed yet are kept, and sent with its CLOSE. While motors move, only lines that ask or
+    /// stop, which during a program, a jog and homing do what stop() does; taking power away is an alarm
+    /// then. Throws Error for anything else, and for jogs without an end and open loops. In an alarm only
+    /// variables are set.
+    int command(const std::vector<std::string>& typed, bool all);
+    /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
+    [[nodiscard]] const std::vector<std::string>& kept_lines() const { return typed_.kept(); }
     void set_overrides(const Overrides& wanted) override;
     /// Closes the loops of the motors where they stand: the one way back from a kill.
     void enable(double now);
@@ -282,6 +286,7 @@ private:
     bool jog_stopping_ = false;
     Overrides overrides_;
 
+    TypedBuffer typed_;
     std::deque<std::string> command_lines_;
     bool command_goes_on_ = false;
     bool command_refused_ = false;   ///< a line of it, and it went on
