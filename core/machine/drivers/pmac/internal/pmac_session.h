@@ -100,7 +100,20 @@ private:
         parting, ///< killed, and that has to be seen before the link is dropped
         alarm
     };
-    enum class Kind { greet, poll, rating, reading, watch, jog_speeds, step, run, program, command, address };
+    enum class Kind {
+        greet,
+        poll,
+        rating,
+        reading,
+        watch,
+        jog_speeds,
+        step,
+        run,
+        program,
+        command,
+        address,
+        definitions ///< of the axes of all motors, after a run was refused
+    };
 
     struct Request {
         std::string line;
@@ -131,6 +144,7 @@ private:
     void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind, 0}); }
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
+    [[nodiscard]] std::string loop_advice(const std::vector<std::string>& definitions) const;
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
     [[nodiscard]] static std::string asked(const Request& request);
     void next_command();
@@ -254,7 +268,8 @@ private:
     double mark_ = 0.0; ///< P1000, which programs and the watchdog set
 
     int program_lines_ = 0, executed_ = 0;
-    bool marks_tell_ = false; ///< lines are executed in their order
+    std::string run_refusal_{}; ///< until the card has told whose loop is open
+    bool marks_tell_ = false;   ///< lines are executed in their order
     bool held_ = false;
     bool armed_ = false;       ///< the watchdog in the card
     bool stays_armed_ = false; ///< at rest, too: something in the card may begin motion that nobody sends
