@@ -103,6 +103,13 @@ public:
         return is_done(answer) && file.left_out == 0;
     }
 
+    /// Throws Error for a buffer without CLOSE, of which nothing was sent.
+    void expect_closed() const {
+        if (const auto kept = driver_->kept_lines(); !kept.empty()) {
+            throw Error(fmt::format("'{}' has no CLOSE: nothing of it was sent", kept.front()));
+        }
+    }
+
     /// Whether the motors are known to be as they were to be left.
     bool part() {
         const auto driver = std::exchange(driver_, nullptr);
@@ -111,7 +118,8 @@ public:
 
     bool say(const std::string& command) {
         const machine::CommandAnswer answer = answer_to(driver_->command(command));
-        if (answer.text != driver_->status().message) { // which is told as the error
+        const bool is_kept = is_done(answer) && !driver_->kept_lines().empty();
+        if (!is_kept && answer.text != driver_->status().message) { // which is told as the error
             print(answer, answer.text);
         }
         wait_for_rest();
@@ -182,6 +190,7 @@ int talk(const PmacOptions& options) {
     for (const std::string& command : options.commands) {
         done = done && card.say(command);
     }
+    card.expect_closed();
     done = card.part() && done;
     return done ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/discrete_minimiser.h"
 #include "core/grid/grid_promise.h"
@@ -202,7 +203,8 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
     at_.state.now = at_.state.start;
     at_.state.of_best = at_.state.start;
     at_.round_start_error = at_.state.start.mean;
-    at_.state.warning = warning_of(weight_.get(), start_, start_name);
+    at_.weight_warning = warning_of(weight_.get(), start_, start_name);
+    at_.state.warning = at_.weight_warning;
     at_.state.note = "Start: " + mean_sentence(at_.state.start);
 }
 
@@ -298,12 +300,15 @@ std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) con
                                   .boundary = settings_.boundary};
     if (at.round_weight == nullptr) {
         at.round_weight = weight_of_round(at);
-        if (at.state.warning.empty()) { // else it was counted on the start grid, which a person knows
-            at.state.warning =
+        if (at.weight_warning.empty()) { // else it was counted on the start grid, which a person knows
+            at.weight_warning =
                 warning_of(at.round_weight.get(),
                            at.round_start,
                            at.state.round == 0 ? std::string(start_name)
                                                : "grid of round " + std::to_string(at.state.round + 1));
+            if (!at.weight_warning.empty()) {
+                at.state.warning = with_sentence(std::move(at.state.warning), at.weight_warning);
+            }
         }
     }
     NodeArray nodes = to_solver_coordinates(at.round_start.array());
@@ -404,7 +409,11 @@ void EllipticAdaptation::fall(Position& at, SolverStatus failure) const {
     }
     ++at.falls;
     at.functional.adaptation *= fall_of_adaptation;
-    at.state.note = "Started again with LV = " + shortest(at.functional.adaptation) + ": " + what;
+    const std::string used = shortest(at.functional.adaptation);
+    at.state.note = "Started again with LV = " + used + ": " + what;
+    at.state.warning = with_sentence(at.weight_warning,
+                                     "LV = " + used + " was used in place of " +
+                                         shortest(settings_.functional.adaptation) + ": " + what + ".");
 }
 
 void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {

@@ -104,6 +104,7 @@ private:
         double widest_gap = std::numeric_limits<double>::infinity(); ///< mm on the surface
         FunctionalWeights functional{};
         int falls = 0;
+        std::string weight_warning{};                    ///< as ImproverState::warning, of the weight alone
         int iterations_before = 0;                       ///< done before the solver started
         ImproverStatus ending = ImproverStatus::running; ///< how it will end, once confirmed
     };

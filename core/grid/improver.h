@@ -43,7 +43,7 @@ struct ImproverState {
     ErrorSummary now{};     ///< of the last complete grid
     ErrorSummary of_best{}; ///< of `best`
     std::string note{};     ///< one sentence: what was just done, or why it ended
-    std::string warning{};  ///< a sentence about the weight; empty: nothing is wrong with it
+    std::string warning{};  ///< sentences: a weight that makes no sense, settings that could not be kept
     double done = 0.0;      ///< of the whole way, 0 to 1, never falling; 1 at the end only
     std::vector<ImproverLink> links{}; ///< that are done; of the whole chain only
 };

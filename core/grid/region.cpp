@@ -16,11 +16,23 @@ constexpr int region_raster =
     129; // places a side: a cell of the field is finer than a border that people draw
 constexpr int chords_a_side = 16; // of the outline on the surface
 
+bool on_edge(const Vec2& a, const Vec2& b, const Vec2& p) {
+    constexpr double rounding = 1e-9; // of a parameter
+    const Vec2 way = b - a;
+    const double length = way.squaredNorm();
+    const double along = length > 0.0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0.0;
+    return (a + along * way - p).squaredNorm() <= rounding * rounding;
+}
+
+/// What lies on the outline is inside, on whichever side.
 bool inside_outline(const std::vector<Vec2>& outline, const Vec2& p) {
     bool in = false;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2& a = outline[k];
         const Vec2& b = outline[(k + 1) % outline.size()];
+        if (on_edge(a, b, p)) {
+            return true;
+        }
         if ((a.y() > p.y()) != (b.y() > p.y()) &&
             p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
             in = !in;

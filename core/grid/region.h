@@ -10,8 +10,8 @@
 
 namespace millwright::grid {
 
-/// A polygon over the parameters, closed from its last corner to its first; what lies inside by the even-odd
-/// rule, so that it may cross itself. Without corners it is the whole surface.
+/// A polygon over the parameters, closed from its last corner to its first; what lies on it, and inside by
+/// the even-odd rule, so that it may cross itself. Without corners it is the whole surface.
 struct Region {
     std::vector<Vec2> outline;
     double border_mm = 5.0; ///< on the surface, outside of the outline, over which the adaptation fades; >= 0

@@ -26,8 +26,8 @@ struct GridOutcome {
     /// Of the moves inside tracks: distance to the surface curve between the nodes, as the improver measured
     /// it at its start and for `grid`. Nothing for the uniform grid.
     std::optional<grid::ErrorSummary> start_by_curve = {}, by_curve = {};
-    std::string note = {};    ///< one sentence; empty for the uniform grid
-    std::string warning = {}; ///< about the weight that it was to be made by; empty: nothing is wrong
+    std::string note = {};                      ///< one sentence; empty for the uniform grid
+    std::string warning = {};                   ///< as grid::ImproverState::warning
     std::vector<grid::ImproverLink> links = {}; ///< of the whole chain
 };
 

@@ -241,12 +241,31 @@ void expect_memory(GridMethod method, const GridInput& input) {
     }
 }
 
+/// Throws Error for a solver that needs more nodes than the grid has.
+void expect_enough_nodes(GridMethod method, const GridInput& input) {
+    const grid::EllipticMethod solver = input.elliptic.solver;
+    const bool has_stencil =
+        solver == grid::EllipticMethod::reference || solver == grid::EllipticMethod::multigrid;
+    constexpr int fewest = 3;
+    if (method == GridMethod::elliptic && has_stencil && std::min(input.nu, input.nv) < fewest) {
+        throw Error(fmt::format("the solver \"{}\" needs {} x {} nodes at least, and the grid has {} x {}",
+                                row_of(elliptic_solvers(), solver).label,
+                                fewest,
+                                fewest,
+                                input.nu,
+                                input.nv),
+                    {},
+                    "take more nodes, or the minimiser (grid/elliptic/solver)");
+    }
+}
+
 std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                   const GridInput& input,
                                                   const toolpath::KinematicError& error,
                                                   Effort effort) {
     expects(method != GridMethod::uniform, "the uniform grid is not improved");
     expect_memory(method, input);
+    expect_enough_nodes(method, input);
     if (method == GridMethod::elliptic || method == GridMethod::harmonic) {
         return make_adaptation(method, input, error);
     }

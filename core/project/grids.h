@@ -61,7 +61,7 @@ memory_fault(GridMethod method, const GridInput& input, const std::optional<std:
 void expect_memory(GridMethod method, const GridInput& input);
 
 /// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
-/// an expression of the settings has no sense, and as expect_memory().
+/// an expression of the settings has no sense or the solver needs more nodes, and as expect_memory().
 [[nodiscard]] std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                                 const GridInput& input,
                                                                 const toolpath::KinematicError& error,

@@ -53,6 +53,19 @@ TEST_F(Pmac, AnswersCommands) {
     EXPECT_EQ(reset.out, "");
 }
 
+TEST_F(Pmac, FillsABufferWithSeparateArguments) {
+    Emulator emulator(port, {}, "pmac");
+    const Ended filled =
+        run({"pmac", "OPEN PLC 5", "CLEAR", "P20=7", "CLOSE", "LIST PLC 5", "5", "P0", "--port", port});
+    EXPECT_EQ(filled.exit_code, 0) << filled.err;
+    EXPECT_THAT(filled.out, testing::StartsWith("P20=7\n"));
+    EXPECT_THAT(filled.out, testing::EndsWith("\n5\n"));
+    const Ended open = run({"pmac", "OPEN PLC 5", "CLEAR", "--port", port});
+    EXPECT_EQ(open.exit_code, 1);
+    EXPECT_THAT(open.err, HasSubstr("'OPEN PLC 5' has no CLOSE: nothing of it was sent"));
+    EXPECT_THAT(run({"pmac", "LIST PLC 5", "--port", port}).out, testing::StartsWith("P20=7\n"));
+}
+
 TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     write_content(scratch / "pmac.ini", "I100=1\nI125=$13C000\nI111=0\nI130=701\nNONSENSE\nI131=795");
     Emulator emulator(port, {}, "pmac");

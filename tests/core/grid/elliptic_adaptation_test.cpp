@@ -179,6 +179,7 @@ TEST(EllipticAdaptation, LessensTheAdaptationWhenTheReferenceSolverFolds) {
     const ImproverState state = run(adaptation, Progress());
     EXPECT_NE(state.status, ImproverStatus::folded);
     EXPECT_EQ(adaptation.adaptation(), 10.0);
+    EXPECT_EQ(state.warning, "LV = 10 was used in place of 100: a cell folded at LV = 100.");
 }
 
 TEST(EllipticAdaptation, GivesUpAsFoldedWhenNothingElseHelps) {

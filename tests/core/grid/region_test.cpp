@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,6 +54,22 @@ TEST(Region, WithoutABorderItEndsAtItsOutline) {
     const Field share = share_of(sharp, plane());
     EXPECT_EQ(share.at({0.74, 0.5}), 1.0);
     EXPECT_EQ(share.at({0.77, 0.5}), 0.0);
+}
+
+TEST(Region, HasAllOfItsOutline) {
+    Region whole{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}, 0.0};
+    for (const bool reversed : {false, true}) {
+        const Field share = share_of(whole, plane());
+        EXPECT_EQ(std::ranges::min(share.values), 1.0) << reversed;
+        std::ranges::reverse(whole.outline);
+    }
+    Region inner = square;
+    inner.border_mm = 0.0;
+    const Field share = share_of(inner, plane());
+    for (const Vec2& on :
+         {Vec2(0.25, 0.5), Vec2(0.75, 0.5), Vec2(0.5, 0.25), Vec2(0.5, 0.75), Vec2(0.75, 0.75)}) {
+        EXPECT_EQ(share.at(on), 1.0) << on.transpose();
+    }
 }
 
 TEST(Region, TwoCornersEncloseNothing) {

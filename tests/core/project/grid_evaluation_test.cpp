@@ -5,8 +5,12 @@
 #include "core/project/grids.h"
 #include "tests/support/machines.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
 
 namespace millwright::project {
 namespace {
@@ -100,6 +104,41 @@ TEST(GridEvaluation, AddedPointsMakeNoTracksWorse) {
         EXPECT_EQ(added,
                   made.found.outcome.note.find("that the sequencing added between them.") !=
                       std::string::npos);
+    }
+}
+
+/// What was made, or the refusal; a Defect is neither.
+std::string made_or_refused(GridMethod method, const GridInput& input) {
+    const Workpiece workpiece{geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
+                              test::machine("rotary-tilt-listing"),
+                              input.direction};
+    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
+    try {
+        (void)improved_evaluation({method, input, workpiece}, uniform, {});
+        return "made";
+    } catch (const Error& refusal) {
+        return refusal.diagnostic().message;
+    }
+}
+
+TEST(GridEvaluation, TwoNodesAlongASideAreEnoughOrRefused) {
+    for (const auto& [nu, nv] : {std::pair(2, 2), std::pair(2, 5), std::pair(5, 2)}) {
+        GridInput input;
+        input.nu = nu;
+        input.nv = nv;
+        input.elliptic.max_iterations = 20;
+        input.elliptic.max_rounds = 1;
+        for (const GridMethod method : every_grid_method) {
+            if (method != GridMethod::uniform) {
+                EXPECT_EQ(made_or_refused(method, input), "made") << nu << " x " << nv;
+            }
+        }
+        for (const auto solver : {grid::EllipticMethod::reference, grid::EllipticMethod::multigrid}) {
+            input.elliptic.solver = solver;
+            EXPECT_THAT(made_or_refused(GridMethod::elliptic, input),
+                        testing::EndsWith(
+                            fmt::format("needs 3 x 3 nodes at least, and the grid has {} x {}", nu, nv)));
+        }
     }
 }
 

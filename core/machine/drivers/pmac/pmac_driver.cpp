@@ -104,6 +104,11 @@ int PmacDriver::command(const std::string& lines) {
     return talk().command(nonempty_lines(lines), false);
 }
 
+std::vector<std::string> PmacDriver::kept_lines() const {
+    const std::scoped_lock lock(session_mutex());
+    return talk().kept_lines();
+}
+
 bool PmacDriver::needs_rest(const std::string& lines) {
     const std::vector<std::string> all = nonempty_lines(lines);
     return !std::all_of(all.begin(), all.end(), pmac::only_asks) &&

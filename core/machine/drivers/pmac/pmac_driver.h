@@ -34,9 +34,12 @@ public:
     [[nodiscard]] MachineLimits limits() const override;
     /// The listing's lines are those of a motion program, without OPEN and CLOSE.
     void start(Work work) override;
-    /// On-line commands, and buffers from OPEN to CLOSE. Throws Error for jogs without an end (J+), and while
-    /// motors move for lines that need rest.
+    /// On-line commands, and buffers from OPEN to CLOSE, which may come in several calls: their lines are
+    /// sent with CLOSE. Throws Error for jogs without an end (J+), and while motors move for lines that need
+    /// rest.
     int command(const std::string& lines) override;
+    /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
+    [[nodiscard]] std::vector<std::string> kept_lines() const;
     /// Whether `lines` are more than questions and stops.
     [[nodiscard]] static bool needs_rest(const std::string& lines);
     int load(const std::vector<std::string>& lines) override;

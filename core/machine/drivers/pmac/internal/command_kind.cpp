@@ -42,6 +42,11 @@ bool jogs_without_end(std::string_view line) {
     return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), jog);
 }
 
+bool sets_p0(std::string_view line) {
+    static const std::regex number(R"( *[-+]?([0-9]+\.?[0-9]*|\.[0-9]+) *)");
+    return is(line, number);
+}
+
 bool only_sets(std::string_view line) {
     static const std::regex settings(
         " *([IPQM][0-9]+ *= *[-+]?[$0-9.][0-9A-F.]* *)+| *M[0-9]+ *-> *[*A-Z0-9:$,]+ *", std::regex::icase);

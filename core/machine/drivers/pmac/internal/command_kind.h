@@ -22,6 +22,9 @@ namespace millwright::machine::pmac {
 
 /// Whether `line` has a jog without an end (`J+`, `J-`), which runs until somebody thinks of stopping it.
 [[nodiscard]] bool jogs_without_end(std::string_view line);
+/// Whether `line` is a number alone, which the card stores in P0.
+[[nodiscard]] bool sets_p0(std::string_view line);
+
 /// Whether `line` sets variables to numbers, or defines one, and does nothing else: `I130=2000`.
 [[nodiscard]] bool only_sets(std::string_view line);
 

@@ -20,6 +20,11 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
         if (!plain || line.empty() || line.size() > longest) {
             throw Error(fmt::format("a command is plain text of 1 to {} characters", longest));
         }
+        if (!sets_p0(line) && (line.front() == '.' || (line.front() >= '0' && line.front() <= '9'))) {
+            throw Error(fmt::format("'{}' begins with a number, and is more than that", line),
+                        {},
+                        "a number alone sets P0; anything else begins with a letter, # or &");
+        }
         if (line.front() == '^') {
             throw Error(fmt::format("'{}' means a control character, which has no place in a line", line),
                         {},
@@ -164,8 +169,21 @@ int PmacSession::load(const std::vector<std::string>& lines) {
     return command(lines, true);
 }
 
-int PmacSession::command(const std::vector<std::string>& lines, bool all) {
-    check_command(lines);
+int PmacSession::command(const std::vector<std::string>& typed, bool all) {
+    check_command(typed);
+    const bool only_kept = !all && answer_.state != CommandAnswer::State::pending && typed_.keeps(typed);
+    if (only_kept) {
+        const std::size_t count = typed_.kept().size() - 1;
+        answer_ = {answer_.number + 1,
+                   CommandAnswer::State::done,
+                   fmt::format("{}: {} {} kept until CLOSE",
+                               typed_.kept().front(),
+                               count,
+                               count == 1 ? "line is" : "lines are")};
+        tell(false, ConsoleKind::report, answer_.text);
+        return answer_.number;
+    }
+    const std::vector<std::string> lines = all ? typed : typed_.completed(typed);
     check_goals(lines);
     check_buffers(lines);
     if (stopped_by_command(lines) || brakes_instead(lines)) {
@@ -188,6 +206,7 @@ int PmacSession::command(const std::vector<std::string>& lines, bool all) {
         finish(Stage::commanding);
     }
     begin_command(lines, all);
+    typed_.sent(typed);
     return answer_.number;
 }
 

@@ -21,7 +21,8 @@ constexpr double poll_interval = 0.02;    // s
 constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
 constexpr int most_tries = 3;             // of a line that moves, each after a look at the card
 constexpr char repeats_or_not = '\x14';   // ^T
-constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
+constexpr int most_motors = 8;
+constexpr double greeting_pause = 0.1; // s: an answer in whatever mode the card is in
 
 bool starts_with_word(const std::string& line, std::string_view word) {
     std::string tight;
@@ -51,6 +52,7 @@ void PmacSession::opened(double now) {
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
+    typed_.clear();
 }
 
 void PmacSession::lost(const std::string& why) {
@@ -92,7 +94,8 @@ void PmacSession::tell(bool sent, ConsoleKind kind, std::string text) {
 /// Whether a request comes from the driver alone, so often that a person does not want to read it.
 bool PmacSession::is_ours(Kind kind) {
     return kind == Kind::poll || kind == Kind::reading || kind == Kind::rating || kind == Kind::address ||
-           kind == Kind::watch || kind == Kind::jog_speeds || kind == Kind::greet;
+           kind == Kind::watch || kind == Kind::jog_speeds || kind == Kind::greet ||
+           kind == Kind::definitions;
 }
 
 /// What moves nothing, and lines of a buffer, which a card that was reset refuses.
@@ -232,7 +235,8 @@ void PmacSession::ask_something(double now) {
     tell(true, is_ours(sent_->kind) ? ConsoleKind::query : ConsoleKind::line, sent_->line);
     // Jogs that are renewed leave no time for reports.
     const bool lively = sent_->kind == Kind::step && stage_ == Stage::jogging;
-    talk_.send(addressed ? sign_of_life + addresses_ + sent_->line
+    // A number behind the addresses would be read as a part of the last one.
+    talk_.send(addressed ? sign_of_life + addresses_ + (sets_p0(sent_->line) ? "P0=" : "") + sent_->line
                : lively  ? std::string(sign_of_life) + " " + sent_->line
                          : sent_->line,
                may_repeat(sent_->kind),
@@ -323,6 +327,9 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         }
         next_command();
         break;
+    case Kind::definitions:
+        finish(Stage::ready, run_refusal_ + loop_advice(lines));
+        break;
     case Kind::run:
         stage_ = stage_ == Stage::loading ? Stage::running : stage_;
         break;
@@ -371,6 +378,16 @@ void PmacSession::refused(const Request& request, int error) {
         }
         return;
     }
+    constexpr int loop_is_open = 12;
+    if (request.kind == Kind::run && error == loop_is_open && stage_ == Stage::loading) {
+        run_refusal_ = why;
+        std::string question = fmt::format("&{}", settings_.system);
+        for (int motor = 1; motor <= most_motors; ++motor) {
+            question += fmt::format("#{}->", motor);
+        }
+        ask(std::move(question), Kind::definitions);
+        return;
+    }
     if (request.kind == Kind::program || stage_ == Stage::loading) {
         queue_.clear();
         ask("CLOSE");
@@ -378,6 +395,31 @@ void PmacSession::refused(const Request& request, int error) {
         return;
     }
     fail(why);
+}
+
+/// Whose loop is open, and what helps, where a program was refused for that. `definitions`: of the axes of
+/// motors 1 to 8 in our coordinate system.
+std::string PmacSession::loop_advice(const std::vector<std::string>& definitions) const {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (!motors_[n].enabled()) {
+            return fmt::format(
+                "; motor {} ({}) has no power: give the motors power", settings_.axes[n].motor, name_of(n));
+        }
+    }
+    std::string others;
+    for (std::size_t n = 0; n < definitions.size(); ++n) {
+        const int motor = static_cast<int>(n) + 1;
+        if (definitions[n] != "0" && std::ranges::count(settings_.axes, motor, &PmacAxis::motor) == 0) {
+            others += fmt::format("{}motor {} ({})", others.empty() ? "" : ", ", motor, definitions[n]);
+        }
+    }
+    return others.empty()
+               ? std::string()
+               : fmt::format("; the card's settings give coordinate system {} also {}, which is not "
+                             "driven here: connect with its axis (\"Axis 5\", --axes XYZAB), or load "
+                             "settings without it",
+                             settings_.system,
+                             others);
 }
 
 void PmacSession::next_command() {

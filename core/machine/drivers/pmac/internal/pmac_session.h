@@ -9,6 +9,7 @@
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "core/machine/drivers/pmac/internal/motor_readings.h"
 #include "core/machine/drivers/pmac/internal/steady_speed.h"
+#include "core/machine/drivers/pmac/internal/typed_buffer.h"
 #include "core/machine/drivers/pmac/pmac_settings.h"
 
 #include <cstdint>
@@ -58,11 +59,14 @@ public:
     void stop_jog(double now) override;
     /// Lines of a file of settings. Throws Error while a motor has power.
     int load(const std::vector<std::string>& lines);
-    /// Lines of on-line commands; `all`: also those behind a refused one. While motors move, only lines that
-    /// ask or stop, which during a program, a jog and homing do what stop() does; taking power away is an
-    /// alarm then. Throws Error for anything else, and for jogs without an end
-    /// and open loops. In an alarm only variables are set.
-    int command(const std::vector<std::string>& lines, bool all);
+    /// Lines of on-line commands; `all`: also those behind a refused one. Without `all` lines of a buffer
+    /// that is not closed yet are kept, and sent with its CLOSE. While motors move, only lines that ask or
+    /// stop, which during a program, a jog and homing do what stop() does; taking power away is an alarm
+    /// then. Throws Error for anything else, and for jogs without an end and open loops. In an alarm only
+    /// variables are set.
+    int command(const std::vector<std::string>& typed, bool all);
+    /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
+    [[nodiscard]] const std::vector<std::string>& kept_lines() const { return typed_.kept(); }
     void set_overrides(const Overrides& wanted) override;
     /// Closes the loops of the motors where they stand: the one way back from a kill.
     void enable(double now);
@@ -96,7 +100,20 @@ private:
         parting, ///< killed, and that has to be seen before the link is dropped
         alarm
     };
-    enum class Kind { greet, poll, rating, reading, watch, jog_speeds, step, run, program, command, address };
+    enum class Kind {
+        greet,
+        poll,
+        rating,
+        reading,
+        watch,
+        jog_speeds,
+        step,
+        run,
+        program,
+        command,
+        address,
+        definitions ///< of the axes of all motors, after a run was refused
+    };
 
     struct Request {
         std::string line;
@@ -127,6 +144,7 @@ private:
     void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind, 0}); }
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
+    [[nodiscard]] std::string loop_advice(const std::vector<std::string>& definitions) const;
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
     [[nodiscard]] static std::string asked(const Request& request);
     void next_command();
@@ -250,7 +268,8 @@ private:
     double mark_ = 0.0; ///< P1000, which programs and the watchdog set
 
     int program_lines_ = 0, executed_ = 0;
-    bool marks_tell_ = false; ///< lines are executed in their order
+    std::string run_refusal_{}; ///< until the card has told whose loop is open
+    bool marks_tell_ = false;   ///< lines are executed in their order
     bool held_ = false;
     bool armed_ = false;       ///< the watchdog in the card
     bool stays_armed_ = false; ///< at rest, too: something in the card may begin motion that nobody sends
@@ -282,6 +301,7 @@ private:
     bool jog_stopping_ = false;
     Overrides overrides_;
 
+    TypedBuffer typed_;
     std::deque<std::string> command_lines_;
     bool command_goes_on_ = false;
     bool command_refused_ = false;   ///< a line of it, and it went on

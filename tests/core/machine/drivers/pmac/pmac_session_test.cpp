@@ -1,4 +1,6 @@
 // The driver against the emulated card: P1, P8, F2 to F4, in computed time.
+#include "core/base/files.h"
+#include "core/machine/drivers/pmac/pmac_file.h"
 #include "tests/core/machine/drivers/pmac/pmac_wire.h"
 
 #include <gmock/gmock.h>
@@ -60,6 +62,23 @@ TEST(PmacSession, ALinkThatIsLostBeforeTheCardAnsweredIsToldAsThatAlone) {
     const auto why = session.stranger();
     ASSERT_TRUE(why);
     EXPECT_EQ(to_text(*why), "the port is held by another client, 127.0.0.1:5");
+}
+
+// Loaded with settings of five axes, and connected with four.
+TEST(PmacSession, AProgramThatAnOpenLoopRefusesNamesItsMotor) {
+    std::string axis_5;
+    const std::string sample = "assets/samples/pmac-axis-5.ini";
+    for (const auto& line : read_pmac_file(read_file(sample), sample).lines) {
+        axis_5 += line.text + "\n";
+    }
+    PmacWire wire({}, true, "XYZA", {}, axis_5);
+    ASSERT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    wire.session.start(program_one, wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() != DriverState::running; }, 10.0));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("ERR012, a motor's loop is open; "));
+    EXPECT_THAT(wire.session.status().message,
+                HasSubstr("also motor 5 (71.1111B), which is not driven here"));
+    EXPECT_EQ(wire.card.command(1), 0.0);
 }
 
 TEST(PmacSession, KnowsNoPositionBeforeHoming) {

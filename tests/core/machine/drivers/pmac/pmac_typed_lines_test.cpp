@@ -36,6 +36,44 @@ TEST(PmacTypedLines, TakesCommandsAndTellsTheCardsErrors) {
     EXPECT_NE(refusal([&] { (void)wire.session.command({"J\x01+"}, false); }), "");
 }
 
+TEST(PmacTypedLines, FillABufferLineByLine) {
+    PmacWire wire;
+    const auto ask = [&](const std::string& line) {
+        (void)wire.session.command({line}, false);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 3.0));
+        return wire.session.status().answer;
+    };
+    EXPECT_EQ(ask("OPEN PLC 5").text, "OPEN PLC 5: 0 lines are kept until CLOSE");
+    (void)ask("CLEAR");
+    EXPECT_EQ(ask("P20=P20+1").text, "OPEN PLC 5: 2 lines are kept until CLOSE");
+    EXPECT_EQ(ask("#1P").text, "0") << "a question is answered at once";
+    EXPECT_NE(refusal([&] { (void)wire.session.command({"I5=0"}, false); }), "");
+    EXPECT_EQ(ask("LIST PLC 5").text, "OPEN PLC 5: 3 lines are kept until CLOSE");
+    (void)ask("OPEN PLC 5"); // anew
+    for (const char* const line : {"CLEAR", "P20=P20+1", "DISABLE PLC 5"}) {
+        EXPECT_EQ(ask(line).state, CommandAnswer::State::done) << line;
+    }
+    EXPECT_EQ(wire.card.variable('P', 20), 0.0) << "nothing is sent before CLOSE";
+    EXPECT_EQ(ask("CLOSE").state, CommandAnswer::State::done);
+    EXPECT_TRUE(wire.session.kept_lines().empty());
+    EXPECT_THAT(ask("LIST PLC 5").text, HasSubstr("P20=P20+1"));
+    (void)ask("ENABLE PLC 5");
+    EXPECT_TRUE(wire.run_until([&] { return wire.card.variable('P', 20) > 0.0; }, 3.0));
+}
+
+// Behind the addresses it was read as a part of the last one.
+TEST(PmacTypedLines, ANumberAloneSetsP0) {
+    PmacWire wire;
+    for (const auto& [line, value] : {std::pair("5", 5.0), std::pair("-2.5", -2.5), std::pair(".5", 0.5)}) {
+        (void)wire.session.command({line}, false);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 3.0));
+        EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done) << line;
+        EXPECT_EQ(wire.card.variable('P', 0), value);
+    }
+    EXPECT_THAT(refusal([&] { (void)wire.session.command({"5P"}, false); }),
+                HasSubstr("begins with a number"));
+}
+
 bool line_is_answered(PmacWire& wire) {
     return wire.run_until([&] { return wire.session.status().answer.state != CommandAnswer::State::pending; },
                           3.0);
