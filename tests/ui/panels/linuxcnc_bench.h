@@ -17,13 +17,15 @@ namespace millwright::test {
 /// Begins in its emergency stop.
 class LinuxCncBench {
 public:
-    explicit LinuxCncBench(const std::string& machine_id = "router-xyz") {
+    /// `homed`: begins switched on and homed, else in its emergency stop.
+    explicit LinuxCncBench(const std::string& machine_id = "router-xyz", bool homed = false) {
         auto listener = std::make_unique<machine::TcpServer>(0);
         listener->open();
         port_ = listener->port();
         std::vector<std::unique_ptr<machine::Link>> links;
         links.push_back(std::move(listener));
         machine::LinuxCncEmulatorOptions options;
+        options.homed = homed;
         options.model = std::make_shared<const kinematics::MachineModel>(machine(machine_id));
         server_ = std::make_unique<machine::EmulatorServer>(
             std::move(links), clock_, std::make_unique<machine::LinuxCncEmulator>(std::move(options)));
