@@ -128,13 +128,13 @@ private:
     void expect_all_named(const Block& block) const {
         for (int n = 0; n < machine_.axis_count(); ++n) {
             if (!named_.contains(n) || block.programmed_speed) {
-                throw Error(
-                    Diagnostic{{{}, block.source_line, 0, -1},
-                               fmt::format("{} is told where the tool's tip is, and the program has not "
-                                           "said where {} is when it begins to move",
-                                           format_.name,
-                                           machine_.axis(n).letter),
-                               "begin with rapids that name all axes of the machine"});
+                throw Error(fmt::format("line {}: {} takes positions of the tool's tip, and the program has "
+                                        "not said where {} is when it begins to move",
+                                        block.source_line,
+                                        format_.name,
+                                        machine_.axis(n).letter),
+                            {},
+                            "begin with one rapid that names all axes of the machine");
             }
         }
     }
