@@ -323,14 +323,14 @@ private:
         const int pieces = pieces_within(block, tip_tolerance_);
         const AxisPositions step = (block.target - here()) / pieces;
         if (const double off = deviation(here(), here() + step); off > tip_tolerance_) {
-            throw Error(
-                Diagnostic{{{}, block.source_line, 0, -1},
-                           fmt::format("in {} pieces the tip still leaves the way of straight axes by "
-                                       "{:.4f} mm, more than {:.4f}",
-                                       pieces,
-                                       off,
-                                       tip_tolerance_),
-                           "take a greater tolerance"});
+            throw Error(fmt::format("line {}: in {} pieces the tip still leaves the way of straight axes by "
+                                    "{:.4f} mm, more than {:.4f}",
+                                    block.source_line,
+                                    pieces,
+                                    off,
+                                    tip_tolerance_),
+                        {},
+                        "take a greater tolerance");
         }
         return pieces;
     }
