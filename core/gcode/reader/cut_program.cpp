@@ -135,6 +135,15 @@ CutProgram made_of(MachineProgram read,
         made.notices.insert(made.notices.begin(), found->begin(), found->end());
     }
     made.unplaced = read.unplaced;
+    if (!(made.spindle_rpm > 0.0) && read.first_rpm > 0.0) {
+        made.spindle_rpm = read.first_rpm;
+        made.notices.push_back(
+            {{file},
+             fmt::format("the program sets a spindle speed, {:g} 1/min, and never switches "
+                         "the spindle on (M3): here it is on",
+                         read.first_rpm),
+             {}});
+    }
     if (made.strokes.empty()) {
         throw Error(made.safe_height
                         ? fmt::format("there is nothing to cut in it below z {:.3f} mm", *made.safe_height)
