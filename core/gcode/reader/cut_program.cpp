@@ -103,6 +103,7 @@ ReaderSettings reader_settings(const CutProgramSettings& settings) {
     ReaderSettings reading;
     reading.tools = settings.tools.value_or(ToolTable());
     reading.any_tool = !settings.tools;
+    reading.may_lack_end = true;
     reading.block_delete = settings.block_delete;
     reading.parameters = settings.parameters;
     if (settings.origin) {
@@ -166,6 +167,10 @@ read_by(const Begin& begin, const std::filesystem::path& file, const CutProgramS
     throw_first(interpreter.errors());
     CutProgram made = made_of(sink.take(), sink, file, settings);
     made.lines = interpreter.line_count();
+    if (interpreter.lacks_end()) {
+        made.notices.push_back(
+            {{file}, "the program does not end with M2, M30 or %: it is read to its last line", {}});
+    }
     return made;
 }
 
