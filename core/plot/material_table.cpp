@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace millwright::plot {
 
@@ -15,7 +17,6 @@ namespace {
 constexpr double mm_an_inch = 25.4;
 constexpr double minute = 60.0;
 constexpr double edges = 2.0;
-constexpr double depth_part = 0.5;        // of the tool's diameter
 constexpr double plunge_part = 1.0 / 3.0; // of the feed
 
 } // namespace
@@ -37,7 +38,7 @@ CuttingValues Material::values(double tool_diameter) const {
     }
     values.feed.value = edges * load * values.spindle_rpm.value / minute;
     values.plunge.value = plunge_part * values.feed.value;
-    values.depth_per_pass.value = depth_part * tool_diameter;
+    values.depth_per_pass.value = depth_part_ * tool_diameter;
     return values;
 }
 
@@ -78,16 +79,25 @@ private:
         Material material;
         material.name_ = value.at("name").text();
         material.kind_ = value.at("kind").text();
-        if (material.kind_ != "wood" && material.kind_ != "plastic") {
-            value.at("kind").fail("neither wood nor plastic");
+        constexpr std::array<std::string_view, 4> kinds{"wood", "plastic", "metal", "rubber"};
+        if (std::ranges::find(kinds, material.kind_) == kinds.end()) {
+            value.at("kind").fail("none of wood, plastic, metal and rubber");
         }
         material.given_ = usual_;
         return material;
     }
 
     [[nodiscard]] Material charted(const JsonValue& value) const {
-        value.expect_only({"name", "kind", "chip_load_in"});
+        value.expect_only({"name", "kind", "chip_load_in", "chip_load_source", "depth"});
         Material material = named(value);
+        if (const auto source = value.find("chip_load_source")) {
+            material.given_.feed.source = source->text();
+        }
+        if (const auto depth = value.find("depth")) {
+            const Sourced part = sourced(*depth, 1.0);
+            material.depth_part_ = part.value;
+            material.given_.depth_per_pass.source = part.source;
+        }
         const auto diameters = root_.at("diameters_in").items();
         const auto loads = value.at("chip_load_in").items(diameters.size());
         double last = 0.0;

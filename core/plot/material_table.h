@@ -27,7 +27,7 @@ struct CuttingValues {
 class Material {
 public:
     [[nodiscard]] const std::string& name() const { return name_; }
-    [[nodiscard]] const std::string& kind() const { return kind_; } ///< "wood" or "plastic"
+    [[nodiscard]] const std::string& kind() const { return kind_; } ///< "wood", "plastic", "metal", "rubber"
 
     /// For an end mill of two edges: the feed is edges x turns x chip load. The chip load of a diameter
     /// between those of the chart is taken straight between them, of a thinner tool in proportion, of a
@@ -44,6 +44,7 @@ private:
 
     std::string name_, kind_;
     std::vector<ChipLoad> chip_loads_; ///< by ascending diameter; empty: the values are fixed
+    double depth_part_ = 0.5;          ///< of the tool's diameter, in one pass
     CuttingValues given_;              ///< with every source; feed, plunge and depth where they are fixed
 };
 

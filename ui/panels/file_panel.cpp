@@ -97,12 +97,17 @@ std::string first_name(const Workbench& now, const AskedFile& asked) {
     if (!asked.first.empty()) {
         return std::string(asked.first);
     }
+    constexpr std::string_view project = ".millwright"; // by which a desktop knows the file
     if (now.document.file.empty()) {
-        return now.project.name + std::string(asked.ending);
+        const std::string_view kind = asked.question == FileQuestion::save_as ? project : "";
+        return now.project.name + std::string(kind) + std::string(asked.ending);
     }
-    return asked.question == FileQuestion::write_program
-               ? now.document.file.filename().replace_extension(asked.ending).string()
-               : now.document.file.filename().string();
+    if (asked.question != FileQuestion::write_program) {
+        return now.document.file.filename().string();
+    }
+    fs::path name = now.document.file.stem();
+    name = name.extension() == project ? name.stem() : name;
+    return name.string() + std::string(asked.ending);
 }
 
 } // namespace

@@ -103,6 +103,7 @@ ReaderSettings reader_settings(const CutProgramSettings& settings) {
     ReaderSettings reading;
     reading.tools = settings.tools.value_or(ToolTable());
     reading.any_tool = !settings.tools;
+    reading.may_lack_end = true;
     reading.block_delete = settings.block_delete;
     reading.parameters = settings.parameters;
     if (settings.origin) {
@@ -135,6 +136,15 @@ CutProgram made_of(MachineProgram read,
         made.notices.insert(made.notices.begin(), found->begin(), found->end());
     }
     made.unplaced = read.unplaced;
+    if (!(made.spindle_rpm > 0.0) && read.first_rpm > 0.0) {
+        made.spindle_rpm = read.first_rpm;
+        made.notices.push_back(
+            {{file},
+             fmt::format("the program sets a spindle speed, {:g} 1/min, and never switches "
+                         "the spindle on (M3): here it is on",
+                         read.first_rpm),
+             {}});
+    }
     if (made.strokes.empty()) {
         throw Error(made.safe_height
                         ? fmt::format("there is nothing to cut in it below z {:.3f} mm", *made.safe_height)
@@ -157,6 +167,10 @@ read_by(const Begin& begin, const std::filesystem::path& file, const CutProgramS
     throw_first(interpreter.errors());
     CutProgram made = made_of(sink.take(), sink, file, settings);
     made.lines = interpreter.line_count();
+    if (interpreter.lacks_end()) {
+        made.notices.push_back(
+            {{file}, "the program does not end with M2, M30 or %: it is read to its last line", {}});
+    }
     return made;
 }
 

@@ -6,6 +6,7 @@
 #include "core/gcode/reader/internal/expression.h"
 #include "core/gcode/reader/internal/grbl_words.h"
 #include "core/gcode/reader/internal/held_moves.h"
+#include "core/gcode/reader/internal/machine_codes.h"
 #include "core/gcode/reader/internal/number.h"
 #include "core/gcode/reader/internal/o_line.h"
 #include "core/gcode/reader/internal/offsets.h"
@@ -99,7 +100,8 @@ struct Interpreter::Parts {
     std::int64_t further_errors = 0;
     bool started = false;
     bool stopped = false;
-    bool seen_text = false;   ///< a line that is not blank
+    bool seen_text = false; ///< a line that is not blank
+    bool lacks_end = false;
     bool end_refused = false; ///< there is an end, in a line with something wrong
     bool watching_turns = false;
 };
@@ -249,7 +251,11 @@ void Interpreter::Parts::end_of_text() {
             internal::refuse(1, "there is nothing in the program");
         }
         if (!is_grbl() && !end_refused) {
-            internal::refuse(1, "the program does not end: M2, M30 or % is missing");
+            if (!settings.may_lack_end) {
+                internal::refuse(1, "the program does not end: M2, M30 or % is missing");
+            }
+            lacks_end = true;
+            internal::end_program(run, false);
         }
     } catch (const Refusal& refusal) {
         report(files.place(), refusal);
@@ -401,6 +407,10 @@ double Interpreter::parameter(int number) const {
 
 SourcePlace Interpreter::place() const {
     return parts_->run.out.place();
+}
+
+bool Interpreter::lacks_end() const {
+    return parts_->lacks_end;
 }
 
 int Interpreter::line_count() const {

@@ -44,6 +44,8 @@ public:
     /// How many lines of the program were come to.
     [[nodiscard]] int line_count() const;
     [[nodiscard]] const std::vector<Diagnostic>& errors() const;
+    /// The text ended without M2, M30 or %, see ReaderSettings::may_lack_end.
+    [[nodiscard]] bool lacks_end() const;
     /// How many errors came behind those, see ReaderSettings::read_on.
     [[nodiscard]] std::int64_t further_errors() const;
 

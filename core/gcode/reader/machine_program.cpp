@@ -121,6 +121,7 @@ public:
             break;
         case CommandKind::set_spindle_speed:
             rpm_ = command.value;
+            result_.first_rpm = result_.first_rpm > 0.0 ? result_.first_rpm : std::abs(rpm_);
             break;
         case CommandKind::start_spindle_clockwise:
             add(BlockKind::spindle_on, command.source).spindle_rpm = rpm_;

@@ -25,8 +25,9 @@ struct ReaderSettings {
     std::vector<std::filesystem::path> subroutine_folders;
     /// M codes above 199 that the machine's configuration defines; each comes as user_command.
     std::vector<int> remapped_m;
-    int most_errors = 1;  ///< reading stops behind so many
-    bool read_on = false; ///< it does not; the errors behind them are only counted
+    bool may_lack_end = false; ///< without M2, M30 or % the program ends with its last line
+    int most_errors = 1;       ///< reading stops behind so many
+    bool read_on = false;      ///< it does not; the errors behind them are only counted
     /// Lines that may be executed again (loops, subroutines) before the program is taken for an endless one.
     std::int64_t most_repeated_lines = 10'000'000;
     /// A canned cycle with a tiny step or a huge count would never end.

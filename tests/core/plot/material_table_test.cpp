@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 namespace millwright::plot {
 namespace {
@@ -37,18 +39,24 @@ TEST(MaterialTable, FeedsAreChipLoadsTimesEdgesTimesTurns) {
 }
 
 TEST(MaterialTable, NamesTheSourceOfEachValue) {
-    bool wood = false;
-    bool plastic = false;
+    std::set<std::string> kinds;
     for (const Material& each : shipped()) {
         const CuttingValues values = each.values(3.0);
         for (const Sourced& value : {values.feed, values.plunge, values.depth_per_pass, values.spindle_rpm}) {
             EXPECT_GT(value.value, 0.0) << each.name();
             EXPECT_GT(value.source.size(), 8U) << each.name();
         }
-        wood = wood || each.kind() == "wood";
-        plastic = plastic || each.kind() == "plastic";
+        kinds.insert(each.kind());
     }
-    EXPECT_TRUE(wood && plastic);
+    EXPECT_THAT(kinds, testing::ElementsAre("metal", "plastic", "rubber", "wood"));
+}
+
+// 0.005 in x 2 edges x 10,000 a minute = 100 in/min.
+TEST(MaterialTable, AluminiumIsCutInThinnerPasses) {
+    const CuttingValues values = material(shipped(), "Aluminium").values(6.35);
+    EXPECT_NEAR(values.feed.value, 100.0 * 25.4 / 60.0, 1e-9);
+    EXPECT_NEAR(values.depth_per_pass.value, 0.635, 1e-9);
+    EXPECT_THAT(values.depth_per_pass.source, HasSubstr("a tenth"));
 }
 
 TEST(MaterialTable, HasTheFeedThatExplainsTheTimesOfTheThesis) {

@@ -197,7 +197,8 @@ void execute_user_code(Run& run, const Block& block, int code) {
     run.out.post(user);
 }
 
-/// What M2 and M30 leave behind.
+} // namespace
+
 void end_program(Run& run, bool shuttle) {
     ModalState& s = run.state;
     reset_coordinate_system(run);
@@ -233,8 +234,6 @@ void end_program(Run& run, bool shuttle) {
     run.out.send(CommandKind::program_end);
     run.ended = true;
 }
-
-} // namespace
 
 int Run::row_of_tool(int number) {
     constexpr std::size_t most_tools = 10'000;

@@ -208,6 +208,27 @@ TEST(CutPrograms, CompensationNeedsTheToolsDiameter) {
     EXPECT_EQ(read_cut(text, settings).strokes[0].points[1], Vec2(10, 2));
 }
 
+// It was cut with another speed, and the notice said that the program named none.
+TEST(CutPrograms, ASpindleThatIsOnlySetTurnsAtThatSpeed) {
+    const CutProgram program = read_cut("S1500\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX5\nM2\n");
+    EXPECT_EQ(program.spindle_rpm, 1500.0);
+    ASSERT_EQ(program.notices.size(), 1U);
+    EXPECT_EQ(program.notices[0].message,
+              "the program sets a spindle speed, 1500 1/min, and never switches the spindle on (M3): here it "
+              "is on");
+    EXPECT_EQ(read_cut("S1500\nG0 X0 Y0 Z5\nS2000 M3\nG1 Z-1 F60\nX5\nM2\n").spindle_rpm, 2000.0);
+}
+
+TEST(CutPrograms, AProgramWithoutAnEndIsReadToItsLastLine) {
+    const CutProgram program = read_cut("S1500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX5");
+    ASSERT_EQ(program.strokes.size(), 1U);
+    EXPECT_EQ(program.strokes[0].points.back(), Vec2(5, 0));
+    ASSERT_EQ(program.notices.size(), 1U);
+    EXPECT_EQ(program.notices[0].message,
+              "the program does not end with M2, M30 or %: it is read to its last line");
+    EXPECT_THAT(cut_refusal("%\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX5\n").message, HasSubstr("begins with %"));
+}
+
 TEST(CutPrograms, WhatAPathHasNoRecordOfIsToldOnce) {
     const CutProgram program =
         read_cut("S8000 M3\nM8\nG0 X0 Y0 Z5\nG4 P2\nG1 Z-1 F60\nG4 P0.5\nX5\nM0\nM2\n");

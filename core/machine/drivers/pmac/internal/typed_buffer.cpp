@@ -24,7 +24,8 @@ bool leave_open(const std::vector<std::string>& lines, bool open) {
 } // namespace
 
 bool TypedBuffer::keeps(const std::vector<std::string>& lines) {
-    if (acts_at_once(lines) || !leave_open(lines, !kept_.empty())) {
+    const bool begins = kept_.empty() && !opens_buffer(lines.front()); // with what acts at once
+    if (begins || acts_at_once(lines) || !leave_open(lines, !kept_.empty())) {
         return false;
     }
     if (opens_buffer(lines.front())) {

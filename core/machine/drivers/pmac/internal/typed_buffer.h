@@ -9,8 +9,8 @@ namespace millwright::machine::pmac {
 
 class TypedBuffer {
 public:
-    /// Keeps `lines` where they leave a buffer open, or one is open already and they do not close it. Lines
-    /// that only ask, stop or kill are never kept. Another OPEN begins anew.
+    /// Keeps `lines` where they begin with OPEN and leave the buffer open, or one is open already and they do
+    /// not close it. Lines that only ask, stop or kill are never kept. Another OPEN begins anew.
     [[nodiscard]] bool keeps(const std::vector<std::string>& lines);
     /// What is to be sent now in place of `lines`, which were not kept.
     [[nodiscard]] std::vector<std::string> completed(const std::vector<std::string>& lines) const;
