@@ -197,6 +197,22 @@ MachineRun machine_run(const GcodeOptions& options) {
     return {std::move(machine), std::move(found)};
 }
 
+/// Whose lines are those of `file`.
+PostedText posted_from(const std::string& file,
+                       const gcode::Program& program,
+                       const kinematics::MachineModel& machine,
+                       const PostChoice& post) {
+    try {
+        return posted(program, machine, post, std::filesystem::path(file).stem().string());
+    } catch (const Error& error) {
+        Diagnostic found = error.diagnostic();
+        if (found.place.line > 0 && found.place.file.empty()) {
+            found.place.file = file;
+        }
+        throw Error(std::move(found));
+    }
+}
+
 /// For another control.
 int convert_gcode(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
@@ -208,8 +224,7 @@ int convert_gcode(const GcodeOptions& options) {
     if (run.found.start_notice) {
         fmt::print(stderr, "warning: {}\n", to_text(*run.found.start_notice));
     }
-    const std::string name = std::filesystem::path(options.file).stem().string();
-    const PostedText result = posted(run.found.program, run.machine, options.post, name);
+    const PostedText result = posted_from(options.file, run.found.program, run.machine, options.post);
     print_notes(result);
     const std::string& text = result.text.listing.text;
     if (options.out.empty()) {

@@ -102,9 +102,14 @@ public:
             append(std::move(block), false);
         } else {
             if (!machine_.rotary_axes().empty()) {
+                if (block.kind == BlockKind::rapid && !(named_ == all_)) {
+                    before_ = block.target; // until all are named: the text begins with a retract anyway
+                    return;
+                }
                 expect_all_named(block);
                 block.named = all_; // whatever turns, the tip's three coordinates change
             }
+            before_.reset();
             add_for_tip(std::move(block));
         }
     }
@@ -121,20 +126,22 @@ private:
     AxisPositions meant_; ///< where the last move ended before it was rounded
     bool tip_ = false;
     bool moved_ = false;
-    AxisSet named_;          ///< so far: where these are is known
-    bool retracted_ = false; ///< in machine positions
+    AxisSet named_;                       ///< so far: where these are is known
+    std::optional<AxisPositions> before_; ///< the place that the first move of the tip is relative to
+    bool retracted_ = false;              ///< in machine positions
+    bool from_anywhere_ = false;          ///< the tip goes to its first place
 
     /// The tip is where all axes are.
     void expect_all_named(const Block& block) const {
         for (int n = 0; n < machine_.axis_count(); ++n) {
             if (!named_.contains(n) || block.programmed_speed) {
-                throw Error(fmt::format("line {}: {} takes positions of the tool's tip, and the program has "
-                                        "not said where {} is when it begins to move",
-                                        block.source_line,
-                                        format_.name,
-                                        machine_.axis(n).letter),
-                            {},
-                            "begin with one rapid that names all axes of the machine");
+                throw Error(
+                    Diagnostic{{{}, block.source_line, 0, -1},
+                               fmt::format("{} takes positions of the tool's tip, and the program has "
+                                           "not said where {} is when it begins to move",
+                                           format_.name,
+                                           machine_.axis(n).letter),
+                               "begin with rapids that name all axes of the machine"});
             }
         }
     }
@@ -202,10 +209,11 @@ private:
         return internal::written(machine_, positions, digits_, result_.program.block_count());
     }
 
-    /// Axes without a word stay where the text has left them.
+    /// Axes without a word stay where the text, or a rapid before it, has left them.
     [[nodiscard]] AxisPositions with_named(AxisPositions target, const AxisSet& named) const {
+        const AxisPositions from = before_.value_or(here());
         for (int n = 0; n < machine_.axis_count(); ++n) {
-            target[n] = named.contains(n) ? target[n] : here()[n];
+            target[n] = named.contains(n) ? target[n] : from[n];
         }
         return target;
     }
@@ -241,7 +249,8 @@ private:
             switch_tip_on(block);
         }
         if (block.kind == BlockKind::rapid) {
-            const int pieces = pieces_within(block, format_.tip->rapid_tolerance);
+            const bool whole = std::exchange(from_anywhere_, false);
+            const int pieces = whole ? 1 : pieces_within(block, format_.tip->rapid_tolerance);
             cut(std::move(block), pieces);
         } else {
             const int pieces = tip_tolerance_ > 0.0 ? pieces_of_feed(block) : 1;
@@ -277,6 +286,7 @@ private:
 
     /// A program of somebody else's need not begin with it.
     void retract(Block entry) {
+        from_anywhere_ = true;
         entry.named = AxisSet::only(retract_axis(machine_).axis);
         entry.target = rounded(retracted(machine_, here(), {}));
         append(std::move(entry), false);
@@ -323,14 +333,14 @@ private:
         const int pieces = pieces_within(block, tip_tolerance_);
         const AxisPositions step = (block.target - here()) / pieces;
         if (const double off = deviation(here(), here() + step); off > tip_tolerance_) {
-            throw Error(fmt::format("line {}: in {} pieces the tip still leaves the way of straight axes by "
-                                    "{:.4f} mm, more than {:.4f}",
-                                    block.source_line,
-                                    pieces,
-                                    off,
-                                    tip_tolerance_),
-                        {},
-                        "take a greater tolerance");
+            throw Error(
+                Diagnostic{{{}, block.source_line, 0, -1},
+                           fmt::format("in {} pieces the tip still leaves the way of straight axes by "
+                                       "{:.4f} mm, more than {:.4f}",
+                                       pieces,
+                                       off,
+                                       tip_tolerance_),
+                           "take a greater tolerance"});
         }
         return pieces;
     }
