@@ -47,7 +47,26 @@ nlohmann::ordered_json job_json(const machine::JobStory& story) {
             {"sentence", story.sentence}};
 }
 
+/// Of a plot that the window played there is no command.
+void say_how_it_is_played_again(const LogStart& start) {
+    if (start.options.empty()) {
+        fmt::print(
+            "    Look at the table and the part. It is played again from its beginning: open {} in the "
+            "workbench.\n",
+            start.project);
+        return;
+    }
+    fmt::print("    Look at the table and the part. It is played again from its beginning alone:\n"
+               "    millwright plot play {}{} {}\n",
+               shell_word(start.project),
+               start.address.empty() ? "" : " --port " + shell_word(start.address),
+               start.options);
+}
+
 void say_how_it_goes_on(const machine::JobStory& story) {
+    if (story.start.driver == "points") {
+        return say_how_it_is_played_again(story.start);
+    }
     const machine::WayOn way = machine::way_on(story);
     const bool from_line = way.why_the_beginning.empty();
     const LogStart& start = story.start;

@@ -177,7 +177,9 @@ private:
         last_.message = status.message;
     }
 
-    [[nodiscard]] double planned_time() const { return trajectory_ ? trajectory_->duration() : 0.0; }
+    [[nodiscard]] double planned_time() const {
+        return trajectory_ ? trajectory_->duration() : job_.points ? job_.points->duration() : 0.0;
+    }
 
     /// How far a controller that follows its own plan would be in ours.
     [[nodiscard]] double time_of_executed() const {
@@ -316,13 +318,18 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     if (text_alone && !able.plans) {
         throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
     }
+    if ((job.points != nullptr) != able.points) {
+        throw Error(fmt::format(
+            "the {} driver {}", driver_.name(), able.points ? "plays points alone" : "plays no points"));
+    }
     internal::Reach reach = check(job, able, before);
     std::shared_ptr<const motion::Trajectory> trajectory;
-    if (!text_alone) {
+    if (!text_alone && !job.points) {
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
             *job.program, *job.machine, job.planner, progress.part(0.0, planning), before.position));
     }
 
+    progress.check(); // before there is a log that would have no end
     JobLog log(log_folder_, job.name);
     log.write(LogStart{.job = job.name,
                        .project = lasting_name(job.project),
@@ -333,13 +340,14 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .address = driver_.address(),
                        .axes = text_alone ? able.axes : job.program->axes,
                        .blocks = job.block_count(),
-                       .planned_time = trajectory ? trajectory->duration() : 0.0,
+                       .planned_time = trajectory   ? trajectory->duration()
+                                       : job.points ? job.points->duration()
+                                                    : 0.0,
                        .options = job.options,
                        .from_line = job.from_line});
-    progress.check();
     Watch watch(*this, job, log, trajectory, before, std::move(reach));
     try {
-        Work work{job.program, trajectory, job.listing, {}};
+        Work work{job.program, trajectory, job.listing, {}, job.points};
         if (able.piecewise) {
             work.ahead = watch.ahead();
         }

@@ -172,6 +172,7 @@ private:
     [[nodiscard]] bool changed() const { return !(history_.current() == document().saved); }
     void begin(project::Project other, const std::string& title, Document document);
     void look_at_another();
+    void play_again(const machine::JobStory& story);
     void open_gcode(const std::filesystem::path& file);
     void follow_file();
     void follow_received();

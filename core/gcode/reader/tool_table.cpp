@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 
 #include <fmt/format.h>
 
@@ -134,6 +135,7 @@ Tool& ToolTable::at_row(int row) {
 ToolTable parse_tool_table(std::string_view text, const std::filesystem::path& file) {
     ToolTable table;
     int number = 0;
+    text = without_byte_order_mark(text);
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         read_line(table, {line, line, ++number, &file});

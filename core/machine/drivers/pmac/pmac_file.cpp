@@ -1,5 +1,7 @@
 #include "core/machine/drivers/pmac/pmac_file.h"
 
+#include "core/base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -213,6 +215,7 @@ private:
 namespace {
 
 PmacFile read(std::string_view text, Reader reader) {
+    text = without_byte_order_mark(text);
     for (int line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         reader.take(text.substr(0, end), line);
