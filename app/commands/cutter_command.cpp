@@ -48,8 +48,9 @@ void print_cutter_summary(const project::Plan& plan, const project::Project& pro
                                 : "as far apart as the scallop allows",
                project.tool.scallop_mm,
                std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm" : std::string("no gap"));
-    fmt::print("deepest cut below the surface: {} mm; estimated time {}\n",
+    fmt::print("deepest cut below the surface: {} mm ({}); estimated time {}\n",
                fixed(study.deepest, 4),
+               project::checked_text(project),
                clock_time(plan.trajectory->duration()));
 }
 
@@ -114,6 +115,7 @@ int cut(const CutterOptions& options) {
                   opened.file);
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
+    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
     print_cutter_summary(plan, project);
     print_why_higher(project, plan);
     if (const std::string why = project::why_not_kept(project, *plan.program_path(project)); !why.empty()) {

@@ -152,6 +152,7 @@ void print_plan_summary(const project::Plan& plan, const project::Project& proje
         fmt::print("strategy: {}\n", project::strategy_text(project));
     }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
+    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
     fmt::print("{} points, path {} mm, estimated time {}\n",
                chosen.toolpath.points.size(),
                fixed(chosen.path_length, 1),
@@ -214,9 +215,10 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
 
 void print_cut(const project::Project& project, const project::Plan& plan) {
     const project::CutStudy& cut = *plan.cut;
-    fmt::print("left on the surface: {}; deepest cut below it: {} mm\n",
+    fmt::print("left on the surface: {}; deepest cut below it: {} mm ({})\n",
                project::left_text(project, plan),
-               fixed(cut.deepest, 4));
+               fixed(cut.deepest, 4),
+               project::checked_text(project));
     if (const std::string why = project::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }
@@ -261,8 +263,7 @@ int plan(const PlanOptions& options) {
     }
     write_outputs(options.out, files, opened.file);
     if (!preview) { // an older one would show another path
-        std::error_code failure;
-        std::filesystem::remove(std::filesystem::path(options.out) / "preview.png", failure);
+        remove_output(std::filesystem::path(options.out) / "preview.png");
     }
     print_notes(text);
     print_warnings(plan);

@@ -148,7 +148,7 @@ void print_played(const PlayStatus& end, std::size_t points, const machine::JobO
 }
 
 int play(const PlotPlayOptions& options) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     const machine::Job job = job_to_play(options);
     const std::vector<Vec3>& points = job.points->points;
     const machine::RecordFormat format = record_of(options.record).value();

@@ -37,7 +37,11 @@ machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, cons
     job.project = opened.file.string();
     job.started_at = now_for_people();
     job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
-    PostedText text = posted(*plan.program, *job.machine, choice, job.name);
+    gcode::Program program = *plan.program;
+    if (options.machine.driver == "cordic") { // which waits for nobody to change a tool
+        program.tool.reset();
+    }
+    PostedText text = posted(program, *job.machine, choice, job.name);
     print_notes(text);
     job.program = std::make_shared<const gcode::Program>(std::move(text.text.program));
     job.listing = std::make_shared<const gcode::Listing>(std::move(text.text.listing));
@@ -56,7 +60,7 @@ machine::Job begun_at(machine::Job job, int line, const RunOptions& options) {
 
 int run_plan(const RunOptions& options) {
     check(options.machine);
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     std::optional<Controller> controller;
     if (options.machine.driver == "grbl") {
         controller.emplace(options.machine.controller, options.series.log);
@@ -82,8 +86,8 @@ int run_plan(const RunOptions& options) {
         }
     };
     steps.run = [&](const machine::Job& job) {
-        return controller ? controller->run(job, interrupt.token())
-                          : planned_machine.run(job, options.series.log, interrupt.token());
+        return controller ? controller->run(job, interrupt)
+                          : planned_machine.run(job, options.series.log, interrupt);
     };
     return run_series(options.series, steps, interrupt.token());
 }

@@ -35,6 +35,15 @@ const kinematics::AxisPositions& position_before(const Program& program, int n) 
     return n == 0 ? program.start : program.blocks[static_cast<std::size_t>(n) - 1].target;
 }
 
+kinematics::AxisPositions programmed(const Program& program, kinematics::AxisPositions positions) {
+    for (std::size_t n = 0; program.tool && n < program.axes.size(); ++n) {
+        if (program.axes[n].letter == 'Z') {
+            positions[static_cast<Eigen::Index>(n)] -= program.tool->length_offset;
+        }
+    }
+    return positions;
+}
+
 std::vector<int> blocks_of_points(const Program& program, int point_count) {
     std::vector<int> blocks(static_cast<std::size_t>(point_count), -1);
     for (int n = 0; n < program.block_count(); ++n) {

@@ -79,10 +79,19 @@ struct ProgramAxis {
     friend bool operator==(const ProgramAxis&, const ProgramAxis&) = default;
 };
 
+/// The tool that a program calls. A control adds `length_offset` to the programmed positions of Z.
+struct ProgramTool {
+    int number = 1;             ///< of T and H
+    double length_offset = 0.0; ///< by how much it is longer than the tool of the machine's zeros, mm
+
+    friend bool operator==(const ProgramTool&, const ProgramTool&) = default;
+};
+
 struct Program {
     std::string machine;             ///< name of the machine it was made for
     std::vector<ProgramAxis> axes;   ///< in the order of MachineModel::axes()
     kinematics::AxisPositions start; ///< where the axes are taken to be before the first block
+    std::optional<ProgramTool> tool; ///< called before the first block; nullopt: the one in the spindle
     std::vector<Block> blocks;
 
     [[nodiscard]] int block_count() const { return static_cast<int>(blocks.size()); }
@@ -90,6 +99,10 @@ struct Program {
 
 /// Where the axes stand before block `n`.
 [[nodiscard]] const kinematics::AxisPositions& position_before(const Program& program, int n);
+
+/// `positions` of the axes as the text of `program` says them: Z without the length offset of its tool.
+[[nodiscard]] kinematics::AxisPositions programmed(const Program& program,
+                                                   kinematics::AxisPositions positions);
 
 /// The block after which the tool is at each of `point_count` points of the tool path (points that need no
 /// move share the block of the point before); -1 where there is none.

@@ -132,7 +132,7 @@ private:
             refuse(fmt::format("{} cannot be written for {}", what, format_.name));
         }
         for (const std::string& pattern : lines) {
-            code_line(filled(pattern, word, with));
+            code_line(with_tool(filled(pattern, word, with)));
         }
     }
 
@@ -163,6 +163,24 @@ private:
         for (const std::string& pattern : format_.blocks.head) {
             code_line(filled(pattern, "path", path));
         }
+        call_tool();
+    }
+
+    void call_tool() {
+        if (!program_.tool) {
+            return;
+        }
+        if (format_.blocks.tool.empty()) {
+            comment(fmt::format("set the zero of Z with tool {}: its length is not compensated",
+                                program_.tool->number));
+        }
+        for (const std::string& pattern : format_.blocks.tool) {
+            code_line(with_tool(pattern));
+        }
+    }
+
+    [[nodiscard]] std::string with_tool(const std::string& pattern) const {
+        return filled(pattern, "tool", std::to_string(program_.tool ? program_.tool->number : 1));
     }
 
     void control_tip(bool wanted) {
@@ -171,7 +189,7 @@ private:
         }
         expects(format_.tip.has_value(), "a control that keeps the tip says how");
         for (const std::string& text : wanted ? format_.tip->on : format_.tip->off) {
-            code_line(text);
+            code_line(with_tool(text));
         }
         // The same letters mean something else from here on.
         std::fill(words_.begin(), words_.end(), std::string());

@@ -94,7 +94,7 @@ BezierPatch::BezierPatch(ControlNet net) : net_(std::move(net)) {
         rational_ = rational_ || !exactly_equal(w, 1.0);
         box_.extend(net_.points[n]);
     }
-    smallest_normal_ = geometry::smallest_normal(box_);
+    smallest_tangent_ = geometry::smallest_tangent(box_);
 }
 
 Vec3 BezierPatch::position(double u, double v) const {
@@ -117,7 +117,7 @@ std::optional<Vec3> BezierPatch::unit_normal(double u, double v) const {
 }
 
 std::optional<Vec3> BezierPatch::unit_normal(const SurfaceDerivatives& at) const {
-    return geometry::unit_normal(smallest_normal_, at.du, at.dv);
+    return geometry::unit_normal(smallest_tangent_, at.du, at.dv);
 }
 
 } // namespace millwright::geometry

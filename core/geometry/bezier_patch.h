@@ -61,8 +61,8 @@ public:
     /// The box of the control points, which holds the whole patch.
     [[nodiscard]] const Box3& control_box() const { return box_; }
 
-    /// Where |S_u x S_v| is not above this there is no normal.
-    [[nodiscard]] double smallest_normal() const { return smallest_normal_; }
+    /// Where S_u or S_v is not longer than this there is no normal, mm.
+    [[nodiscard]] double smallest_tangent() const { return smallest_tangent_; }
 
     /// u and v may leave [0,1]: the polynomial goes on.
     [[nodiscard]] Vec3 position(double u, double v) const;
@@ -80,7 +80,7 @@ private:
     std::vector<Eigen::Vector4d> homogeneous_;
     bool rational_ = false;
     Box3 box_;
-    double smallest_normal_ = 0.0;
+    double smallest_tangent_ = 0.0;
 };
 
 } // namespace millwright::geometry

@@ -1,10 +1,12 @@
 #include "core/geometry/closest_point.h"
 
 #include "core/base/error.h"
+#include "core/geometry/internal/cell_tree.h"
 
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace millwright::geometry {
@@ -107,7 +109,7 @@ struct ClosestPointSearch::Samples {
     using Tree =
         nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Samples>, Samples, 3>;
 
-    explicit Samples(const BezierPatch& of) : patch(of) {
+    explicit Samples(const BezierPatch& of) : patch(of), cells(of) {
         for (int i = 0; i <= side; ++i) {
             for (int j = 0; j <= side; ++j) {
                 const Vec2 uv(static_cast<double>(i) / side, static_cast<double>(j) / side);
@@ -132,7 +134,45 @@ struct ClosestPointSearch::Samples {
         return parameters[found];
     }
 
+    /// `found`, or what lies nearer in another cell.
+    [[nodiscard]] ClosestPoint nearest_of_all(const Vec3& point, ClosestPoint found) const {
+        cells.visit(
+            point,
+            [&] { return found.distance; },
+            [&](const CellTree::Cell& cell) {
+                const Vec2 half = 0.5 * (cell.high - cell.low);
+                const Vec2 middle = cell.low + half;
+                const Vec2 away = (found.parameters - middle).cwiseAbs() - half;
+                if ((away.array() <= half.array()).all()) {
+                    return; // its descent, or that of the cell beside it, has ended here
+                }
+                const ClosestPoint there = closest_point_near(patch, point, best_start(cell, point));
+                if (there.distance < found.distance) {
+                    found = there;
+                }
+            });
+        return found;
+    }
+
+    /// Of 3 x 3 places of the cell the nearest.
+    [[nodiscard]] Vec2 best_start(const CellTree::Cell& cell, const Vec3& point) const {
+        Vec2 best = cell.low;
+        double least = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                const Vec2 uv = cell.low + Vec2(0.5 * i, 0.5 * j).cwiseProduct(cell.high - cell.low);
+                const double squared = (patch.position(uv.x(), uv.y()) - point).squaredNorm();
+                if (squared < least) {
+                    least = squared;
+                    best = uv;
+                }
+            }
+        }
+        return best;
+    }
+
     BezierPatch patch;
+    CellTree cells;
     std::vector<Vec3> points;
     std::vector<Vec2> parameters;
     std::unique_ptr<Tree> tree;
@@ -146,7 +186,8 @@ ClosestPointSearch& ClosestPointSearch::operator=(ClosestPointSearch&&) noexcept
 
 ClosestPoint ClosestPointSearch::closest(const Vec3& point) const {
     expects(is_finite(point), "the closest point is asked for a finite point");
-    return closest_point_near(samples_->patch, point, samples_->nearest(point));
+    return samples_->nearest_of_all(point,
+                                    closest_point_near(samples_->patch, point, samples_->nearest(point)));
 }
 
 ClosestPoint ClosestPointSearch::closest(const Vec3& point, const Vec2& guess) const {
@@ -157,10 +198,11 @@ ClosestPoint ClosestPointSearch::closest(const Vec3& point, const Vec2& guess) c
     const Vec3 at_sample = samples_->patch.position(sample.x(), sample.y());
     if ((sample - from_guess.parameters).cwiseAbs().maxCoeff() <= beside &&
         from_guess.distance <= (at_sample - point).norm()) {
-        return from_guess;
+        return samples_->nearest_of_all(point, from_guess);
     }
     const ClosestPoint from_samples = closest_point_near(samples_->patch, point, sample);
-    return from_guess.distance <= from_samples.distance ? from_guess : from_samples;
+    return samples_->nearest_of_all(point,
+                                    from_guess.distance <= from_samples.distance ? from_guess : from_samples);
 }
 
 } // namespace millwright::geometry

@@ -16,8 +16,10 @@ struct ClosestPoint {
 /// Descends from `start` to the local minimum of the distance, staying inside [0,1]^2.
 [[nodiscard]] ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, const Vec2& start);
 
-/// Finds global minima: starts from the nearest of a raster of samples, and from a guess of the caller.
-/// Const after construction; may be asked from several threads. Holds its own copy of the patch.
+/// Finds global minima: descends from the nearest of a raster of samples, or from a guess of the caller, and
+/// then from within each of 32 x 32 cells of the patch whose box, by the convex hull of its control points,
+/// is nearer than what was found. Only a cell that has several minima itself may hide one. Const after
+/// construction; may be asked from several threads. Holds its own copy of the patch.
 class ClosestPointSearch {
 public:
     explicit ClosestPointSearch(const BezierPatch& patch);

@@ -6,7 +6,7 @@
 namespace millwright::geometry {
 
 SurfacePoint point_of(const BezierPatch& patch, double u, double v) {
-    const double smallest = patch.smallest_normal();
+    const double smallest = patch.smallest_tangent();
     return with_homogeneous_point<1>(patch, u, v, [&](const HomogeneousPoint& h) -> SurfacePoint {
         if (!patch.rational()) {
             return {h.s.head<3>(), unit_normal(smallest, h.u.head<3>(), h.v.head<3>())};

@@ -137,6 +137,7 @@ MachineModel read_machine(const std::filesystem::path& file) {
                       "workpiece_offset",
                       "tool_tip",
                       "tool_axis",
+                      "tool_length",
                       "angle_formulas",
                       "bodies",
                       "solids"});
@@ -153,6 +154,9 @@ MachineModel read_machine(const std::filesystem::path& file) {
     machine.workpiece_offset = point(root.at("workpiece_offset"));
     machine.tool_tip = point(root.at("tool_tip"));
     machine.tool_axis = direction(root.at("tool_axis"));
+    if (const auto length = root.find("tool_length")) {
+        machine.tool_length = length->number(0.0, farthest_mm);
+    }
     if (const auto formulas = root.find("angle_formulas")) {
         machine.angle_formulas = angle_formulas(*formulas);
     }
@@ -160,7 +164,12 @@ MachineModel read_machine(const std::filesystem::path& file) {
         machine.bodies = list(*bodies, body);
     }
     try {
-        return MachineModel(std::move(machine));
+        MachineModel model(std::move(machine));
+        if (model.swings_tool() && !model.description().tool_length) {
+            root.fail("a head that swings needs \"tool_length\": the gauge length of the tool whose tip "
+                      "is at \"tool_tip\"");
+        }
+        return model;
     } catch (const Error& error) {
         root.fail(error.diagnostic().message);
     }

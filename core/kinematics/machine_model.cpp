@@ -112,6 +112,9 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
     if (!is_unit(description_.tool_axis)) {
         refuse(description_, "the tool axis is not a unit vector");
     }
+    if (description_.tool_length && !(*description_.tool_length >= 0.0)) {
+        refuse(description_, "the length of its tool is negative");
+    }
     if (!is_finite(description_.table_origin) || !is_finite(description_.workpiece_offset) ||
         !is_finite(description_.tool_tip)) {
         refuse(description_, "a number is not finite");
@@ -135,6 +138,39 @@ MachineModel MachineModel::with_workpiece_offset(const Vec3& offset) const {
     MachineDescription changed = description_;
     changed.workpiece_offset = offset;
     return MachineModel(std::move(changed));
+}
+
+bool MachineModel::swings_tool() const {
+    return std::any_of(
+        head_chain_.begin(), head_chain_.end(), [this](int n) { return axis(n).kind == AxisKind::rotary; });
+}
+
+MachineModel MachineModel::with_tool_length(double gauge_length) const {
+    expects(gauge_length > 0.0 && std::isfinite(gauge_length), "a tool has a length");
+    if (!description_.tool_length) {
+        if (swings_tool()) {
+            throw Error(fmt::format("machine '{}' does not say how long the tool is whose tip it gives",
+                                    description_.name),
+                        {},
+                        "add \"tool_length\" to its file");
+        }
+        return *this;
+    }
+    MachineDescription changed = description_;
+    const double longer = gauge_length - *changed.tool_length;
+    changed.tool_tip -= longer * changed.tool_axis;
+    changed.tool_length = gauge_length;
+    changed.tool_length_offset += longer;
+    return MachineModel(std::move(changed));
+}
+
+bool MachineModel::compensates_along_z() const {
+    const int z = axis_index('Z');
+    if (z < 0 || axis(z).kind != AxisKind::linear) {
+        return false;
+    }
+    const double sense = axis(z).side == AxisSide::head ? 1.0 : -1.0;
+    return (sense * axis(z).direction - description_.tool_axis).norm() < unit_tolerance;
 }
 
 } // namespace millwright::kinematics

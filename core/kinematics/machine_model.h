@@ -8,6 +8,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,8 +56,13 @@ struct MachineDescription {
     std::vector<MachineAxis> head;        ///< base to tool
     Vec3 table_origin = Vec3::Zero();     ///< where the workpiece offset is counted from
     Vec3 workpiece_offset = Vec3::Zero(); ///< of the workpiece's origin on the table: the set-up (a, b, c)
-    Vec3 tool_tip = Vec3::Zero();
-    Vec3 tool_axis = Vec3::UnitZ(); ///< unit, from the tip towards the spindle
+    Vec3 tool_tip = Vec3::Zero();         ///< of the tool in the spindle
+    Vec3 tool_axis = Vec3::UnitZ();       ///< unit, from the tip towards the spindle
+    /// Gauge length of the tool in the spindle: from the spindle's gauge line to the tip, mm. Nullopt if
+    /// unknown.
+    std::optional<double> tool_length;
+    /// By how much that tool is longer than the machine file's, for which the machine's zeros hold, mm.
+    double tool_length_offset = 0.0;
     AngleFormulas angle_formulas = AngleFormulas::none;
     std::vector<MachineBody> bodies;
 };
@@ -90,6 +96,15 @@ public:
         return description_.table_origin + description_.workpiece_offset;
     }
     [[nodiscard]] MachineModel with_workpiece_offset(const Vec3& offset) const;
+
+    /// Whether a rotary axis of the head swings the tool: where the tip is then depends on the tool's length.
+    [[nodiscard]] bool swings_tool() const;
+    /// The same machine with a tool of `gauge_length` (mm, > 0) in the spindle. Without a known length of the
+    /// machine file's own tool it stays as it is, since the zeros then hold for any tool; throws Error if the
+    /// head swings.
+    [[nodiscard]] MachineModel with_tool_length(double gauge_length) const;
+    /// Whether a positive length offset along axis Z, as controls add it for G43, makes up for a longer tool.
+    [[nodiscard]] bool compensates_along_z() const;
 
 private:
     MachineDescription description_;

@@ -43,7 +43,11 @@ std::string path_code(const ModalState& state) {
                    : "G64\n";
 }
 
+/// By its number where it has one: the length is the control's to know.
 std::string tool_offset(const ModalState& state) {
+    if (state.length_tool > 0) {
+        return fmt::format("G43 H{}\n", state.length_tool);
+    }
     std::string words;
     for (std::size_t n = 0; n < gcode::axis_count; ++n) {
         if (std::abs(state.tool_offset[n]) > 0.0) {

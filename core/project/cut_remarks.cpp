@@ -55,12 +55,23 @@ std::string left_text(const Project& project, const Plan& plan) {
         fmt::format("at most {} mm, {} mm on average", fixed(found.max, 4), fixed(found.mean, 4));
     const std::string wanted = fmt::format("where {} mm are wanted", shortest(project.tool.scallop_mm));
     const std::string not_cut = fixed(100.0 * found.not_cut, 2);
-    return least ? fmt::format("at least {} mm on the {} % that are not cut, elsewhere {}, {}",
-                               fixed(*least, 4),
-                               not_cut,
-                               where_cut,
-                               wanted)
-                 : fmt::format("{}, {}; {} % not cut", where_cut, wanted, not_cut);
+    const std::string left =
+        least ? fmt::format("at least {} mm on the {} % that are not cut, elsewhere {}, {}",
+                            fixed(*least, 4),
+                            not_cut,
+                            where_cut,
+                            wanted)
+              : fmt::format("{}, {}; {} % not cut", where_cut, wanted, not_cut);
+    return found.gouged > 0.0 ? fmt::format("{}; {} % cut too deep", left, fixed(100.0 * found.gouged, 2))
+                              : left;
+}
+
+std::string checked_text(const Project& project) {
+    const std::size_t patches = project.surface.patches.size();
+    const std::string face = patches > 1
+                                 ? fmt::format("patch {} of {}", project.surface.machined_patch + 1, patches)
+                                 : std::string("this face");
+    return fmt::format("only {} was looked at, the faces beside it and the rest of the part were not", face);
 }
 
 std::string why_higher(const Project& project, const Plan& plan) {

@@ -19,6 +19,10 @@ namespace millwright::project {
 /// least so much where it is not cut. `plan` has its study.
 [[nodiscard]] std::string left_text(const Project& project, const Plan& plan);
 
+/// What the figures of a cut were measured on, to stand beside each that says nothing was hit: "only this
+/// face was looked at ...", with its number where the project has several.
+[[nodiscard]] std::string checked_text(const Project& project);
+
 /// Why tracks of constant scallop leave more than they should, as a sentence with what to do; empty if they
 /// do not, or if the program has others. `plan` has its study.
 [[nodiscard]] std::string why_higher(const Project& project, const Plan& plan);

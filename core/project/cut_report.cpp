@@ -59,6 +59,7 @@ std::string cut_report_text(const Project& project, const Plan& plan) {
     json["made_by"] = "Millwright " + std::string(version());
     json["project"] = project.name;
     json["tool"] = tool_text(project.tool);
+    json["tool_length"] = tool_length_text(project.tool, plan.workpiece->machine);
     json["strategy"] = row_of(strategies(), project.toolpath.strategy).id;
     json["grid"] = row_of(grid_methods(), program_grid(project)).id;
     json["error_mm"]["max"] = rounded(evaluation.closest.max);
@@ -73,10 +74,12 @@ std::string cut_report_text(const Project& project, const Plan& plan) {
     json["scallop_mm"]["by_formula"] = rounded(study.scallops.by_formula);
     const std::string why = why_higher(project, plan);
     json["scallop_mm"]["why_higher"] = why.empty() ? Json() : Json(why);
+    json["gouged_percent"] = rounded(100.0 * study.scallops.gouged);
     json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
     const std::optional<double> least = left_at_least(plan);
     json["left_where_not_cut_mm"] = least ? Json(rounded(*least)) : Json();
     json["step_over_mm"] = std::isfinite(study.step_over) ? Json(rounded(study.step_over)) : Json();
+    json["checked"] = checked_text(project);
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
     json["bites"] = bites(study);
     json["local_gouges"] = local_gouges_json(study);

@@ -210,8 +210,10 @@ ScallopFigures
 scallop_figures(const toolpath::SweptCut& swept, const geometry::Trim& trim, double by_formula) {
     ScallopFigures figures;
     figures.by_formula = by_formula;
+    constexpr double too_deep = 1e-3; // mm: as near as the sweep looks
     std::vector<double> left;
     int inside = 0;
+    int gouged = 0;
     for (int i = 0; i < swept.nu; ++i) {
         for (int j = 0; j < swept.nv; ++j) {
             if (!trim.contains(
@@ -219,16 +221,21 @@ scallop_figures(const toolpath::SweptCut& swept, const geometry::Trim& trim, dou
                 continue;
             }
             ++inside;
-            if (const double height = swept.height(i, j); std::isfinite(height)) {
+            const double height = swept.height(i, j);
+            if (height < -too_deep) {
+                ++gouged;
+            } else if (std::isfinite(height)) {
                 left.push_back(std::max(height, 0.0));
             }
         }
     }
+    if (inside > 0) {
+        figures.gouged = static_cast<double>(gouged) / inside;
+        figures.not_cut = static_cast<double>(inside - gouged - std::ssize(left)) / inside;
+    }
     if (left.empty()) {
-        figures.not_cut = inside > 0 ? 1.0 : 0.0;
         return figures;
     }
-    figures.not_cut = 1.0 - static_cast<double>(left.size()) / inside;
     std::sort(left.begin(), left.end());
     double sum = 0.0;
     for (const double height : left) {

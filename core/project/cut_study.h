@@ -25,11 +25,12 @@ struct LocalGouge {
     double relative_curvature = 0.0; ///< below 0, 1/mm
 };
 
-/// Of all points of the raster that are cut. mm.
+/// Of all points of the raster that are cut, and not too deep. mm.
 struct ScallopFigures {
     double max = 0.0;
     double mean = 0.0;
     double p95 = 0.0;        ///< 95 % of the points are not higher
+    double gouged = 0.0;     ///< share of the points that are cut too deep, by more than a micrometre
     double not_cut = 0.0;    ///< share of the points that the cutter never came near
     double by_formula = 0.0; ///< largest of gap^2 (1/R + k) / 8 over neighbouring tracks or rounds
 };

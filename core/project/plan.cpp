@@ -40,6 +40,7 @@ std::vector<gcode::HeaderLine> header_of(const Project& project, const Plan& pla
         {"project", project.name},
         {"machine", plan.workpiece->machine.name()},
         {"tool", tool_text(project.tool)},
+        {"tool length", tool_length_text(project.tool, plan.workpiece->machine)},
         {has_nodes ? "grid" : "path",
          has_nodes ? fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method) : strategy_text(project)},
         {"distance from the surface",
@@ -50,7 +51,7 @@ std::vector<gcode::HeaderLine> header_of(const Project& project, const Plan& pla
                                              : "tool axis from where it should be",
          fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};
     if (has_nodes && has_own_path(project)) {
-        lines.insert(lines.begin() + 5, {"path", strategy_text(project)});
+        lines.insert(lines.begin() + 6, {"path", strategy_text(project)});
     }
     return lines;
 }
@@ -132,6 +133,7 @@ Workpiece workpiece_of(const Project& project, const Folders& folders) {
     refuse_crossing(patch, project.surface.trim(project.surface.machined_patch));
     kinematics::MachineModel machine =
         kinematics::read_machine(machine_path(project, folders.project, folders.assets));
+    machine = machine_with(project.tool, machine);
     if (project.machine.workpiece_offset) {
         machine = machine.with_workpiece_offset(*project.machine.workpiece_offset);
     }
@@ -182,6 +184,7 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
     progress.check();
     gcode::PostResult posted = gcode::post(
         machine, chosen.toolpath, chosen.axes, settings, header_of(project, plan, chosen), progress);
+    posted.program.tool = program_tool(project.tool, machine);
     progress.check();
     gcode::ReleasedText released = gcode::release(posted.program,
                                                   machine,

@@ -17,10 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether both tools make the same path; by what the cut is judged may differ.
+/// Whether both tools make the same path; by what the cut is judged may differ, and what the program calls
+/// them.
 bool same_cut(ToolInput a, const ToolInput& b) {
     a.scallop_mm = b.scallop_mm;
     a.gouge_limit_mm = b.gouge_limit_mm;
+    a.number = b.number;
     return a == b;
 }
 
@@ -187,7 +189,8 @@ void PlanStages::keep_weight(const State& last) {
 void PlanStages::keep_program(const State& last) {
     const Project& then = last.source->project;
     const bool same = then.program == project().program && then.name == project().name &&
-                      then.toolpath == project().toolpath && program_grid(then) == program_grid(project());
+                      then.tool.number == project().tool.number && then.toolpath == project().toolpath &&
+                      program_grid(then) == program_grid(project());
     if (same && last.program_of && last.program_of == now_.plan.program_path(project())) {
         now_.program_of = last.program_of;
         now_.plan.program = last.plan.program;

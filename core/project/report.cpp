@@ -178,17 +178,22 @@ Json machine_json(const Project& project, const Plan& plan) {
     return json;
 }
 
-Json tool(const ToolInput& input) {
+Json tool(const ToolInput& input, const kinematics::MachineModel& machine) {
+    const std::optional<double> length = machine.description().tool_length;
     Json json = json_of(input);
     json["text"] = tool_text(input);
+    json["assumed_gauge_length_mm"] = length ? Json(rounded(*length)) : Json();
+    json["assumed_length"] = tool_length_text(input, machine);
     return json;
 }
 
 /// What the cutter does; cut.json has the whole of it.
-Json cut(const CutStudy& study) {
+Json cut(const Project& project, const CutStudy& study) {
     Json json;
+    json["checked"] = checked_text(project);
     json["scallop_mm"]["max"] = rounded(study.scallops.max);
     json["scallop_mm"]["mean"] = rounded(study.scallops.mean);
+    json["gouged_percent"] = rounded(100.0 * study.scallops.gouged);
     json["not_cut_percent"] = rounded(100.0 * study.scallops.not_cut);
     json["deepest_cut_below_surface_mm"] = rounded(study.deepest);
     json["bites"] = std::ssize(study.bites);
@@ -256,7 +261,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["project"] = project.name;
     json["surface"] = surface_json(project, plan);
     json["machine"] = machine_json(project, plan);
-    json["tool"] = tool(project.tool);
+    json["tool"] = tool(project.tool, plan.workpiece->machine);
     json["grid"] = grid_json(project, chosen);
     json["error"] = all_errors(project, plan);
     json["singular_points"] = singular_points(plan);
@@ -269,7 +274,7 @@ std::string report_text(const Project& project, const Plan& plan) {
     json["remarks"] = path_remarks(project, plan);
     json["program"] = program_json(plan);
     if (plan.cut) {
-        json["cut"] = cut(*plan.cut);
+        json["cut"] = cut(project, *plan.cut);
     }
     return json_text(json);
 }

@@ -12,6 +12,8 @@ struct ToolInput {
     double corner_radius_mm = 1.0;   ///< of a bull nose's corner, of a cone's tip
     double half_angle_deg = 6.0;     ///< of a cone
     double length_mm = 40.0;         ///< from the tip to the holder
+    int number = 1;                  ///< of T and H in the program; 0: no tool is called
+    double gauge_length_mm = 0.0;    ///< from the spindle's gauge line to the tip; 0: as in gauge_length_mm()
     double holder_diameter_mm = 0.0; ///< 0: no holder
     double holder_length_mm = 50.0;
     double lead_deg = 0.0;        ///< forward, at the start of each track

@@ -1,5 +1,6 @@
 #include "core/project/tool_settings.h"
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 
 #include <fmt/format.h>
@@ -17,8 +18,9 @@ using toolpath::CutterKind;
 constexpr double thickest = 500.0; // mm
 constexpr double longest = 1000.0;
 constexpr double steepest = 80.0; // deg
+constexpr double most_tools = 9999.0;
 
-constexpr std::array<NumberSetting<ToolInput>, 12> of_tool{{
+constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"diameter_mm", "Diameter", "mm", "Of the shank", 0.001, thickest, 3, field<&ToolInput::diameter_mm>},
     {"corner_radius_mm",
      "Corner radius",
@@ -60,6 +62,23 @@ constexpr std::array<NumberSetting<ToolInput>, 12> of_tool{{
      longest,
      2,
      field<&ToolInput::holder_length_mm>},
+    {"number",
+     "Tool number",
+     "",
+     "T and H of the program; 0 calls no tool, and the positions of the axes contain its length",
+     0.0,
+     most_tools,
+     0,
+     field<&ToolInput::number>},
+    {"gauge_length_mm",
+     "Gauge length",
+     "mm",
+     "From the spindle's gauge line to the tip, as in the control's tool table; 0: cutter and holder "
+     "together",
+     0.0,
+     2.0 * longest,
+     3,
+     field<&ToolInput::gauge_length_mm>},
     {"lead_deg",
      "Lead",
      "deg",
@@ -136,6 +155,11 @@ bool is_of_judgement(std::string_view id) {
     return id == "scallop_mm" || id == "gouge_limit_mm";
 }
 
+/// A number that says nothing of the tool's shape, but of its place in the control's tool table.
+bool is_of_tool_table(std::string_view id) {
+    return id == "number" || id == "gauge_length_mm";
+}
+
 /// The angle with the larger part at an end of the track.
 double steepest_of(double start, double change) {
     return std::max(std::abs(start), std::abs(start + change));
@@ -187,13 +211,59 @@ toolpath::Tool tool_of(const ToolInput& input) {
                      .tilt_change = from_degrees(input.tilt_change_deg)}};
 }
 
+std::optional<double> gauge_length_mm(const ToolInput& input) {
+    constexpr double micrometre = 1e-3;
+    if (input.gauge_length_mm <= 0.0 && input.cutter == CutterKind::point) {
+        return std::nullopt;
+    }
+    const double holder = input.holder_diameter_mm > 0.0 ? input.holder_length_mm : 0.0;
+    const double length = input.gauge_length_mm > 0.0 ? input.gauge_length_mm : input.length_mm + holder;
+    return std::max(1.0, std::round(length / micrometre)) * micrometre;
+}
+
+kinematics::MachineModel machine_with(const ToolInput& tool, const kinematics::MachineModel& machine) {
+    const std::optional<double> length = gauge_length_mm(tool);
+    return length ? machine.with_tool_length(*length) : machine;
+}
+
+std::optional<gcode::ProgramTool> program_tool(const ToolInput& input,
+                                               const kinematics::MachineModel& machine) {
+    if (input.number == 0 || !gauge_length_mm(input)) {
+        return std::nullopt;
+    }
+    return gcode::ProgramTool{input.number, machine.description().tool_length_offset};
+}
+
+std::string tool_length_text(const ToolInput& input, const kinematics::MachineModel& machine) {
+    const kinematics::MachineDescription& description = machine.description();
+    const std::optional<double> length = gauge_length_mm(input);
+    const double offset = description.tool_length_offset;
+    std::string text;
+    if (!length) {
+        text = description.tool_length ? fmt::format("gauge length {} mm, that of the machine file's tool",
+                                                     shortest(*description.tool_length))
+                                       : "that of the machine file's tool, which does not say it";
+    } else if (!description.tool_length) {
+        text = fmt::format("gauge length {} mm; the machine's zeros hold for any", shortest(*length));
+    } else {
+        text = fmt::format("gauge length {} mm, {} the machine file's tool of {} mm",
+                           shortest(*length),
+                           std::abs(offset) > 0.0 ? fmt::format("{} mm {} than",
+                                                                shortest(std::abs(offset)),
+                                                                offset > 0.0 ? "longer" : "shorter")
+                                                  : "as long as",
+                           shortest(*length - offset));
+    }
+    return machine.swings_tool() ? text + "; the head swings: valid for this length only" : text;
+}
+
 std::string tool_text(const ToolInput& input) {
     std::string text(row_of(cutter_kinds(), input.cutter).id);
     for (const NumberSetting<ToolInput>& setting : tool_numbers()) {
         const double value = setting.value(input);
         const bool of_holder = setting.id.starts_with("holder") && input.holder_diameter_mm <= 0.0;
         const bool said = setting.unit == "mm" || std::abs(value) > 0.0;
-        const bool of_shape = !is_of_judgement(setting.id);
+        const bool of_shape = !is_of_judgement(setting.id) && !is_of_tool_table(setting.id);
         if (said && of_shape && !of_holder && has_number(input.cutter, setting.id)) {
             std::string label(setting.label);
             label.front() = static_cast<char>(label.front() - 'A' + 'a');

@@ -1,10 +1,13 @@
 // What the numbers of a tool say about themselves (settings.h), and the tool that they describe.
 #pragma once
 
+#include "core/gcode/program.h"
+#include "core/kinematics/machine_model.h"
 #include "core/project/settings.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/tool.h"
 
+#include <optional>
 #include <string>
 
 namespace millwright::project {
@@ -20,6 +23,23 @@ namespace millwright::project {
 
 /// Throws Error with fault_of(input) if there is one.
 [[nodiscard]] toolpath::Tool tool_of(const ToolInput& input);
+
+/// From the spindle's gauge line to the tip, to a micrometre: as it was entered, else cutter and holder
+/// together. Nullopt of a point without an entered one: the machine file's own tool is taken.
+[[nodiscard]] std::optional<double> gauge_length_mm(const ToolInput& input);
+
+/// The machine with the tool in its spindle. Throws Error if the head swings and no file gives the length of
+/// its own tool.
+[[nodiscard]] kinematics::MachineModel machine_with(const ToolInput& tool,
+                                                    const kinematics::MachineModel& machine);
+
+/// What the program calls on `machine`, which has the tool. Nullopt for number 0, and for a point, which is
+/// no tool, without a gauge length.
+[[nodiscard]] std::optional<gcode::ProgramTool> program_tool(const ToolInput& input,
+                                                             const kinematics::MachineModel& machine);
+
+/// Which length the program was made for, in one line for people.
+[[nodiscard]] std::string tool_length_text(const ToolInput& input, const kinematics::MachineModel& machine);
 
 /// In one line for people: "ball, diameter 6 mm, length 40 mm, lead 10 deg".
 [[nodiscard]] std::string tool_text(const ToolInput& input);

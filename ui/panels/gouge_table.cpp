@@ -1,6 +1,7 @@
 #include "ui/panels/gouge_table.h"
 
 #include "core/base/text.h"
+#include "core/project/cut_remarks.h"
 #include "core/project/cut_study.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/table_height.h"
@@ -58,7 +59,11 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const BlockBite& bite = cut->bites[static_cast<std::size_t>(row)];
         return fmt::format("{}_{}", bite.by_holder ? "holder" : "cutter", bite.block);
     };
-    view.when_empty = "No block brings the cutter deeper than the gouge limit, or the holder into the part.";
+    const std::string nothing =
+        "No block brings the cutter deeper than the gouge limit, or the holder into the "
+        "part: " +
+        project::checked_text(now.plan->project) + ".";
+    view.when_empty = nothing;
     const auto trajectory = now.trajectory();
     view.height = table_height(ui, view.rows);
     if (const auto row = widgets::table(ui, "gouges", view); row && trajectory && !now.follows_job()) {

@@ -22,16 +22,17 @@ namespace {
 using project::Project;
 using toolpath::CutterKind;
 
-/// The scallop of a strategy is asked for there.
+/// The scallop of a strategy is asked for there; a point without a length is not called by a number.
 bool is_asked_for(const Project& project, std::string_view id) {
     const project::ToolInput& tool = project.tool;
     const bool of_no_holder = id == "holder_length_mm" && !(tool.holder_diameter_mm > 0.0);
     const bool of_strategy =
         id == "scallop_mm" && project.toolpath.strategy == project::StrategyInput::constant_scallop;
-    return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy;
+    const bool of_no_call = id == "number" && !project::gauge_length_mm(tool);
+    return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy && !of_no_call;
 }
 
-void bites_text(Ui& ui, const project::CutStudy& cut) {
+void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
     std::ptrdiff_t of_holder = 0;
     for (const project::BlockBite& bite : cut.bites) {
         of_holder += bite.by_holder ? 1 : 0;
@@ -42,6 +43,7 @@ void bites_text(Ui& ui, const project::CutStudy& cut) {
              length_text(cut.deepest),
              "mm",
              "How deep the cutter goes below the surface at most");
+    ui.note(as_sentence(project::checked_text(project)));
     ui.value("bites",
              "Too deep",
              fmt::format("{} blocks", of_cutter),
@@ -183,7 +185,7 @@ void cut_fields(Ui& ui, const Workbench& now) {
     if (const std::string why = project::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
         (void)widgets::banner(ui, "left_higher", {widgets::Severity::warning, why + ".", {}});
     }
-    bites_text(ui, cut);
+    bites_text(ui, now.plan->project, cut);
 }
 
 void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {

@@ -8,6 +8,12 @@ namespace {
 
 constexpr double touching_mm = 1e-3; // machine files are rounded to micrometres
 
+/// By which the tool in the spindle is longer than the one that the bodies show, from its tip on.
+Vec3 longer_tool(const kinematics::MachineModel& machine) {
+    const kinematics::MachineDescription& description = machine.description();
+    return description.tool_length_offset * description.tool_axis;
+}
+
 /// The body's frame with all axes at their physical zero.
 Frame at_zero(const kinematics::MachineBody& body) {
     Frame pose = Frame::Identity();
@@ -24,7 +30,11 @@ std::vector<Frame> body_poses(const kinematics::MachineModel& machine,
                               const kinematics::AxisPositions& positions) {
     std::vector<Frame> poses;
     for (const kinematics::MachineBody& body : machine.description().bodies) {
-        poses.push_back(kinematics::carrier_motion(machine, positions, body.carried_by) * at_zero(body));
+        Frame pose = at_zero(body);
+        if (is_cutter(machine, body)) {
+            pose.pretranslate(-longer_tool(machine));
+        }
+        poses.push_back(kinematics::carrier_motion(machine, positions, body.carried_by) * pose);
     }
     return poses;
 }
@@ -39,7 +49,7 @@ bool is_cutter(const kinematics::MachineModel& machine, const kinematics::Machin
     const Vec3 lower_end = body.center - 0.5 * body.size.z() * body.direction;
     return body.shape == kinematics::MachineBody::Shape::cylinder && !description.head.empty() &&
            body.carried_by == description.head.back().letter &&
-           (lower_end - description.tool_tip).norm() < touching_mm;
+           (lower_end - longer_tool(machine) - description.tool_tip).norm() < touching_mm;
 }
 
 } // namespace millwright::viewport

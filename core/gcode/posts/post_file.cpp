@@ -103,6 +103,7 @@ BlockLines block_lines(const JsonValue& value) {
                        "head",
                        "path_blended",
                        "path_exact",
+                       "tool",
                        "spindle_clockwise",
                        "spindle_counterclockwise",
                        "spindle_off",
@@ -117,8 +118,12 @@ BlockLines block_lines(const JsonValue& value) {
     result.head = lines(value.at("head"), {"path"});
     result.path_blended = pattern(value.at("path_blended"), {"tolerance"});
     result.path_exact = pattern(value.at("path_exact"), {});
-    result.spindle_clockwise = lines_with(value.at("spindle_clockwise"), "speed");
-    result.spindle_counterclockwise = lines_with(value.at("spindle_counterclockwise"), "speed");
+    result.tool.clear();
+    if (const auto tool = value.find("tool")) {
+        result.tool = lines(*tool, {"tool"});
+    }
+    result.spindle_clockwise = lines_with(value.at("spindle_clockwise"), "speed", "tool");
+    result.spindle_counterclockwise = lines_with(value.at("spindle_counterclockwise"), "speed", "tool");
     result.spindle_off = lines(value.at("spindle_off"));
     result.coolant_on = lines(value.at("coolant_on"));
     result.coolant_off = lines(value.at("coolant_off"));
@@ -181,7 +186,7 @@ FeedFormat feed_format(const JsonValue& value) {
 TipFormat tip_format(const JsonValue& value) {
     value.expect_only({"on", "off", "machine_rapid", "rapid_tolerance", "read_m_on", "read_m_off"});
     TipFormat result;
-    result.on = lines(value.at("on"));
+    result.on = lines(value.at("on"), {"tool"});
     result.off = lines(value.at("off"));
     result.machine_rapid = move_format(value.at("machine_rapid"));
     constexpr double nearest = 0.001;

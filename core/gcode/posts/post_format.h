@@ -77,6 +77,7 @@ struct BlockLines {
     Lines head = {"G21 G90 G17 G40 G49 G80", "G54 G94 {path}"}; ///< before the first that is no comment
     std::string path_blended = "G64 P{tolerance}";              ///< {path}: corners may be rounded
     std::string path_exact = "G61";                             ///< {path}: they may not
+    Lines tool = {"T{tool} M6", "G43 H{tool}"};                 ///< behind the head, where a tool is called
     Lines spindle_clockwise = {"S{speed} M3"};
     Lines spindle_counterclockwise = {"S{speed} M4"};
     Lines spindle_off = {"M5"};

@@ -62,6 +62,7 @@ public:
         result_.program.machine = program.machine;
         result_.program.axes = program.axes;
         result_.program.start = program.start;
+        result_.program.tool = program.tool;
         result_.program.blocks.reserve(program.blocks.size());
         result_.wording.blocks.reserve(program.blocks.size());
         meant_ = program.start;
@@ -193,8 +194,11 @@ private:
     void append(Block block, bool tip) {
         const AxisPositions from = here();
         const AxisPositions& to = block.target;
-        result_.wording.blocks.push_back(tip ? BlockWords{words(from), words(to), true}
-                                             : BlockWords{from, to, false});
+        result_.wording.blocks.push_back(
+            tip ? BlockWords{words(from), words(to), true}
+            : format_.positions == PositionsOf::tip
+                ? BlockWords{from, to, false} // machine positions, whatever the tool
+                : BlockWords{programmed(result_.program, from), programmed(result_.program, to), false});
         result_.program.blocks.push_back(std::move(block));
     }
 
@@ -333,6 +337,17 @@ void check_letters_of_tip(const MachineModel& machine) {
     }
 }
 
+/// G43 counts along Z alone.
+void check_tool(const Program& program, const MachineModel& machine, const PostFormat& format) {
+    if (program.tool && format.positions == PositionsOf::axes && !machine.compensates_along_z()) {
+        throw Error(fmt::format("the control counts a tool's length along +Z, and the tool of machine '{}' "
+                                "lies another way",
+                                machine.name()),
+                    {},
+                    "give the tool the number 0: it is not called, and the positions contain its length");
+    }
+}
+
 } // namespace
 
 /// Which blocks are written without tip control: the retracts at both ends. Nothing else may be, since a
@@ -368,6 +383,7 @@ prepare(const Program& program, const MachineModel& machine, const PostFormat& f
     if (format.positions == PositionsOf::tip) {
         check_letters_of_tip(machine);
     }
+    check_tool(program, machine, format);
     const Ends ends(program, machine);
     Preparer preparer(program, machine, format, tip_tolerance);
     for (int n = 0; n < program.block_count(); ++n) {

@@ -26,6 +26,9 @@ std::size_t axis_of(char letter) {
                                     axis_letters.begin());
 }
 
+/// The same of the tool's length.
+constexpr double strange_length = 5003.0; // mm
+
 /// Far from everything, so that a position that leaves it out is found.
 AxisValues strange_work_offset() {
     AxisValues offset;
@@ -46,6 +49,8 @@ std::string_view name_of(StepKind kind) {
         return "a feed";
     case StepKind::arc:
         return "an arc";
+    case StepKind::tool:
+        return "a tool call";
     case StepKind::spindle_on:
         return "spindle on";
     case StepKind::spindle_off:
@@ -100,11 +105,17 @@ public:
         if (format.positions == PositionsOf::tip) {
             work_offset_ = strange_work_offset();
         }
+        // Of Fanuc's and Heidenhain's tip control the length is the control's affair.
+        const bool counts = format.reader == TextReader::linuxcnc || format.positions == PositionsOf::axes;
+        if (program.tool && !format.blocks.tool.empty() && counts) {
+            tool_offset_[Axis::z] = strange_length;
+        }
         at_ = strange_start();
     }
 
     void compare(const Listing& listing) {
         steps_ = read(listing);
+        compare_tool();
         auto arc = wording_.arcs.begin();
         for (block_ = 0; block_ < program_.block_count(); ++block_) {
             const Block& block = program_.blocks[static_cast<std::size_t>(block_)];
@@ -128,6 +139,7 @@ private:
     double arc_tolerance_;
     const std::filesystem::path& file_;
     AxisValues work_offset_;
+    AxisValues tool_offset_; ///< that the text has to call
     std::vector<WrittenStep> steps_;
     std::size_t next_ = 0;
     AxisValues at_; ///< the last position that was read
@@ -154,7 +166,10 @@ private:
     /// Where the axes stand before is not known, so each has to be named before it counts. A feed that is the
     /// first to name one has its length from where the program takes it to be.
     [[nodiscard]] AxisValues strange_start() const {
-        AxisValues start = values_of(program_.start);
+        AxisValues start = values_of(programmed(program_, program_.start));
+        if (format_.positions == PositionsOf::axes) {
+            start += tool_offset_;
+        }
         AxisSet named;
         for (const Block& block : program_.blocks) {
             for (std::size_t n = 0; n < program_.axes.size() && block.moves(); ++n) {
@@ -176,6 +191,10 @@ private:
         WrittenTextRules rules;
         rules.start = at_;
         rules.work_offset = work_offset_;
+        if (program_.tool) {
+            rules.tool.number = program_.tool->number;
+            rules.tool.offset = tool_offset_;
+        }
         if (format_.tip) {
             rules.tip_on = format_.tip->read_m_on;
             rules.tip_off = format_.tip->read_m_off;
@@ -198,6 +217,29 @@ private:
             differ(fmt::format("{} instead of {}", name_of(step.kind), name_of(wanted)));
         }
         return step;
+    }
+
+    /// The tool comes before all else, where the program has one and the control can be told.
+    void compare_tool() {
+        if (!program_.tool || format_.blocks.tool.empty()) { // a control that needs one has any
+            std::erase_if(steps_, [](const WrittenStep& step) { return step.kind == StepKind::tool; });
+            return;
+        }
+        const WrittenStep& step = next(StepKind::tool);
+        if (!exactly_equal(step.value, static_cast<double>(program_.tool->number))) {
+            differ(fmt::format("tool {:.0f} is called in the text and {} in the program",
+                               step.value,
+                               program_.tool->number));
+        }
+        ++next_;
+    }
+
+    /// What the control adds to a position of the text, machine positions by G53 or M91 apart.
+    [[nodiscard]] double added(std::size_t letter, bool tip) const {
+        if (format_.positions == PositionsOf::tip && !tip) {
+            return 0.0;
+        }
+        return (tip ? work_offset_[letter] : 0.0) + tool_offset_[letter];
     }
 
     void compare_value(std::string_view name, double read, double meant, double within) const {
@@ -264,7 +306,7 @@ private:
                 known_.insert(index);
             }
             const bool counts = named.contains(index) || known_.contains(index);
-            const double meant = counts ? position + (words.tip ? work_offset_[letter] : 0.0) : at_[letter];
+            const double meant = counts ? position + added(letter, words.tip) : at_[letter];
             const double within = rotary ? half_of(format_.numbers.angle)
                                          : half_of(format_.numbers.length) * format_.length_unit();
             compare_value(std::string(1, axis.letter), read[letter], meant, within);
@@ -317,13 +359,14 @@ private:
         if (step.plane != arc.plane || (step.sweep > 0.0) != (arc.sweep > 0.0)) {
             differ("the arc turns another way than meant");
         }
+        const auto [first, second] = letters_of(step.plane);
+        const Vec2 centre(step.centre_1 - added(first, false), step.centre_2 - added(second, false));
         if (format_.arcs->centre != ArcCentre::radius) {
             const double within = half_of(format_.numbers.length) * format_.length_unit();
-            compare_value("the centre's first coordinate", step.centre_1, arc.centre.x(), within);
-            compare_value("the centre's second coordinate", step.centre_2, arc.centre.y(), within);
+            compare_value("the centre's first coordinate", centre.x(), arc.centre.x(), within);
+            compare_value("the centre's second coordinate", centre.y(), arc.centre.y(), within);
         }
-        const FittedArc read{
-            arc.first, arc.last, step.plane, Vec2(step.centre_1, step.centre_2), radius_of(step), step.sweep};
+        const FittedArc read{arc.first, arc.last, step.plane, centre, radius_of(step), step.sweep};
         const double deviation = arc_deviation(program_, wording_, read);
         const double within = arc_tolerance_ + half_of(format_.numbers.length) * format_.length_unit();
         if (!(deviation <= within)) {
@@ -334,11 +377,14 @@ private:
         ++next_;
     }
 
+    [[nodiscard]] static std::pair<std::size_t, std::size_t> letters_of(Plane plane) {
+        const std::string_view letters = plane == Plane::xy ? "XY" : plane == Plane::xz ? "ZX" : "YZ";
+        return {axis_of(letters[0]), axis_of(letters[1])};
+    }
+
     [[nodiscard]] double radius_of(const WrittenStep& step) const {
-        const std::string_view letters = step.plane == Plane::xy   ? "XY"
-                                         : step.plane == Plane::xz ? "ZX"
-                                                                   : "YZ";
-        return std::hypot(at_[axis_of(letters[0])] - step.centre_1, at_[axis_of(letters[1])] - step.centre_2);
+        const auto [first, second] = letters_of(step.plane);
+        return std::hypot(at_[first] - step.centre_1, at_[second] - step.centre_2);
     }
 
     void compare_duration_of(const FittedArc& arc,

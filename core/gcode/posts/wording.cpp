@@ -41,8 +41,9 @@ Wording axis_wording(const Program& program) {
     Wording wording;
     wording.blocks.reserve(program.blocks.size());
     for (int n = 0; n < program.block_count(); ++n) {
-        wording.blocks.push_back(
-            {position_before(program, n), program.blocks[static_cast<std::size_t>(n)].target, false});
+        wording.blocks.push_back({programmed(program, position_before(program, n)),
+                                  programmed(program, program.blocks[static_cast<std::size_t>(n)].target),
+                                  false});
     }
     return wording;
 }

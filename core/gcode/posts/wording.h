@@ -35,7 +35,7 @@ struct Wording {
     std::vector<FittedArc> arcs;
 };
 
-/// Every block in axis positions, no arcs.
+/// Every block in axis positions as they are programmed, no arcs.
 [[nodiscard]] Wording axis_wording(const Program& program);
 
 /// What a programmed feed counts along: X Y Z where one of them moves, else U V W, else A B C.

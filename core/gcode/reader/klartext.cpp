@@ -79,6 +79,7 @@ private:
     double unit_ = 1.0;
     double feed_ = 0.0; ///< mm or degrees a minute
     double rpm_ = 0.0;
+    double tool_ = 0.0; ///< number of the last that was called
     int line_ = 0;
     int number_ = -1; ///< of the last block
     bool tip_ = false;
@@ -198,6 +199,10 @@ private:
     }
 
     void tool_call() {
+        const auto number = words_.size() > 2 ? number_in(words_[2].text) : std::nullopt;
+        if (number && !exactly_equal(*number, std::exchange(tool_, *number))) {
+            add(StepKind::tool).value = *number;
+        }
         for (const Word& word : words_) {
             if (word.text.starts_with('S')) {
                 rpm_ = value_of(word, "S");

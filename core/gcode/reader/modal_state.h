@@ -61,6 +61,7 @@ struct ModalState {
     bool mist = false, flood = false;
     bool feed_override = true, speed_override = true, adaptive_feed = false, feed_hold = true;
     int selected_tool = 0;  ///< number, by T
+    int length_tool = 0;    ///< whose length G43 has put in force; 0: none, or one that has no number
     int selected_row = 0;   ///< in the tool table; 0: none
     int row_in_spindle = 0; ///< where the tool in the spindle came from; 0: none
     Tool spindle_tool;      ///< as it was when it was loaded or set

@@ -73,6 +73,13 @@ public:
         case CommandKind::dwell:
             add(StepKind::dwell, command).value = command.value;
             break;
+        case CommandKind::select_tool:
+            selected_ = command.index;
+            break;
+        case CommandKind::change_tool:
+            forget_line(command);
+            add(StepKind::tool, command).value = selected_;
+            break;
         case CommandKind::program_stop:
             add(StepKind::pause, command);
             break;
@@ -105,6 +112,7 @@ private:
     internal::ProgrammedFeed feed_;
     AxisValues at_; ///< machine positions
     double rpm_ = 0.0;
+    int selected_ = 0; ///< tool number
     bool tip_ = false;
 
     [[noreturn]] void refuse(SourcePlace source, std::string message) const {
@@ -126,11 +134,15 @@ private:
         tip_ = on;
     }
 
-    /// What the end switches off was not written.
-    void end(const Command& command) {
+    /// What an end or a tool change switches off was not written.
+    void forget_line(const Command& command) {
         while (!steps_.empty() && steps_.back().line == command.source.line) {
             steps_.pop_back();
         }
+    }
+
+    void end(const Command& command) {
+        forget_line(command);
         add(StepKind::end, command).tip = tip_;
     }
 
@@ -156,18 +168,27 @@ private:
         steps_.push_back(step);
     }
 
-    /// Without work offset and rotation an arc of the program is one of the machine.
+    [[nodiscard]] static std::array<Axis, 3> axes_of(Plane plane) {
+        return plane == Plane::xy   ? std::array{Axis::x, Axis::y, Axis::z}
+               : plane == Plane::xz ? std::array{Axis::z, Axis::x, Axis::y}
+                                    : std::array{Axis::y, Axis::z, Axis::x};
+    }
+
+    /// Without rotation an arc of the program is one of the machine, all offsets added.
     void set_arc(WrittenStep& step, const Move& move) const {
+        const auto [first, second, third] = axes_of(move.plane);
+        AxisValues centre = move.target;
+        centre[first] = move.centre_1;
+        centre[second] = move.centre_2;
+        centre = frame_.to_machine(centre);
         step.plane = move.plane;
-        step.centre_1 = move.centre_1 * frame_.unit();
-        step.centre_2 = move.centre_2 * frame_.unit();
+        step.centre_1 = centre[first];
+        step.centre_2 = centre[second];
         step.sweep = move.sweep;
     }
 
     [[nodiscard]] double arc_length(const WrittenStep& step) const {
-        const auto [first, second, third] = step.plane == Plane::xy   ? std::array{Axis::x, Axis::y, Axis::z}
-                                            : step.plane == Plane::xz ? std::array{Axis::z, Axis::x, Axis::y}
-                                                                      : std::array{Axis::y, Axis::z, Axis::x};
+        const auto [first, second, third] = axes_of(step.plane);
         const double radius = std::hypot(at_[first] - step.centre_1, at_[second] - step.centre_2);
         return std::hypot(radius * step.sweep, step.target[third] - at_[third]);
     }
@@ -181,6 +202,9 @@ read_written_rs274(std::string_view text, const std::filesystem::path& file, con
     settings.dialect = rules.dialect;
     settings.start = rules.start;
     settings.any_tool = true;
+    if (rules.tool.number > 0) {
+        settings.tools.tools.push_back(rules.tool);
+    }
     settings.parameters = parameters_of(rules.work_offset);
     if (rules.tip_on != 0) {
         settings.remapped_m = {rules.tip_on, rules.tip_off};

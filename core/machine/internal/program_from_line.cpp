@@ -59,6 +59,7 @@ public:
         result_.machine = job.program->machine;
         result_.axes = job.program->axes;
         result_.start = job.program->start;
+        result_.tool = job.program->tool;
     }
 
     Program make() {
@@ -204,11 +205,15 @@ private:
     }
 };
 
-/// The words of the approach alone, a line each: what stands on top of every program would take the room.
+/// The words of the approach alone, a line each: what stands on top of every program would take the room. But
+/// the tool's length stays in force.
 Listing words_of(const Program& approach) {
     Listing words = gcode::write_gcode(approach, {});
     const int head = words.line_of_block.front() - 1;
     words.text.erase(0, words.line_starts[static_cast<std::size_t>(head)]);
+    if (approach.tool) {
+        words.text.insert(0, fmt::format("G43 H{} ", approach.tool->number));
+    }
     for (int& line : words.line_of_block) {
         line -= head;
     }

@@ -146,6 +146,23 @@ TEST(Clocks, OfAnArcAre111OfCordicAChord) {
     EXPECT_EQ(cordic, 50 * 111);
 }
 
+// As the table of the reference says, which had 150, 189 and nothing.
+TEST(Clocks, OfALineInSpaceAre151OfAHelix190AChordAndOfTheEnd2) {
+    const Assembled line = assemble(
+        ".format f32\nmov XI, 1\nmov YJ, 2\nmov Z, 3\nmov Vmax, 1\nmov Amax, 1\nG01Z\nhlt\n", "line.asm");
+    const Assembled helix = assemble(
+        ".format f32\nmov X0, 3\nmov Vmax, 2\nmov Amax, 2\nmov Dz, 0.1\nmov N, 20\nmov Z, 0.25\nG03Z\nhlt\n",
+        "helix.asm");
+    ASSERT_TRUE(line.errors.empty());
+    ASSERT_TRUE(helix.errors.empty());
+    std::int64_t cordic = 0;
+    EXPECT_EQ(clocks_of_instruction(line.image, 5, cordic), 151);
+    EXPECT_EQ(cordic, 140);
+    EXPECT_EQ(clocks_of_instruction(helix.image, 6, cordic), 20 * 190 + 2);
+    EXPECT_EQ(cordic, 20 * 177);
+    EXPECT_EQ(clocks_of_instruction(helix.image, 7, cordic), 2);
+}
+
 TEST(Clocks, AddUp) {
     ProcessorSettings settings;
     settings.publishing = Publishing::bus;

@@ -26,6 +26,24 @@ ControlNet random_net_of(int rows, int columns, unsigned seed, bool rational) {
     return net;
 }
 
+// Beside a light control point the tangent is 1e-12 of the patch, and right: it was taken for none.
+TEST(BezierPatch, HasANormalBesideLightControlPoints) {
+    ControlNet net = ControlNet::sized(4, 4);
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            net.point(i, j) = {26.0 * i - 40.0, 26.0 * j - 40.0, i * j * 1.1};
+            net.weight(i, j) = (i + j) % 2 == 0 ? 1e6 : 1e-6;
+        }
+    }
+    const BezierPatch patch(net);
+    const auto normal = patch.unit_normal(0.0, 0.0); // both tangents lie in the plane z = 0
+    ASSERT_TRUE(normal.has_value());
+    EXPECT_LT((*normal - Vec3::UnitZ()).norm(), 1e-3);
+    net.point(0, 1) = net.point(0, 0); // a side that begins twice at the same place
+    net.weight(0, 1) = 1.0;
+    EXPECT_FALSE(BezierPatch(net).unit_normal(0.0, 0.0).has_value());
+}
+
 /// Eq. 14 with the transpose put back: S = U B P B^T V^T, coordinate by coordinate.
 Vec3 matrix_form(const ControlNet& net, double u, double v) {
     Eigen::Matrix4d B;

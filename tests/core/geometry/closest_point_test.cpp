@@ -54,6 +54,56 @@ TEST(ClosestPoint, IsNeverFartherThanABruteForceSearch) {
     }
 }
 
+/// Control points at random heights: from a point between the hills there are many minima.
+BezierPatch wild(int points, unsigned seed) {
+    ControlNet net = ControlNet::sized(points, points);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> height(-60.0, 60.0);
+    for (int i = 0; i < points; ++i) {
+        for (int j = 0; j < points; ++j) {
+            net.point(i, j) = {80.0 * i / (points - 1.0), 80.0 * j / (points - 1.0), height(random)};
+        }
+    }
+    return BezierPatch(net);
+}
+
+std::vector<Vec3> fine_raster(const BezierPatch& patch) {
+    constexpr int side = 400;
+    std::vector<Vec3> points;
+    for (int i = 0; i <= side; ++i) {
+        for (int j = 0; j <= side; ++j) {
+            points.push_back(patch.position(static_cast<double>(i) / side, static_cast<double>(j) / side));
+        }
+    }
+    return points;
+}
+
+double least_distance(const std::vector<Vec3>& points, const Vec3& from) {
+    double squared = 1e300;
+    for (const Vec3& point : points) {
+        squared = std::min(squared, (point - from).squaredNorm());
+    }
+    return std::sqrt(squared);
+}
+
+// From the nearest of 49 x 49 samples alone the descent ended in another hollow.
+TEST(ClosestPoint, IsTheNearestOfAWildNetToo) {
+    for (const auto& [points, seed] : {std::pair(8, 1U), std::pair(20, 2U), std::pair(40, 3U)}) {
+        const BezierPatch patch = wild(points, seed);
+        const ClosestPointSearch search(patch);
+        const std::vector<Vec3> raster = fine_raster(patch);
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> across(0.0, 80.0), height(-60.0, 60.0), guess(0.0, 1.0);
+        for (int n = 0; n < 100; ++n) {
+            const Vec3 point(across(random), across(random), height(random));
+            const double by_force = least_distance(raster, point);
+            EXPECT_LE(search.closest(point).distance, by_force + 1e-12) << points << " points, try " << n;
+            EXPECT_LE(search.closest(point, {guess(random), guess(random)}).distance, by_force + 1e-12)
+                << points << " points, guess " << n;
+        }
+    }
+}
+
 TEST(ClosestPoint, StaysInsideThePatchForPointsBeyondItsEdge) {
     const ClosestPointSearch search(dome());
     const ClosestPoint found = search.closest({-30.0, 46.25, 1.0});

@@ -80,6 +80,25 @@ TEST(MachineFile, FaultsAreReportedWithLineAndField) {
               std::string::npos);
 }
 
+TEST(MachineFile, AHeadThatSwingsSaysHowLongItsToolIs) {
+    const auto model = read_machine("assets/machines/ca-head.json");
+    EXPECT_TRUE(model.swings_tool());
+    EXPECT_EQ(model.description().tool_length, 40.0);
+    std::string text = read_file("assets/machines/ca-head.json");
+    const std::string_view field = "    \"tool_length\": 40,\n";
+    text.erase(text.find(field), field.size());
+    const auto file =
+        std::filesystem::temp_directory_path() / ("no_tool_length_" + std::to_string(::getpid()) + ".json");
+    write_file(file, text);
+    try {
+        (void)read_machine(file);
+        ADD_FAILURE() << "it was taken";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("tool_length"), std::string::npos) << error.what();
+    }
+    std::filesystem::remove(file);
+}
+
 TEST(MachineFile, AMissingFileIsNamed) {
     EXPECT_THROW((void)read_machine("assets/machines/none.json"), Error);
 }

@@ -234,6 +234,16 @@ TEST(RunFromLine, NamesTheToolAndChangesItWhereTheProgramDoes) {
     EXPECT_THAT(rest.text, HasSubstr(" T4 M6\nG0 Z20\n"));
 }
 
+// It wrote G49: the tool would have gone down by its own length.
+TEST(RunFromLine, KeepsTheLengthOfTheToolByItsNumber) {
+    EXPECT_THAT(run_from_line(with_head("T4 M6\nG43 H4\nG0 Z20\nG0 X5\n"), "test.ngc", 17, {}).text,
+                HasSubstr("G43 H4"));
+    EXPECT_THAT(run_from_line(with_head("T4 M6\nG43\nG0 Z20\nG0 X5\n"), "test.ngc", 17, {}).text,
+                HasSubstr("G43 H4"));
+    EXPECT_THAT(run_from_line(with_head("T4 M6\nG43 H4\nG49\nG0 Z20\nG0 X5\n"), "test.ngc", 18, {}).text,
+                HasSubstr("G49"));
+}
+
 TEST(RunFromLine, TheLongestApproachHasItsRoom) {
     const std::string text =
         "G20 G90 G93\nT4 M6\nM4 S100 F3\nM7\nM8\nG0 X0 Y0 Z20\nG0 Z30\nG1 X1 Y2 F4\nM2\n";

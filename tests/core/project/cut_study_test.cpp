@@ -66,6 +66,38 @@ TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
     EXPECT_GT(plan.trajectory->duration(), 0.0);
 }
 
+/// Against the raster itself. Points that are cut too deep have nothing left, which says nothing of the rest.
+TEST(CutStudy, TheMeanOfWhatIsLeftIsOfPointsThatAreNotTooDeep) {
+    Project project = project_from_preset("two-bell");
+    project.machine.file = "router-xyz";
+    project.grid.nu = 6;
+    project.grid.nv = 30;
+    project.grid.method = GridMethod::uniform;
+    ToolInput tool = ball_tool;
+    tool.diameter_mm = 60.0;
+    tool.length_mm = 100.0;
+    const Plan plan = studied_cut(project, tool);
+    double sum = 0.0;
+    int left = 0, too_deep = 0;
+    for (const double height : plan.cut->swept.heights) {
+        too_deep += height < -1e-3 ? 1 : 0;
+        if (height >= -1e-3 && std::isfinite(height)) {
+            sum += std::max(height, 0.0);
+            ++left;
+        }
+    }
+    ASSERT_GT(too_deep, 0);
+    EXPECT_NEAR(plan.cut->scallops.mean, sum / left, 1e-12);
+    EXPECT_NEAR(
+        plan.cut->scallops.gouged, too_deep / static_cast<double>(plan.cut->swept.heights.size()), 1e-12);
+    EXPECT_NEAR(plan.cut->scallops.not_cut + plan.cut->scallops.gouged +
+                    left / static_cast<double>(plan.cut->swept.heights.size()),
+                1.0,
+                1e-12);
+    EXPECT_THAT(left_text(project, plan), testing::HasSubstr("% cut too deep"));
+    EXPECT_THAT(checked_text(project), testing::HasSubstr("only this face was looked at"));
+}
+
 /// The two bells stand on a ground that they meet in valleys: a thick ball does not fit there, a thin one
 /// does.
 TEST(CutStudy, TellsTheBlocksThatGouge) {

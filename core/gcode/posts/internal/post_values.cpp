@@ -64,8 +64,11 @@ Lines lines(const JsonValue& value, std::initializer_list<std::string_view> allo
     return result;
 }
 
-Lines lines_with(const JsonValue& value, std::string_view placeholder) {
-    Lines result = lines(value, {placeholder});
+Lines lines_with(const JsonValue& value,
+                 std::string_view placeholder,
+                 std::string_view optional_placeholder) {
+    Lines result =
+        lines(value, {placeholder, optional_placeholder.empty() ? placeholder : optional_placeholder});
     const auto holds = [&](const std::string& line) {
         return line.find(fmt::format("{{{}}}", placeholder)) != std::string::npos;
     };

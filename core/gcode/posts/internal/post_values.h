@@ -39,7 +39,9 @@ std::string pattern(const JsonValue& value, std::initializer_list<std::string_vi
 /// At most 50 patterns, none empty.
 Lines lines(const JsonValue& value, std::initializer_list<std::string_view> allowed = {});
 
-/// Lines that are useless without `placeholder`.
-Lines lines_with(const JsonValue& value, std::string_view placeholder);
+/// Lines that are useless without `placeholder`, and may hold `optional_placeholder`.
+Lines lines_with(const JsonValue& value,
+                 std::string_view placeholder,
+                 std::string_view optional_placeholder = {});
 
 } // namespace millwright::gcode::internal

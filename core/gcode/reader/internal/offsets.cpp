@@ -147,6 +147,7 @@ void set_tool_length(Run& run, const Block& block, int code) {
     run.out.send(command_of(CommandKind::use_tool_length_offset, offset));
     s.position += rotated(s.tool_offset - offset, -s.rotation_deg);
     s.tool_offset = offset;
+    s.length_tool = code != 430 ? 0 : block.has('H') ? static_cast<int>(block['H']) : s.spindle_tool.number;
 }
 
 void set_axis_offsets(Run& run, const Block& block, int code) {

@@ -86,7 +86,9 @@ std::vector<Diagnostic> CordicDriver::warnings() const {
     return warnings_;
 }
 
-gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const AxisValues& start) const {
+gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing,
+                                            const AxisValues& start,
+                                            const std::optional<gcode::ProgramTool>& tool) const {
     gcode::CordicProgramSettings settings = options_.program;
     settings.processor = options_.processor;
     settings.start = start;
@@ -94,6 +96,11 @@ gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing, const
     gcode::ReaderSettings reading;
     reading.any_tool = true;
     reading.start = start;
+    if (tool) { // the table of a processor that has none
+        gcode::Tool& row = reading.tools.tools.emplace_back();
+        row.number = tool->number;
+        row.offset[gcode::Axis::z] = tool->length_offset;
+    }
     gcode::Interpreter program(std::string_view(listing.text), program_name, std::move(reading), builder);
     program.run();
     throw_first(program.errors());
@@ -163,7 +170,8 @@ void CordicDriver::start(Work work) {
         throw Error(fmt::format("the machine is {} and takes no program", in_words(before.state)));
     }
     const AxisValues start = values_of(before.position, *model_);
-    gcode::CordicProgram made = compiled(*work.listing, start);
+    gcode::CordicProgram made =
+        compiled(*work.listing, start, work.program ? work.program->tool : std::nullopt);
     cordic::Processor processor(options_.processor, made.image);
     processor.run(options_.most_clocks);
     refuse_unfinished(processor, made);

@@ -77,8 +77,10 @@ private:
         [[nodiscard]] DriverStatus translated(DriverStatus status) const;
     };
 
+    /// `tool`: whose length the listing calls; nullopt: any has the length 0.
     [[nodiscard]] gcode::CordicProgram compiled(const gcode::Listing& listing,
-                                                const gcode::AxisValues& start) const;
+                                                const gcode::AxisValues& start,
+                                                const std::optional<gcode::ProgramTool>& tool) const;
     /// Throws Error with the place unless the processor has halted.
     void refuse_unfinished(const cordic::Processor& processor, const gcode::CordicProgram& made) const;
     [[nodiscard]] static BlockMap map_of(const gcode::Program& records, const gcode::Listing& listing);

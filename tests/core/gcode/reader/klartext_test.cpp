@@ -68,7 +68,8 @@ TEST(Klartext, ReadsStraightBlocks) {
 
 TEST(Klartext, ReadsSwitches) {
     const auto steps = read_klartext({"; M30",
-                                      "TOOL CALL 1 Z S9000",
+                                      "TOOL CALL 3 Z",
+                                      "TOOL CALL 3 Z S9000",
                                       "M4",
                                       "M8",
                                       "CYCL DEF 9.0 DWELL TIME",
@@ -77,12 +78,14 @@ TEST(Klartext, ReadsSwitches) {
                                       "M9",
                                       "M5",
                                       "M30"});
-    ASSERT_EQ(steps.size(), 7U);
-    EXPECT_EQ(steps[0].value, -9000.0);
-    EXPECT_EQ(steps[2].kind, StepKind::dwell);
-    EXPECT_EQ(steps[2].value, 1.5);
-    EXPECT_EQ(steps[3].kind, StepKind::pause);
-    EXPECT_EQ(steps[6].kind, StepKind::end);
+    ASSERT_EQ(steps.size(), 8U);
+    EXPECT_EQ(steps[0].kind, StepKind::tool); // the second call changes its speed alone
+    EXPECT_EQ(steps[0].value, 3.0);
+    EXPECT_EQ(steps[1].value, -9000.0);
+    EXPECT_EQ(steps[3].kind, StepKind::dwell);
+    EXPECT_EQ(steps[3].value, 1.5);
+    EXPECT_EQ(steps[4].kind, StepKind::pause);
+    EXPECT_EQ(steps[7].kind, StepKind::end);
 }
 
 TEST(Klartext, KnowsWhenTheTipIsKept) {
