@@ -2,7 +2,7 @@
 
 #include "core/gcode/plot_program.h"
 #include "core/gcode/reader/machine_program.h"
-#include "core/machine/drivers/internal/pause.h"
+#include "core/machine/internal/pause.h"
 #include "core/machine/internal/table_axes.h"
 #include "core/plot/decode_path.h"
 
