@@ -58,6 +58,7 @@ void TablePlayer::play(const TableChoice& choice, TableWork work) {
         machine::PlayerOptions{.speed = choice.port.empty() ? choice.speed : 1.0, .format = choice.record});
     play->dispatcher = std::make_unique<machine::Dispatcher>(*play->driver, clock_, log_folder_);
     const std::scoped_lock lock(mutex_);
+    place_before_ = last_place();
     play_ = play;
     playing_ = true;
     total_ = 0;
@@ -104,14 +105,21 @@ std::shared_ptr<TablePlayer::Play> TablePlayer::current() const {
     return playing_ ? play_ : nullptr;
 }
 
-/// For the eyes alone everything starts anew.
+/// A play that was refused, or that nothing was sent for, moved no table. With the mutex held.
+std::optional<TablePlayer::Place> TablePlayer::last_place() const {
+    if (play_ && !play_->choice.port.empty()) {
+        const machine::PlayStatus played = play_->driver->played();
+        if (played.sent > 0) {
+            return Place{play_->choice.port, played.position};
+        }
+    }
+    return place_before_;
+}
+
 std::optional<Vec3> TablePlayer::place(const std::string& port) const {
     const std::scoped_lock lock(mutex_);
-    if (!play_ || port.empty() || play_->choice.port != port) {
-        return std::nullopt;
-    }
-    const machine::PlayStatus played = play_->driver->played();
-    return played.sent > 0 ? std::optional(played.position) : std::nullopt;
+    const std::optional<Place> last = last_place();
+    return last && last->port == port ? std::optional(last->at) : std::nullopt;
 }
 
 void TablePlayer::hold() {

@@ -84,17 +84,25 @@ private:
         std::unique_ptr<machine::Dispatcher> dispatcher;
     };
 
+    /// Of a table that was sent points.
+    struct Place {
+        std::string port;
+        Vec3 at = Vec3::Zero(); ///< mm
+    };
+
     void run(const std::shared_ptr<Play>& play,
              const TableWork& work,
              const std::optional<Vec3>& start,
              const std::stop_token& stop);
     [[nodiscard]] std::shared_ptr<Play> current() const;
+    [[nodiscard]] std::optional<Place> last_place() const;
 
     std::filesystem::path log_folder_;
     std::function<void()> wake_;
     machine::SteadyClock clock_;
     mutable std::mutex mutex_; ///< guards what follows
     std::shared_ptr<Play> play_;
+    std::optional<Place> place_before_; ///< where the plays before that one left a table
     bool playing_ = false;
     std::int64_t total_ = 0;
     std::optional<Diagnostic> failure_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -139,6 +140,21 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     bench.person.frames(2);
     EXPECT_TRUE(bench.person.sees("lower/begins"));
     const auto first = static_cast<std::size_t>(table.records());
+    // What is refused moves no table, nor does what is played for the eyes alone.
+    const std::optional<Vec3> place = bench.plot().table().place(choice.port);
+    ASSERT_TRUE(place);
+    actions::TableChoice other = choice;
+    other.decoding.velocity = 500.0;
+    for (const bool port : {true, false}) {
+        other.port = port ? choice.port : "";
+        bench.plot().set_table(other);
+        bench.person.frames(2);
+        bench.person.click("lower/plot_play_table");
+        ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().failure.has_value(); }));
+        EXPECT_EQ(bench.plot().table().place(choice.port), place);
+    }
+    EXPECT_EQ(static_cast<std::size_t>(table.records()), first);
+    bench.plot().set_table(choice);
     bench.person.frames(2);
     bench.person.click("lower/plot_play_table");
     ASSERT_TRUE(bench.person.live_until(
@@ -212,7 +228,8 @@ TEST(PlotTable, WhatIsRefusedIsToldWholeAndInTheWordsOfThePane) {
     bench.person.click("lower/tabs/table");
     bench.person.frames();
     bench.person.click("lower/plot_play_table");
-    bench.person.frames(3);
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().failure.has_value(); }));
+    bench.person.frames(2);
     EXPECT_TRUE(bench.person.sees("lower/table_failure"));
     const auto failure = bench.plot().table().view().failure;
     ASSERT_TRUE(failure);
