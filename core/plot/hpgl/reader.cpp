@@ -222,25 +222,22 @@ ReaderSettings with_line_ends(std::string_view bytes,
     }
     const auto meaning = evidence.meaning();
     const Place place{.file = file, .byte = evidence.first_byte()};
-    const std::string hint = "if not, choose Line ends under Source, or --line-ends separate or join";
+    const std::string choose = "choose what Line ends are under Source, or --line-ends separate or join";
     if (!meaning) {
         throw Error({.place = place,
-                     .message = fmt::format("the line ends here between two digits, as {} do: the file does "
-                                            "not show whether that separates two numbers or wraps one",
+                     .message = fmt::format("the file does not show whether line ends between two digits "
+                                            "separate numbers or wrap them ({}, the first here)",
                                             evidence.count()),
-                     .hint = "choose Line ends under Source, or --line-ends separate or join"});
+                     .hint = choose});
     }
     settings.line_ends = *meaning;
-    if (*meaning == LineEnds::join) {
+    if (*meaning == LineEnds::join || evidence.both_fit()) {
         notice = {.place = place,
-                  .message = fmt::format("{} line ends between two digits are read as wraps within a number",
+                  .message = fmt::format("line ends between two digits {} ({}, the first here)",
+                                         *meaning == LineEnds::join ? "are read as wraps within numbers"
+                                                                    : "are read as separators",
                                          evidence.count()),
-                  .hint = hint};
-    } else if (evidence.both_fit()) {
-        notice = {.place = place,
-                  .message =
-                      fmt::format("{} line ends between two digits are read as separators", evidence.count()),
-                  .hint = hint};
+                  .hint = "if not, " + choose};
     }
     return settings;
 }

@@ -12,6 +12,10 @@ bool is_of_a_number(char c) {
     return (c >= '0' && c <= '9') || c == '.';
 }
 
+bool is_sign(char c) {
+    return c == '+' || c == '-';
+}
+
 bool separates(char c) {
     return c == ',' || c == ' ' || c == '\t';
 }
@@ -47,7 +51,8 @@ std::size_t numbers_before(std::string_view text) {
 
 bool has_line_end_in_digits(std::string_view bytes) {
     for (std::size_t at = 1; at < bytes.size(); ++at) {
-        if ((bytes[at] == '\n' || bytes[at] == '\r') && is_of_a_number(bytes[at - 1])) {
+        const bool after_number = is_of_a_number(bytes[at - 1]) || is_sign(bytes[at - 1]);
+        if ((bytes[at] == '\n' || bytes[at] == '\r') && after_number) {
             const std::size_t behind = behind_line_end(bytes, at);
             if (behind < bytes.size() && is_of_a_number(bytes[behind])) {
                 return true;
@@ -75,8 +80,10 @@ void LineEndEvidence::look_at(const Command& command, const Count& count) {
         }
         numbers += numbers_before(text.substr(counted_to, at - counted_to));
         counted_to = at;
-        if (is_of_a_number(text[at - 1]) && is_of_a_number(text[behind])) {
-            look_at_end(offset + at, pairs && numbers % 2 == 1);
+        const bool after_sign = is_sign(text[at - 1]);
+        if ((after_sign || is_of_a_number(text[at - 1])) && is_of_a_number(text[behind])) {
+            look_at_end(offset + at, pairs && !after_sign && numbers % 2 == 1);
+            after_signs_ += after_sign ? 1 : 0;
         } else if (separates(text[at - 1]) || separates(text[behind])) {
             ++beside_separator_;
         }
@@ -118,7 +125,8 @@ std::optional<LineEnds> LineEndEvidence::meaning() const {
         return doubtful ? std::nullopt : std::optional(LineEnds::separate);
     }
     if (join_misfits_ == 0 && separate_misfits_ > 0) {
-        return looks_separated && !of_one_width() ? std::nullopt : std::optional(LineEnds::join);
+        return looks_separated && after_signs_ == 0 && !of_one_width() ? std::nullopt
+                                                                       : std::optional(LineEnds::join);
     }
     if (looks_wrapped != looks_separated) {
         return looks_wrapped   ? std::optional(LineEnds::join)

@@ -14,7 +14,8 @@
 
 namespace millwright::plot::internal {
 
-/// Whether any line ends between two digits. Where none does there is no question.
+/// Whether any line ends between two digits, or between a sign and its digits. Where none does there is no
+/// question.
 [[nodiscard]] bool has_line_end_in_digits(std::string_view bytes);
 
 class LineEndEvidence {
@@ -41,6 +42,7 @@ private:
     std::int64_t open_ = 0;
     std::int64_t first_ = 0;
     std::int64_t in_pairs_ = 0;         ///< of the open ones, between the X and the Y of a pair
+    std::int64_t after_signs_ = 0;      ///< of the open ones, between a sign and its digits
     std::int64_t beside_separator_ = 0; ///< other line ends, which have a comma or a blank beside them
     std::int64_t separate_misfits_ = 0; ///< commands that cannot have as many numbers
     std::int64_t join_misfits_ = 0;

@@ -73,7 +73,7 @@ TEST(HpglLineEnds, TheUsualWidthsAreReadWithANotice) {
         const Plot plot = read_hpgl(text, "a.plt");
         EXPECT_EQ(plot.strokes.front().points, whole.front().points) << width;
         ASSERT_TRUE(plot.line_ends) << width;
-        EXPECT_THAT(plot.line_ends->message, HasSubstr("are read as wraps within a number"));
+        EXPECT_THAT(plot.line_ends->message, HasSubstr("are read as wraps within numbers"));
         EXPECT_EQ(notices(plot, "a.plt").front(), *plot.line_ends);
         ReaderSettings strict;
         strict.strictness = Strictness::strict; // it is no fault
@@ -87,15 +87,25 @@ TEST(HpglLineEnds, PairsOnLinesOfTheirOwnAreSeparate) {
     EXPECT_EQ(plot.strokes.front().points.back(), Vec2(200.0, 30.0));
     EXPECT_EQ(plot.strokes.front().points.size(), 4U);
     ASSERT_TRUE(plot.line_ends); // two numbers of one fit, too
-    EXPECT_THAT(plot.line_ends->message, HasSubstr("2 line ends between two digits are read as separators"));
+    EXPECT_THAT(plot.line_ends->message,
+                HasSubstr("line ends between two digits are read as separators (2, the first here)"));
     const Plot blanks = read_hpgl("SP1\nPU 0 0\nPD 4000 0\nPD 4000 2000\nPU\n", "a.plt");
     EXPECT_EQ(blanks.strokes.front().points.size(), 3U);
     EXPECT_FALSE(blanks.line_ends);
 }
 
+TEST(HpglLineEnds, ASignBeforeALineEndBelongsToTheDigitsBehindIt) {
+    const Plot plot = read_hpgl("SP1;PU0,0;PD400,-\n400,0,800;PU;", "a.plt");
+    EXPECT_TRUE(plot.diagnostics.empty());
+    ASSERT_EQ(plot.strokes.size(), 1U);
+    EXPECT_EQ(plot.strokes.front().points[1], Vec2(10.0, -10.0));
+    EXPECT_TRUE(plot.line_ends);
+}
+
 TEST(HpglLineEnds, AFileThatDoesNotShowItIsRefused) {
     const std::string text = "SP1;PU0,0;PD40\n0,4\n00;PU;"; // 40 0, 4 0 or 400, 400
-    EXPECT_THAT(refusal_of(text), HasSubstr("a.plt byte 14: the line ends here between two digits"));
+    EXPECT_THAT(refusal_of(text),
+                HasSubstr("a.plt byte 14: the file does not show whether line ends between two digits"));
     EXPECT_THAT(refusal_of(text), HasSubstr("--line-ends separate or join"));
     ReaderSettings chosen;
     chosen.line_ends = LineEnds::separate;
