@@ -47,20 +47,20 @@ nlohmann::ordered_json job_json(const machine::JobStory& story) {
             {"sentence", story.sentence}};
 }
 
-/// Of a plot that the window played there is no command.
+/// No command plays what the window played.
 void say_how_it_is_played_again(const LogStart& start) {
     if (start.options.empty()) {
         fmt::print(
             "    Look at the table and the part. It is played again from its beginning: open {} in the "
             "workbench.\n",
-            start.project);
+            printable(start.project));
         return;
     }
-    fmt::print("    Look at the table and the part. It is played again from its beginning alone:\n"
+    fmt::print("    Look at the table and the part. It is played again from its beginning:\n"
                "    millwright plot play {}{} {}\n",
                shell_word(start.project),
                start.address.empty() ? "" : " --port " + shell_word(start.address),
-               start.options);
+               printable(start.options));
 }
 
 void say_how_it_goes_on(const machine::JobStory& story) {

@@ -49,7 +49,7 @@ std::string why_not_from_line(const JobStory& story) {
         return "the cordic driver runs programs from their beginning alone";
     }
     if (story.start.driver == "points") {
-        return "points are played from their beginning alone";
+        return "points are always played from the first one";
     }
     if (story.next_line == 0) {
         return "it is not known where it ended";

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -72,11 +73,11 @@ TEST(PointJob, PlaysTheStrokesOrderDepthsAndToolsOfTheProgram) {
         EXPECT_NEAR((point - target).norm(), 0.0, 1e-4) << n;
     }
     EXPECT_GT(moves, 4 * 6);
-    std::vector<double> columns; // of the squares, as they are cut
+    std::vector<int> columns; // of the squares, as they are cut
     double lowest = 0.0;
     for (const Vec3& point : track.points) {
         if (point.z() < -0.01) {
-            const double column = std::floor(point.x() / 10.0);
+            const int column = static_cast<int>(std::floor(point.x() / 10.0));
             EXPECT_GE(point.z(), -0.5 * column - 1e-9);
             lowest = std::min(lowest, point.z());
             if (columns.empty() || columns.back() != column) {
@@ -84,7 +85,7 @@ TEST(PointJob, PlaysTheStrokesOrderDepthsAndToolsOfTheProgram) {
             }
         }
     }
-    EXPECT_THAT(columns, testing::ElementsAre(6.0, 4.0, 3.0, 1.0));
+    EXPECT_THAT(columns, testing::ElementsAre(6, 4, 3, 1));
     EXPECT_NEAR(lowest, -3.0, 1e-12);
 }
 

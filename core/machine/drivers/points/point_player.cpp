@@ -43,7 +43,7 @@ void expect_all_named(const std::vector<Vec3>& points, const std::string& patter
         const auto changes = [&](const Vec3& point) { return std::abs(point[k] - points.front()[k]) > 0.0; };
         if (pattern.find({'{', letter, '}'}) == std::string::npos && std::ranges::any_of(points, changes)) {
             throw Error(
-                fmt::format("the record '{}' does not tell {}, which the points change", pattern, letter));
+                fmt::format("the record '{}' leaves out {}, which the points change", pattern, letter));
         }
     }
 }
@@ -255,7 +255,7 @@ PlayStatus PointPlayer::play(const std::stop_token& stop, const Listener& listen
             status_.state = PlayState::playing;
         }
     }
-    begin_ = told_ = clock_.now();
+    begin_ = reported_at_ = clock_.now();
     for (std::size_t n = 0; n < track_->points.size();) {
         rest_at_stops(n, stop, listener);
         const double due = begin_ + static_cast<double>(n) * interval();
@@ -273,8 +273,8 @@ PlayStatus PointPlayer::play(const std::stop_token& stop, const Listener& listen
             return status();
         }
         constexpr double between_reports = 0.1;
-        if (listener && clock_.now() - told_ >= between_reports) {
-            told_ = clock_.now();
+        if (listener && clock_.now() - reported_at_ >= between_reports) {
+            reported_at_ = clock_.now();
             listener(status());
         }
     }

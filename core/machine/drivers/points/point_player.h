@@ -106,7 +106,7 @@ private:
     AnswerLines inbox_;
     double sent_at_ = 0.0;       ///< of the clock, the last point
     double begin_ = 0.0;         ///< of the clock, the first point, later by every rest
-    double told_ = 0.0;          ///< of the clock, the listener
+    double reported_at_ = 0.0;   ///< of the clock, to the listener
     mutable std::mutex mutex_;   ///< guards what follows, and each sending
     bool awaits_answer_ = false; ///< to the last point
     bool begun_ = false;

@@ -38,7 +38,7 @@ int block_of(const PointTrack& track, std::int64_t points) {
     return track.blocks[static_cast<std::size_t>(std::max<std::int64_t>(points, 1)) - 1];
 }
 
-void tell_progress(DriverStatus& status, const PlayStatus& played, const PointTrack& track, int blocks) {
+void add_progress(DriverStatus& status, const PlayStatus& played, const PointTrack& track, int blocks) {
     const bool done = played.state == PlayState::done;
     status.block = done ? blocks - 1 : block_of(track, played.points);
     status.executed_blocks = done ? blocks : played.points > 0 ? status.block : 0;
@@ -96,11 +96,13 @@ DriverStatus PointsDriver::status() const {
     status.state = locked_ ? DriverState::alarm : DriverState::idle;
     status.message = locked_ ? "emergency stop" : "";
     status.position = axes_of(position_);
+    status.position_known = false; // assumed
     status.velocity = status.work_offset = AxisPositions::Zero(model_->axis_count());
     if (!player_) {
         return status;
     }
     const PlayStatus played = player_->status();
+    status.position_known = played.points > 0 && !options_.format.relative;
     status.state = locked_ ? DriverState::alarm : driver_state_of(played.state);
     const bool goes_on = status.state == DriverState::running || status.state == DriverState::holding;
     status.activity = goes_on ? Activity::program : Activity::none;
@@ -113,7 +115,7 @@ DriverStatus PointsDriver::status() const {
         status.position_doubt =
             fmt::format("point {} was on its way, and nobody knows whether it was obeyed", played.sent);
     }
-    tell_progress(status, played, player_->track(), blocks_);
+    add_progress(status, played, player_->track(), blocks_);
     return status;
 }
 
@@ -129,7 +131,7 @@ void PointsDriver::connect() {
 
 void PointsDriver::start(Work work) {
     if (!work.points) {
-        throw Error("the points driver plays points alone");
+        throw Error("the points driver plays points only");
     }
     const DriverState now = status().state;
     if (now != DriverState::idle && now != DriverState::stopped) {

@@ -22,8 +22,8 @@ namespace millwright::machine {
 class PointsDriver final : public Driver {
 public:
     /// Starts at `position`; the table does not report where it is. Without a link (null) nothing is sent.
-    /// `clock` must outlive it. Throws Error if the machine has no X, Y, Z, and for a
-    /// record that cannot be.
+    /// `clock` must outlive it. Throws Error if the machine has no X, Y, Z, and for a record that it cannot
+    /// have.
     PointsDriver(std::unique_ptr<Link> link,
                  Clock& clock,
                  std::shared_ptr<const kinematics::MachineModel> model,

@@ -86,8 +86,8 @@ PointTrack diagonal(double period = 0.04) {
     return track_of(std::move(points), period);
 }
 
-const RecordFormat plain{.pattern = "{X},{Y},{Z}"};
-const RecordFormat asks{.pattern = "{X} {Y}", .answer = "ok"};
+const RecordFormat plain_record{.pattern = "{X},{Y},{Z}"};
+const RecordFormat asking_record{.pattern = "{X} {Y}", .answer = "ok"};
 
 struct PointPlayerBench {
     LateClock clock;
@@ -97,7 +97,7 @@ struct PointPlayerBench {
     PointPlayer player;
 
     explicit PointPlayerBench(double period = 0.04,
-                              const RecordFormat& format = plain,
+                              const RecordFormat& format = plain_record,
                               std::vector<PointTrack::Stop> stops = {})
         : player(&link, clock, track(period, std::move(stops)), model, {.format = format}) {}
 
@@ -192,7 +192,7 @@ TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
 }
 
 TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
-    PointPlayerBench slow(0.04, asks);
+    PointPlayerBench slow(0.04, asking_record);
     slow.kept.answer = "ok";
     slow.kept.answers_after = 0.3;
     const PlayStatus status = slow.player.play({});
@@ -204,7 +204,7 @@ TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
     }
     EXPECT_GT(status.jitter.most, 0.2);
 
-    PointPlayerBench quick(0.04, asks);
+    PointPlayerBench quick(0.04, asking_record);
     quick.kept.answer = "ok";
     quick.kept.answers_after = 0.01;
     EXPECT_EQ(quick.player.play({}).state, PlayState::done);
@@ -235,7 +235,7 @@ TEST(PointPlayer, StopsWhereNoAnswerComesInTime) {
 }
 
 TEST(PointPlayer, TellsWhereATableStandsThatRefusedAPoint) {
-    PointPlayerBench bench(0.04, asks);
+    PointPlayerBench bench(0.04, asking_record);
     bench.kept.answer = "ok";
     bench.kept.refused = 20;
     const PlayStatus status = bench.player.play({});
@@ -253,7 +253,7 @@ TEST(PointPlayer, RefusesRecordsThatLeaveOutWhatChanges) {
         const PointPlayerBench bench(0.04, {.pattern = "{X} {Z}"});
         ADD_FAILURE() << "it is taken";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("does not tell Y, which the points change"));
+        EXPECT_THAT(error.what(), HasSubstr("leaves out Y, which the points change"));
     }
 }
 
@@ -288,7 +288,7 @@ TEST(PointPlayer, SendsNothingWhileItIsHeld) {
 }
 
 TEST(PointPlayer, RestsAtTheStopsOfItsTrackUntilAPersonResumes) {
-    PointPlayerBench bench(0.4, plain, {{0, "put in tool 1"}, {20, "change to tool 2"}});
+    PointPlayerBench bench(0.4, plain_record, {{0, "put in tool 1"}, {20, "change to tool 2"}});
     std::vector<std::pair<std::string, std::size_t>> rests;
     const PlayStatus status = bench.player.play({}, [&](const PlayStatus& now) {
         if (now.state == PlayState::holding) {
@@ -303,7 +303,7 @@ TEST(PointPlayer, RestsAtTheStopsOfItsTrackUntilAPersonResumes) {
     EXPECT_EQ(status.stops, 2);
     EXPECT_EQ(status.sentence, "");
 
-    PointPlayerBench ends(0.4, plain, {{20, "change to tool 2"}});
+    PointPlayerBench ends(0.4, plain_record, {{20, "change to tool 2"}});
     const PlayStatus stopped = ends.player.play({}, [&](const PlayStatus& now) {
         if (now.state == PlayState::holding) {
             ends.player.stop();

@@ -120,7 +120,7 @@ TEST(PointsDriver, AStopIsInTheLogWithWhatWasExecuted) {
     EXPECT_EQ(log.executed_blocks(), outcome.executed_blocks);
     EXPECT_EQ(static_cast<std::int64_t>(bench.sent().size()), bench.driver.played().sent);
     EXPECT_EQ(way_on(job_story(outcome.log_file)).why_the_beginning,
-              "points are played from their beginning alone");
+              "points are always played from the first one");
 }
 
 TEST(PointsDriver, AnEmergencyStopIsAFaultUntilItIsReset) {
