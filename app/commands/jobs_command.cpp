@@ -47,7 +47,26 @@ nlohmann::ordered_json job_json(const machine::JobStory& story) {
             {"sentence", story.sentence}};
 }
 
+/// No command plays what the window played.
+void say_how_it_is_played_again(const LogStart& start) {
+    if (start.options.empty()) {
+        fmt::print(
+            "    Look at the table and the part. It is played again from its beginning: open {} in the "
+            "workbench.\n",
+            printable(start.project));
+        return;
+    }
+    fmt::print("    Look at the table and the part. It is played again from its beginning:\n"
+               "    millwright plot play {}{} {}\n",
+               shell_word(start.project),
+               start.address.empty() ? "" : " --port " + shell_word(start.address),
+               printable(start.options));
+}
+
 void say_how_it_goes_on(const machine::JobStory& story) {
+    if (story.start.driver == "points") {
+        return say_how_it_is_played_again(story.start);
+    }
     const machine::WayOn way = machine::way_on(story);
     const bool from_line = way.why_the_beginning.empty();
     const LogStart& start = story.start;

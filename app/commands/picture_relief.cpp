@@ -78,6 +78,7 @@ int relief(const PictureReliefOptions& options) {
 
 void add_picture_relief(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PictureReliefOptions>();
+    options->picture.reading.ground = plot::relief_top;
     CLI::App& command = *group.add_subcommand("relief", "Cut it as deep as its pixels are bright");
     add_picture_options(command, options->picture);
     command.add_option("--depth", options->depth, "Of white, mm")->check(above_zero())->required();

@@ -301,7 +301,7 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
     command
         .add_option("--line-ends",
                     options->reading.line_ends,
-                    "In numbers: automatic, join (listings wrapped anywhere) or separate")
+                    "In numbers: automatic (as the file shows), join (wrapped anywhere) or separate")
         ->transform(one_of(by_id(project::line_ends())))
         ->type_name(listed(by_id(project::line_ends())))
         ->default_str("automatic");

@@ -1,15 +1,20 @@
 #include "app/commands/plot_play.h"
 
+#include "app/controller.h"
 #include "app/finite_number.h"
 #include "app/interrupt.h"
 #include "app/progress_printer.h"
 #include "app/record_choice.h"
+#include "app/series.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/point_player.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/drivers/points/points_driver.h"
+#include "core/machine/point_job.h"
 #include "core/plot/point_file.h"
 #include "core/project/assets.h"
+#include "core/project/recent_files.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -23,6 +28,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::app {
 
@@ -36,8 +43,11 @@ struct PlotPlayOptions {
     std::string file;
     std::string port; ///< empty: nothing is sent
     std::string machine = "forming-table";
-    machine::PlayerOptions player;
+    double period = 0.01; ///< s
+    double speed = 1.0;   ///< times real time
     RecordChoice record = {.pattern = machine::RecordFormat().pattern, .format = {}};
+    std::string log = project::job_logs_place().string();
+    std::string options; ///< of the command, for its log
     bool json = false;
 };
 
@@ -53,18 +63,10 @@ void expect_none(const std::vector<Diagnostic>& faults) {
 }
 
 /// All lines have to be points: a table goes to none that was guessed.
-plot::PointFile points_to_play(const PlotPlayOptions& options) {
-    plot::PointFile read = plot::read_points(read_file(options.file), options.file);
+plot::PointFile points_to_play(const std::string& text, const std::filesystem::path& file) {
+    plot::PointFile read = plot::read_points(text, file);
     expect_none(read.diagnostics);
     return read;
-}
-
-/// With the lines of the file, which may have blank ones, in place of the numbers of points.
-std::vector<Diagnostic> with_lines(std::vector<Diagnostic> faults, const std::vector<int>& lines) {
-    for (Diagnostic& fault : faults) {
-        fault.place.line = lines[static_cast<std::size_t>(fault.place.line) - 1];
-    }
-    return faults;
 }
 
 void print_jitter(const Jitter& jitter) {
@@ -89,7 +91,7 @@ void print_jitter(const Jitter& jitter) {
     }
 }
 
-void print_play_json(const PlayStatus& status) {
+void print_play_json(const PlayStatus& status, const machine::JobOutcome& outcome) {
     const Jitter& jitter = status.jitter;
     const nlohmann::ordered_json answer = {
         {"done", status.state == PlayState::done},
@@ -105,63 +107,86 @@ void print_play_json(const PlayStatus& status) {
           {"p99", jitter.p99},
           {"most", jitter.most}}},
         {"histogram", jitter.histogram},
-        {"sentence", status.sentence}};
+        {"sentence", status.sentence},
+        {"log", outcome.log_file.string()}};
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+machine::Job job_to_play(const PlotPlayOptions& options) {
+    const std::string text = read_file(options.file);
+    const plot::PointFile read = points_to_play(text, options.file);
+    auto model = std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
+        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
+    // Shown faster, a table that is not there moves no faster.
+    const double period = options.port.empty() ? options.period : options.period / options.speed;
+    machine::Job job = machine::point_file_job(text, read, options.file, std::move(model), period);
+    expect_none(machine::preflight(job));
+    job.started_at = now_for_people();
+    job.options = options.options;
+    return job;
+}
+
+void say_where_it_starts(const Vec3& first) {
+    fmt::print(stderr,
+               "millwright: the records say how far to go: the table has to stand at X {:.3f} Y {:.3f} Z "
+               "{:.3f}\n",
+               first.x(),
+               first.y(),
+               first.z());
+}
+
+void print_played(const PlayStatus& end, std::size_t points, const machine::JobOutcome& outcome) {
+    fmt::print("{} of {} points in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
+               end.points,
+               points,
+               end.time,
+               end.position.x(),
+               end.position.y(),
+               end.position.z());
+    print_jitter(end.jitter);
+    fmt::print("Log: {}\n", outcome.log_file.string());
 }
 
 int play(const PlotPlayOptions& options) {
     const Interrupt interrupt(Suspending::refused);
-    plot::PointFile read = points_to_play(options);
-    const auto points = std::make_shared<const std::vector<Vec3>>(std::move(read.points));
-    const kinematics::MachineModel model = kinematics::read_machine(
-        project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
-    expect_none(with_lines(
-        machine::check_points(
-            *points, machine::machine_period(options.player, !options.port.empty()), model, options.file),
-        read.lines));
-    if (options.record.format.relative && !options.port.empty()) {
-        const Vec3& first = points->front();
-        fmt::print(stderr,
-                   "millwright: the records say how far to go: the table has to stand at X {:.3f} Y {:.3f} Z "
-                   "{:.3f}\n",
-                   first.x(),
-                   first.y(),
-                   first.z());
+    const machine::Job job = job_to_play(options);
+    const std::vector<Vec3>& points = job.points->points;
+    const machine::RecordFormat format = record_of(options.record).value();
+    if (format.relative && !options.port.empty()) {
+        say_where_it_starts(points.front());
     }
-    machine::PlayerOptions player = options.player;
-    player.format = record_of(options.record).value();
     machine::SteadyClock clock;
-    machine::PointPlayer table(
-        options.port.empty() ? nullptr : machine::make_link(options.port), clock, points, model, player);
+    machine::PointsDriver table(options.port.empty() ? nullptr : machine::make_link(options.port),
+                                clock,
+                                job.machine,
+                                points.front(),
+                                {.speed = options.port.empty() ? options.speed : 1.0, .format = format});
+    machine::Dispatcher dispatcher(table, clock, options.log);
     ProgressPrinter printer;
-    const PlayStatus end = table.play(interrupt.token(), [&](const PlayStatus& now) {
-        printer.show({static_cast<double>(now.points) / static_cast<double>(points->size()),
-                      fmt::format("X {:.2f} Y {:.2f} Z {:.2f}, late by {:.0f} us at the most",
-                                  now.position.x(),
-                                  now.position.y(),
-                                  now.position.z(),
-                                  now.jitter.most * 1e6)});
-    });
+    const machine::JobOutcome outcome =
+        dispatcher.run(job, Progress(nullptr, interrupt.token()), [&](const machine::JobReport&) {
+            const PlayStatus now = table.played();
+            printer.show({static_cast<double>(now.points) / static_cast<double>(points.size()),
+                          fmt::format("X {:.2f} Y {:.2f} Z {:.2f}, late by {:.0f} us at the most",
+                                      now.position.x(),
+                                      now.position.y(),
+                                      now.position.z(),
+                                      now.jitter.most * 1e6)});
+        });
     printer.finish();
+    const PlayStatus end = table.played();
     if (options.json) {
-        print_play_json(end);
+        print_play_json(end, outcome);
     } else {
-        fmt::print("{} of {} points in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
-                   end.points,
-                   points->size(),
-                   end.time,
-                   end.position.x(),
-                   end.position.y(),
-                   end.position.z());
-        print_jitter(end.jitter);
+        print_played(end, points.size(), outcome);
     }
-    if (!options.port.empty() && player.format.answer.empty()) {
+    if (!options.port.empty() && format.answer.empty()) {
         fmt::print(stderr,
                    "millwright: no answer was asked for (--answer), so nobody knows whether the table takes "
                    "records as \"{}\"\n",
-                   player.format.pattern);
+                   format.pattern);
     }
-    if (end.state != PlayState::done) {
+    if (outcome.end != machine::JobEnd::done) {
         throw Error(fmt::format("{}: nothing was sent after point {}", end.sentence, end.sent));
     }
     return 0;
@@ -171,21 +196,25 @@ int play(const PlotPlayOptions& options) {
 
 void add_plot_play(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PlotPlayOptions>();
-    CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point a period");
+    CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point per period");
     command.add_option("FILE", options->file, "Point file")->required();
-    command.add_option("--period", options->player.period, "Between two points, s")
-        ->check(above_zero())
-        ->required();
+    command.add_option("--period", options->period, "Between two points, s")->check(above_zero())->required();
     command.add_option("--port", options->port, "Serial port or tcp:HOST:PORT; without it nothing is sent")
         ->type_name("PORT");
     command.add_option("--machine", options->machine, "Whose limits hold: shipped machine or machine file")
         ->capture_default_str();
-    command.add_option("--speed", options->player.speed, "Times real time")
+    command.add_option("--speed", options->speed, "Times real time")
         ->check(above_zero())
         ->capture_default_str();
     add_record_options(command, options->record);
+    command.add_option("--log", options->log, "Folder of the job logs")
+        ->type_name("DIR")
+        ->capture_default_str();
     command.add_flag("--json", options->json, "Print the answer as JSON");
-    command.callback([&chosen, options] { chosen = [options] { return play(*options); }; });
+    command.callback([&chosen, &command, options] {
+        options->options = options_to_go_on(command);
+        chosen = [options] { return play(*options); };
+    });
 }
 
 } // namespace millwright::app

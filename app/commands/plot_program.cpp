@@ -341,7 +341,7 @@ std::vector<Vec3> program_points(const std::string& file,
         return fastest ? plot::decode_within(*fastest, program.strokes, decoding)
                        : plot::decode(program.strokes, decoding);
     }
-    return plot::decode_path(program.path, decoding, fastest);
+    return plot::decode_path(program.path, decoding, fastest).points;
 }
 
 int program_toolpath(const std::string& file,

@@ -1,9 +1,18 @@
-// Numbers as text, the one place where that happens: the same bytes on every machine and locale.
+// Numbers as text, the one place where that happens: the same bytes on every machine and locale. What editors
+// put in front of text.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace millwright {
+
+/// `text` without the byte order mark of UTF-8 at its beginning, which editors of some systems write.
+[[nodiscard]] inline std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    text.remove_prefix(text.starts_with(mark) ? mark.size() : 0);
+    return text;
+}
 
 /// `value` with exactly `decimals` digits after the point, never "-0.000". Throws Defect if not finite.
 [[nodiscard]] std::string fixed(double value, int decimals);

@@ -1,6 +1,7 @@
 #include "core/cordic/assembler.h"
 
 #include "core/base/numbers.h"
+#include "core/base/text.h"
 #include "core/cordic/arithmetic.h"
 #include "core/cordic/internal/line_words.h"
 #include "core/cordic/internal/move_check.h"

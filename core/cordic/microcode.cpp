@@ -1,5 +1,6 @@
 #include "core/cordic/microcode.h"
 
+#include "core/base/text.h"
 #include "core/cordic/internal/line_words.h"
 
 #include <fmt/format.h>

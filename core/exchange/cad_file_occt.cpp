@@ -1,6 +1,7 @@
 // Reading and writing by Open CASCADE.
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/exchange/internal/cad_contents.h"
 #include "core/exchange/internal/cad_faces.h"
 #include "core/exchange/internal/cad_lost_faces.h"
@@ -73,6 +74,12 @@ CadKind checked_kind(const std::filesystem::path& file) {
     if (!step_name && head.size() > section_column && head[section_column] == 'S') {
         return CadKind::iges;
     }
+    if (!step_name && without_byte_order_mark(head).size() < head.size()) {
+        throw Error(
+            "the IGES file begins with a byte order mark, which moves its first line by three columns",
+            file,
+            "save it as ASCII");
+    }
     throw Error(step_name ? "no STEP file: it does not begin with ISO-10303-21"
                           : "no IGES file: column 73 of the first line is not S",
                 file);
@@ -119,7 +126,8 @@ constexpr double shapes_made = 0.65;
 /// What there is to say of it.
 std::vector<std::string>
 load(STEPControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
-    const std::string text = read_file(file);
+    std::string text = read_file(file);
+    text.erase(0, text.size() - without_byte_order_mark(text).size());
     const int faces = checked_step_text(text, file, progress.part(0.0, text_looked_through));
     expect_not_too_many(faces, file);
     const std::string of = faces == 1 ? "1 face" : fmt::format("{} faces", faces);

@@ -1,6 +1,7 @@
 #include "core/kinematics/arm_motion_file.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/kinematics/internal/file_bounds.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,9 @@ struct Word {
 
 class Reader {
 public:
-    Reader(std::string_view text, const std::filesystem::path& file) : text_(text) { place_.file = file; }
+    Reader(std::string_view text, const std::filesystem::path& file) : text_(without_byte_order_mark(text)) {
+        place_.file = file;
+    }
 
     /// The words up to the next ';'; nothing at the end of the text.
     [[nodiscard]] std::optional<std::vector<Word>> next_block() {

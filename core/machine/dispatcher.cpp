@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/sentences.h"
-#include "core/base/text.h"
+#include "core/machine/internal/end_sentence.h"
 #include "core/machine/internal/path_estimate.h"
 #include "core/machine/internal/reach.h"
 #include "core/machine/internal/shared_log.h"
@@ -38,29 +38,8 @@ bool ended(DriverState state) {
            state == DriverState::disconnected;
 }
 
-/// `line`: where it was as far as is known; 0: not known.
-std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed, int line) {
-    const std::string executed = fmt::format("{} of {} blocks were executed for certain in {}{}",
-                                             status.executed_blocks,
-                                             blocks,
-                                             short_time(elapsed),
-                                             line > 0 && status.block > status.executed_blocks
-                                                 ? fmt::format(", up to about line {}", line)
-                                                 : std::string());
-    switch (end) {
-    case JobEnd::done:
-        return fmt::format("All {} blocks were executed in {}.", blocks, short_time(elapsed));
-    case JobEnd::stopped:
-        return fmt::format("The machine was stopped: {}.", executed);
-    case JobEnd::cancelled:
-        return fmt::format("The job was cancelled: {}.", executed);
-    case JobEnd::fault:
-        break;
-    }
-    const std::string why = status.state == DriverState::disconnected ? "the link was lost"
-                            : status.message.empty()                  ? "the program did not get to its end"
-                                                                      : status.message;
-    return with_clause("Fault: " + why, executed + ".");
+double planned_time(const Job& job, const motion::Trajectory* trajectory) {
+    return trajectory != nullptr ? trajectory->duration() : job.points ? job.points->duration() : 0.0;
 }
 
 } // namespace
@@ -201,12 +180,12 @@ private:
         return std::max(status.block, job_.listing->block_at_line(line));
     }
 
-    [[nodiscard]] double planned_time() const { return trajectory_ ? trajectory_->duration() : 0.0; }
+    [[nodiscard]] double planned() const { return planned_time(job_, trajectory_.get()); }
 
     /// How far a controller that follows its own plan would be in ours.
     [[nodiscard]] double time_of_executed() const {
         if (!trajectory_ || last_.executed_blocks >= blocks()) {
-            return planned_time();
+            return planned();
         }
         return trajectory_->start_of(std::max(0, last_.executed_blocks));
     }
@@ -268,7 +247,7 @@ private:
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
-        const JobReport report{last_, blocks(), elapsed(), planned_time(), line_of(last_.block)};
+        const JobReport report{last_, blocks(), elapsed(), planned(), line_of(last_.block)};
         progress.report(report.fraction(), report.progress_text());
         if (listener) {
             listener(report);
@@ -302,7 +281,8 @@ private:
         result.blocks = blocks();
         result.elapsed = elapsed();
         result.position = last_.position;
-        result.sentence = end_sentence(result.end, last_, blocks(), result.elapsed, line_of(last_.block));
+        result.sentence =
+            internal::end_sentence(result.end, last_, blocks(), result.elapsed, line_of(last_.block));
         if (last_.position_doubt != doubt_before_ && !last_.position_doubt.empty()) {
             result.sentence += " " + doubt_sentence(last_.position_doubt);
         }
@@ -339,14 +319,19 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     if (text_alone && !able.plans) {
         throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
     }
+    if ((job.points != nullptr) != able.points) {
+        throw Error(fmt::format(
+            "the {} driver {}", driver_.name(), able.points ? "plays points only" : "plays no points"));
+    }
     internal::PathEstimate estimate;
     internal::Reach reach = check(job, able, before, estimate);
     std::shared_ptr<const motion::Trajectory> trajectory;
-    if (!text_alone) {
+    if (!text_alone && !job.points) {
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
             *job.program, *job.machine, job.planner, progress.part(0.0, planning), before.position));
     }
 
+    progress.check(); // before there is a log that would have no end
     JobLog log(log_folder_, job.name);
     log.write(LogStart{.job = job.name,
                        .project = lasting_name(job.project),
@@ -357,14 +342,14 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .address = driver_.address(),
                        .axes = text_alone ? able.axes : job.program->axes,
                        .blocks = job.block_count(),
-                       .planned_time = trajectory ? trajectory->duration() : 0.0,
+                       .planned_time = planned_time(job, trajectory.get()),
                        .options = job.options,
                        .from_line = job.from_line,
                        .position_confirmed = before.position_confirmed});
     progress.check();
     Watch watch(*this, job, log, trajectory, before, std::move(reach), std::move(estimate));
     try {
-        Work work{job.program, trajectory, job.listing, {}};
+        Work work{job.program, trajectory, job.listing, {}, job.points};
         if (able.piecewise) {
             work.ahead = watch.ahead();
         }

@@ -11,6 +11,7 @@
 #include "core/gcode/reader/dialect.h"
 #include "core/gcode/writer.h"
 #include "core/machine/driver_status.h"
+#include "core/machine/point_track.h"
 #include "core/motion/trajectory.h"
 
 #include <filesystem>
@@ -27,6 +28,7 @@ namespace millwright::machine {
 /// What a driver can do beyond running programs.
 struct Capabilities {
     bool plans = false;                   ///< executes text, without a trajectory
+    bool points = false;                  ///< plays Work::points, without a trajectory, and nothing else
     std::vector<gcode::ProgramAxis> axes; ///< that it moves; empty: those of any program
     bool overrides = false;               ///< of the feed
     bool other_overrides = false;         ///< of rapids and spindle speed, too
@@ -96,6 +98,8 @@ struct Work {
     /// Asked for the number of blocks that are wanted, counted from the program's first, it returns how many
     /// may be sent; less than wanted: nothing more is sent. Empty: all may.
     std::function<int(int wanted)> ahead{};
+    /// What a driver plays whose capabilities() say points; then there is no trajectory.
+    std::shared_ptr<const PointTrack> points{};
 };
 
 /// Whether a person has to confirm the position before a job moves the machine: it is in doubt, and something

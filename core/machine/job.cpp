@@ -139,6 +139,21 @@ Job planned_job(std::string_view text,
     return internal::planned_text(text, file, std::move(machine), {.start = std::move(start)});
 }
 
+namespace {
+
+void check_track(const Job& job, std::vector<Diagnostic>& found) {
+    const PointTrack& track = *job.points;
+    expects(!track.points.empty() && track.points.size() == track.blocks.size(),
+            "each point belongs to a block");
+    for (Diagnostic& fault : check_points(track, *job.machine, program_file(job))) {
+        const int block = track.blocks[static_cast<std::size_t>(fault.place.line) - 1];
+        fault.place.line = job.listing->line_of_block[static_cast<std::size_t>(block)];
+        found.push_back(std::move(fault));
+    }
+}
+
+} // namespace
+
 std::vector<Diagnostic> preflight(const Job& job) {
     expects(job.listing != nullptr, "a job has a listing");
     if (job.program == nullptr) {
@@ -157,8 +172,11 @@ std::vector<Diagnostic> preflight(const Job& job) {
         found.push_back({{program_file(job), 0, 0, -1}, "the program does not say where it ends", {}});
     }
     BlockChecks checks(job, found);
-    for (int n = 0; n < program.block_count(); ++n) {
+    for (int n = 0; n < program.block_count() && !job.points; ++n) {
         checks.check(n);
+    }
+    if (job.points) {
+        check_track(job, found);
     }
     return found;
 }

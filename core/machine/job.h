@@ -23,6 +23,7 @@ struct Job {
     std::shared_ptr<const kinematics::MachineModel> machine;
     std::shared_ptr<const gcode::Program> program;
     std::shared_ptr<const gcode::Listing> listing;
+    std::shared_ptr<const PointTrack> points{}; ///< of the program, for a table that plays points
     motion::PlannerSettings planner;
     int from_line = 1;   ///< of the file; more than 1: the lines above are an approach (run_from_line.h)
     std::string options; ///< of the command that asked for it, for its log; may be empty

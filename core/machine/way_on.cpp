@@ -48,6 +48,9 @@ std::string why_not_from_line(const JobStory& story) {
     if (story.start.driver == "cordic") {
         return "the cordic driver runs programs from their beginning alone";
     }
+    if (story.start.driver == "points") {
+        return "points are always played from the first one";
+    }
     if (story.next_line == 0) {
         return "it is not known where it ended";
     }

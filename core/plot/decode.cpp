@@ -64,17 +64,17 @@ class Decoder {
 public:
     Decoder(const DecodeSettings& settings, const std::optional<double>& fastest, const Vec3& start)
         : settings_(settings), fastest_(fastest) {
-        points_.push_back(start);
+        put(start);
     }
 
     void travel(const Vec2& to) {
-        lift(settings_.pen_up_z);
+        lift_to(settings_.pen_up_z);
         line(at(to), settings_.travel_velocity.value_or(settings_.velocity));
     }
 
     void stroke(const Stroke& stroke) {
         travel(stroke.points.front());
-        lift(settings_.pen_down_z);
+        lift_to(settings_.pen_down_z);
         std::vector<Vec3> way;
         way.reserve(stroke.points.size());
         for (const Vec2& p : stroke.points) {
@@ -83,7 +83,8 @@ public:
         cut(way);
     }
 
-    /// Along a way that begins where the last point is.
+    /// Along a way that begins where the last point is, and whose second point is that of the path which
+    /// comes next.
     void cut(const std::vector<Vec3>& way) {
         if (settings_.mode == DecodeMode::path) {
             if (settings_.acceleration && way.size() > 1) {
@@ -95,12 +96,18 @@ public:
         }
         for (std::size_t n = 1; n < way.size(); ++n) {
             segment(way[n], settings_.velocity, settings_.rounding);
+            ++leads_to_;
         }
     }
 
-    /// As a path says; its heights, and its own begin and end.
+    /// As a path says, at its own heights; first up or down to that of its first point.
     void follow(const CutPath& path) {
+        path_points_.emplace(points_.size(), leads_to_);
+        if (!path.empty()) {
+            lift_to(path.front().at.z());
+        }
         for (std::size_t n = 0; n < path.size(); ++n) {
+            leads_to_ = static_cast<int>(n);
             switch (path[n].move) {
             case CutMove::rapid:
                 line(path[n].at, settings_.travel_velocity.value_or(settings_.velocity));
@@ -123,16 +130,25 @@ public:
         }
     }
 
-    void raise() { lift(settings_.pen_up_z); }
+    void raise() { lift_to(settings_.pen_up_z); }
+
+    /// Straight up or down.
+    void lift_to(double z) {
+        const Vec3 here = points_.back();
+        line({here.x(), here.y(), z}, settings_.plunge_velocity.value_or(settings_.velocity));
+    }
 
     std::vector<Vec3> take() { return std::move(points_); }
+    std::vector<int> take_path_points() { return std::move(*path_points_); }
 
 private:
     [[nodiscard]] Vec3 at(const Vec2& p) const { return {p.x(), p.y(), points_.back().z()}; }
 
-    void lift(double z) {
-        const Vec3 here = points_.back();
-        line({here.x(), here.y(), z}, settings_.plunge_velocity.value_or(settings_.velocity));
+    void put(const Vec3& point) {
+        points_.push_back(point);
+        if (path_points_) {
+            path_points_->push_back(leads_to_);
+        }
     }
 
     void line(const Vec3& to, double velocity) {
@@ -170,9 +186,9 @@ private:
         double way = 0.0;
         for (double k = 1.0; k * settings_.period < profile.duration(); k += 1.0) {
             way = next_way(profile, k, way, velocity);
-            points_.emplace_back(from + std::min(1.0, way / distance) * (to - from));
+            put(from + std::min(1.0, way / distance) * (to - from));
         }
-        points_.push_back(to);
+        put(to);
     }
 
     /// Eqs 3-3 to 3-7. The points are computed from the start and not added up, so that nothing drifts.
@@ -187,9 +203,9 @@ private:
         reserve(count);
         const double step = rounding == SampleRounding::exact ? 1.0 / q : 1.0 / count;
         for (double n = 1.0; n < count; n += 1.0) {
-            points_.emplace_back(from + (n * step) * (to - from));
+            put(from + (n * step) * (to - from));
         }
-        points_.push_back(to);
+        put(to);
     }
 
     /// As the rounding says, and more where those steps would be faster than the fastest.
@@ -214,13 +230,14 @@ private:
             const Vec3& b = way[n];
             const double distance = (b - a).norm();
             for (; k * step < passed + distance; k += 1.0) {
-                points_.emplace_back(a + (k * step - passed) / distance * (b - a));
+                put(a + (k * step - passed) / distance * (b - a));
             }
             passed += distance;
+            leads_to_ += n + 1 < way.size() ? 1 : 0;
         }
         const Vec3& end = way.back();
         if ((points_.back() - end).norm() > noise(points_.back(), end)) {
-            points_.push_back(end);
+            put(end);
         } else {
             points_.back() = end;
         }
@@ -239,12 +256,14 @@ private:
             while (passed + distance < way && n + 1 < points.size()) {
                 passed += distance;
                 ++n;
+                ++leads_to_;
                 distance = (points[n] - points[n - 1]).norm();
             }
             const double t = distance > 0.0 ? std::min(1.0, (way - passed) / distance) : 1.0;
-            points_.emplace_back(points[n - 1] + t * (points[n] - points[n - 1]));
+            put(points[n - 1] + t * (points[n] - points[n - 1]));
         }
-        points_.push_back(points.back());
+        leads_to_ += static_cast<int>(points.size() - 1 - n);
+        put(points.back());
     }
 
     static double length_of(const std::vector<Vec3>& way) {
@@ -265,6 +284,8 @@ private:
     const DecodeSettings& settings_;
     std::optional<double> fastest_;
     std::vector<Vec3> points_;
+    int leads_to_ = -1;                           ///< the point of the path that the next points lead to
+    std::optional<std::vector<int>> path_points_; ///< of each point; of strokes nobody asks
 };
 
 void check_decode_settings(double fastest, const DecodeSettings& settings) {
@@ -304,18 +325,18 @@ decode_within(double fastest, const Strokes& strokes, const DecodeSettings& sett
     return decoded(strokes, settings, fastest, start);
 }
 
-std::vector<Vec3> decode_path(const CutPath& path,
-                              const DecodeSettings& settings,
-                              const std::optional<double>& fastest,
-                              const Vec2& start) {
+DecodedPath decode_path(const CutPath& path,
+                        const DecodeSettings& settings,
+                        const std::optional<double>& fastest,
+                        const std::optional<Vec3>& start) {
     check_decode_settings(settings);
     if (fastest) {
         check_decode_settings(*fastest, settings);
     }
     const double above = path.empty() ? 0.0 : path.front().at.z();
-    Decoder decoder(settings, fastest, {start.x(), start.y(), above});
+    Decoder decoder(settings, fastest, start.value_or(Vec3(0.0, 0.0, above)));
     decoder.follow(path);
-    return decoder.take();
+    return {decoder.take(), decoder.take_path_points()};
 }
 
 } // namespace millwright::plot

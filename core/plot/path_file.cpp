@@ -111,11 +111,12 @@ std::string path_file_text(const CutPath& path) {
 }
 
 bool is_path_file(std::string_view text) {
-    return text.starts_with("# millwright path");
+    return without_byte_order_mark(text).starts_with("# millwright path");
 }
 
 CutPath read_path(std::string_view text, const std::filesystem::path& file, std::vector<int>* lines) {
     CutPath path;
+    text = without_byte_order_mark(text);
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         std::string_view line = text.substr(0, end);

@@ -59,6 +59,7 @@ std::string point_file_text(const std::vector<Vec3>& points, int decimals) {
 
 PointFile read_points(std::string_view text, const std::filesystem::path& file) {
     PointFile read;
+    text = without_byte_order_mark(text);
     for (int finite_number = 1; !text.empty(); ++finite_number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = trimmed(text.substr(0, end));

@@ -51,7 +51,7 @@ constexpr std::array<Choice<FillMode>, 3> of_fill{{
 }};
 
 constexpr std::array<Choice<LineEnds>, 3> of_line_ends{{
-    {LineEnds::automatic, "automatic", "As it fits", "Separators where a command can take the numbers"},
+    {LineEnds::automatic, "automatic", "As the file shows", "Refused where it does not show"},
     {LineEnds::join, "join", "Nothing", "Listings are wrapped in the middle of numbers"},
     {LineEnds::separate, "separate", "Separators", "As blanks between numbers"},
 }};

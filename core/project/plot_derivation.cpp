@@ -145,8 +145,9 @@ void PlotDerivation::cut_program() {
 }
 
 void PlotDerivation::cut_picture() {
-    plot::ReadPicture read =
-        plot::read_picture_file(result_.input.file, settings_.picture, progress_.part(0.0, 0.2));
+    plot::PictureSettings reading = settings_.picture;
+    reading.ground = settings_.use == PictureUse::relief ? plot::relief_top : plot::white;
+    plot::ReadPicture read = plot::read_picture_file(result_.input.file, reading, progress_.part(0.0, 0.2));
     result_.notices = std::move(read.notices);
     const plot::Picture& picture = read.picture;
     const double pitch = plot::pixel_pitch(settings_.size, picture);
@@ -260,13 +261,6 @@ void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     as_drawn_ = placed(plot::cut_path(drawn, cut));
     use(plot::cut_path(planned, cut));
     result_.cut_as_drawn = as_drawn_ == *result_.path;
-    plot::Strokes on_machine = planned;
-    for (plot::Stroke& stroke : on_machine) {
-        for (Vec2& point : stroke.points) {
-            point += settings_.origin;
-        }
-    }
-    result_.strokes = std::make_shared<const plot::Strokes>(std::move(on_machine));
 }
 
 /// Where it lies on the machine.

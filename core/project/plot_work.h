@@ -32,9 +32,8 @@ struct PlotResult {
     std::optional<Diagnostic> failure;
     std::vector<plot::Level> levels; ///< in force, of plots and outlines
     std::size_t drawn_strokes = 0;
-    std::shared_ptr<const plot::Strokes> strokes; ///< as planned, where they lie on the machine
-    plot::WorkTime as_drawn, as_planned;          ///< by the thesis's model, level by level
-    double program_rpm = 0.0; ///< of a G-code program's spindle, 1/min; 0: it does not say
+    plot::WorkTime as_drawn, as_planned; ///< by the thesis's model, level by level
+    double program_rpm = 0.0;            ///< of a G-code program's spindle, 1/min; 0: it does not say
     std::shared_ptr<const plot::CutPath> path;
     plot::PathLengths lengths;
     /// What is cut, a level each; a relief's one; of a path file one a tool.

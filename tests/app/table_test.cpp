@@ -192,6 +192,8 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
                                          "ok",
                                          "--patience",
                                          "1",
+                                         "--log",
+                                         (folder / "jobs").string(),
                                          "--json"};
     Emulator refuses(port, {"--record", "{X},{Y},{Z}", "--answer", "ok", "--refuse", "8"}, "table");
     const Ended refused = run(words);
@@ -199,6 +201,13 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
     EXPECT_THAT(refused.out, HasSubstr("\"points\": 7"));
     EXPECT_THAT(refused.err, HasSubstr("nothing was sent after point 8"));
     EXPECT_THAT(refuses.stop().out, HasSubstr("7 records obeyed, 0 lines that were none, at X 1.7143"));
+    // Of all that there is a log, as of every job, and the command that plays it again.
+    const std::string jobs = run({"jobs", (folder / "jobs").string()}).out;
+    EXPECT_THAT(jobs, HasSubstr("fault after"));
+    EXPECT_THAT(jobs, HasSubstr("the table said 'error'"));
+    EXPECT_THAT(jobs, HasSubstr("6 of 37 blocks were executed for certain"));
+    EXPECT_THAT(jobs,
+                HasSubstr("millwright plot play " + (folder / "line.txt").string() + " --port " + port));
     Emulator silent(port, {"--record", "{X},{Y},{Z}"}, "table");
     const Ended unheard = run(words);
     EXPECT_EQ(unheard.exit_code, 1);
@@ -235,8 +244,17 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     }
     write_content(folder / "diagonal.txt", points);
     Emulator table(port, {}, "table"); // neither is told a record: both mean the same
-    const Ended played = run(
-        {"plot", "play", (folder / "diagonal.txt").string(), "--period", "0.04", "--port", port, "--json"});
+    const std::string log = (folder / "jobs").string();
+    const Ended played = run({"plot",
+                              "play",
+                              (folder / "diagonal.txt").string(),
+                              "--period",
+                              "0.04",
+                              "--port",
+                              port,
+                              "--log",
+                              log,
+                              "--json"});
     EXPECT_EQ(played.exit_code, 0) << played.err;
     EXPECT_THAT(played.out, HasSubstr("\"points\": 36"));
     EXPECT_THAT(played.out, HasSubstr("\"time_s\": 1.4"));
@@ -254,14 +272,18 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
                                "--period",
                                "0.04",
                                "--port",
-                               (folder / "other").string()});
+                               (folder / "other").string(),
+                               "--log",
+                               log});
     EXPECT_EQ(unknown.exit_code, 0) << unknown.err;
     const std::string told = other.stop().out;
     EXPECT_THAT(told, HasSubstr("0 records obeyed, 36 lines that were none"));
     EXPECT_THAT(told, HasSubstr("a record of this table is \"{X};{Y};{Z}\""));
 
     const std::string diagonal = (folder / "diagonal.txt").string();
-    EXPECT_EQ(run({"plot", "play", diagonal, "--period", "0.04", "--speed", "50"}).exit_code, 0);
+    EXPECT_EQ(run({"plot", "play", diagonal, "--period", "0.04", "--speed", "50", "--log", log}).exit_code,
+              0);
+    EXPECT_THAT(run({"jobs", log}).out, HasSubstr("37 of 37 blocks were executed for certain"));
     const Ended fast = run({"plot", "play", diagonal, "--period", "0.02"});
     EXPECT_EQ(fast.exit_code, 1);
     EXPECT_THAT(fast.err, HasSubstr("and goes 10 mm/s at the most"));
@@ -277,8 +299,17 @@ TEST(TableCommand, RelativePointsSayWhereTheTableHasToStand) {
     const std::string port = (folder / "table").string();
     write_content(folder / "down.csv", "0,0,5.00\n0,0,4.90\n");
     Emulator table(port, {"--relative", "--answer", "ok"}, "table");
-    std::vector<std::string> words{
-        "plot", "play", (folder / "down.csv").string(), "--period", "0.02", "--port", port, "--answer", "ok"};
+    std::vector<std::string> words{"plot",
+                                   "play",
+                                   (folder / "down.csv").string(),
+                                   "--period",
+                                   "0.02",
+                                   "--port",
+                                   port,
+                                   "--answer",
+                                   "ok",
+                                   "--log",
+                                   (folder / "jobs").string()};
     EXPECT_THAT(run(words).err, Not(HasSubstr("has to stand")));
     words.emplace_back("--relative");
     EXPECT_THAT(run(words).err, HasSubstr("the table has to stand at X 0.000 Y 0.000 Z 5.000"));

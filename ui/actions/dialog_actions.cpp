@@ -1,3 +1,4 @@
+#include "core/project/gcode_file.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
@@ -51,8 +52,12 @@ Permission can_continue(const Workbench& now) {
     if (story.executed_blocks >= story.start.blocks) {
         return Permission::refused("Nothing is left of it.");
     }
+    const std::filesystem::path file(story.start.project);
+    if (story.start.driver == "points" && !project::is_plot_file(file) && !project::is_gcode_file(file)) {
+        return Permission::refused("A point file is played again by the command plot play.");
+    }
     std::error_code none;
-    return std::filesystem::is_regular_file(story.start.project, none)
+    return std::filesystem::is_regular_file(file, none)
                ? Permission{}
                : Permission::refused("Its program is no file any more.");
 }

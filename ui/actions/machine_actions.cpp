@@ -100,13 +100,26 @@ bool plays(const Workbench& now, DriverState state) {
            now.controller.status.activity == machine::Activity::program;
 }
 
+/// Points of a plot that are played to a table, while no other machine moves.
+bool table_plays(const Workbench& now) {
+    return !now.job.running && now.plot.table().playing();
+}
+
+bool table_plays(const Workbench& now, DriverState state) {
+    const machine::PlayState wanted =
+        state == DriverState::holding ? machine::PlayState::holding : machine::PlayState::playing;
+    return table_plays(now) && now.plot.table().view().status.state == wanted;
+}
+
 template <DriverState state> Permission moves_in(const Workbench& now) {
-    return plays(now, state) ? Permission{} : driver_is<state>(now);
+    return plays(now, state) || table_plays(now, state) ? Permission{} : driver_is<state>(now);
 }
 
 void hold(Hands& hands) {
     if (hands.now.job.running) {
         hands.jobs.hold();
+    } else if (table_plays(hands.now)) {
+        hands.workshop.plot().table().hold();
     } else {
         hands.workshop.controller().tell([](machine::Driver& driver) { driver.hold(); });
     }
@@ -115,6 +128,8 @@ void hold(Hands& hands) {
 void resume(Hands& hands) {
     if (hands.now.job.running) {
         hands.jobs.resume();
+    } else if (table_plays(hands.now)) {
+        hands.workshop.plot().table().resume();
     } else {
         hands.workshop.controller().tell([](machine::Driver& driver) { driver.resume(); });
     }
@@ -125,7 +140,7 @@ Permission can_stop(const Workbench& now) {
     const DriverState state = now.controller.status.state;
     const bool by_hand =
         now.controller.connected() && (state == DriverState::running || state == DriverState::holding);
-    if (now.job.running || by_hand || now.arm.works_out_path_motion()) {
+    if (now.job.running || by_hand || now.arm.works_out_path_motion() || table_plays(now)) {
         return {};
     }
     const bool stops = now.controller.connected() && state == DriverState::stopping;
@@ -134,6 +149,9 @@ Permission can_stop(const Workbench& now) {
 
 void stop(Hands& hands) {
     hands.workshop.arm().call_off_path_motion();
+    if (table_plays(hands.now)) {
+        hands.workshop.plot().table().stop();
+    }
     if (hands.now.job.running) {
         hands.jobs.stop();
     } else if (hands.now.controller.connected()) {

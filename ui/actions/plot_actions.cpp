@@ -35,7 +35,15 @@ Permission can_play_plot(const Workbench& now) {
 }
 
 Permission is_table_moving(const Workbench& now) {
-    return now.plot.table().playing() ? Permission{} : Permission::refused("The table stands.");
+    return now.plot.table().playing() ? Permission{} : Permission::refused("The table is not moving.");
+}
+
+template <machine::PlayState state> Permission table_is(const Workbench& now) {
+    const TableView table = now.plot.table().view();
+    const bool is = table.playing && table.status.state == state;
+    return is ? Permission{}
+              : Permission::refused(state == machine::PlayState::playing ? "The table is not moving."
+                                                                         : "The table is not being held.");
 }
 
 template <render::StandardView side> void look(Hands& hands) {
@@ -99,11 +107,29 @@ void add_plot_actions(Actions& actions) {
         {"plot.play_table",
          menu,
          "Play to the table",
-         "Sends one point a period at constant velocity.",
+         "Sends what is shown, one point per period at constant velocity.",
          "",
          icons::play},
         can_play_plot,
         [](Hands& hands) { hands.workshop.plot().play_table(); });
+    add(actions,
+        {"plot.hold_table",
+         menu,
+         "Hold the table",
+         "No further point is sent until you resume.",
+         "",
+         icons::hold},
+        table_is<machine::PlayState::playing>,
+        [](Hands& hands) { hands.workshop.plot().table().hold(); });
+    add(actions,
+        {"plot.resume_table",
+         menu,
+         "Resume the table",
+         "Goes on with the next point, as after a tool change.",
+         "",
+         icons::play},
+        table_is<machine::PlayState::holding>,
+        [](Hands& hands) { hands.workshop.plot().table().resume(); });
     add(actions,
         {"plot.stop_table", menu, "Stop the table", "No point is sent any more.", "", icons::stop},
         is_table_moving,

@@ -2,7 +2,6 @@
 
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
-#include "core/plot/hpgl/reader.h"
 #include "core/plot/path_file.h"
 #include "core/project/assets.h"
 
@@ -25,8 +24,9 @@ std::vector<plot::Material> materials_in(const fs::path& assets) {
 
 } // namespace
 
-PlotBench::PlotBench(fs::path assets, const std::function<void()>& wake)
-    : assets_(std::move(assets)), worker_(assets_, wake), table_(std::make_unique<TablePlayer>(wake)) {}
+PlotBench::PlotBench(fs::path assets, fs::path log_folder, const std::function<void()>& wake)
+    : assets_(std::move(assets)), worker_(assets_, wake),
+      table_(std::make_unique<TablePlayer>(std::move(log_folder), wake)) {}
 
 void PlotBench::follow(const project::PlotInput& input) {
     const bool another = input.file != input_.file;
@@ -72,37 +72,21 @@ double PlotBench::tool_diameter() const {
     return settings().tip.kind == plot::TipKind::point ? 0.0 : settings().tip.diameter;
 }
 
-namespace {
-
-/// Where the drawing leaves the pen, on the machine: of a plot where its file does.
-Vec2 end_of(const project::PlotResult& made) {
-    const Vec2 end = made.picture ? Vec2(Vec2::Zero())
-                                  : plot::read_hpgl_file(made.input.file, made.input.settings.hpgl).end;
-    return end + made.input.settings.origin;
-}
-
-} // namespace
-
 void PlotBench::play_table() {
     const auto now = latest();
     if (!now || !now->path) {
         throw Error("there is no path to be played");
     }
-    const auto model = std::make_shared<const kinematics::MachineModel>(
+    auto model = std::make_shared<const kinematics::MachineModel>(
         kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
+    table_->play(table_choice_, {now->path, file(), std::move(model), now->spindle_rpm()});
     played_ = file();
-    if (!now->strokes) {
-        return table_->play(table_choice_, *now->path, model);
-    }
-    TableChoice choice = table_choice_;
-    choice.decoding.end = end_of(*now);
-    table_->play(choice, *now->strokes, model);
 }
 
 std::optional<Vec3> PlotBench::table_tip() const {
     const TableView now = table_->view();
-    const bool moves = now.status.state == machine::PlayState::playing && played_ == file();
-    return moves ? std::optional(now.status.position) : std::nullopt;
+    return now.playing && now.total > 0 && played_ == file() ? std::optional(now.status.position)
+                                                             : std::nullopt;
 }
 
 namespace {

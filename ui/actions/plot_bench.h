@@ -18,7 +18,10 @@ namespace millwright::actions {
 
 class PlotBench {
 public:
-    PlotBench(std::filesystem::path assets, const std::function<void()>& wake);
+    /// Logs of what is played to a table go to `log_folder`.
+    PlotBench(std::filesystem::path assets,
+              std::filesystem::path log_folder,
+              const std::function<void()>& wake);
 
     /// Derives what the project asks for now.
     void follow(const project::PlotInput& input);
@@ -26,6 +29,8 @@ public:
     void read_again();
     void choose_material(std::size_t n) { material_ = n; }
     void set_table(const TableChoice& choice) { table_choice_ = choice; }
+    void set_table_port(const std::string& port) { table_choice_.port = port; }
+    /// The path as it is shown and as its program cuts it: levels, order, depths and tools.
     void play_table();
 
     [[nodiscard]] const project::PlotInput& input() const { return input_; }

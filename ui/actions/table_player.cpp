@@ -1,55 +1,21 @@
 #include "ui/actions/table_player.h"
 
-#include "core/plot/decode_path.h"
-#include "core/plot/decode_within.h"
+#include "core/machine/links/link.h"
+#include "core/machine/point_job.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
+#include <ctime>
 #include <utility>
-#include <vector>
 
 namespace millwright::actions {
 
 namespace {
 
-/// The slowest axis, which no rounding of the samples exceeds; velocities that were asked for may.
-double fastest_of(const plot::DecodeSettings& decoding, const kinematics::MachineModel& model) {
-    double slowest = std::numeric_limits<double>::max();
-    for (const char letter : {'X', 'Y', 'Z'}) {
-        const int axis = model.axis_index(letter);
-        slowest = axis < 0 ? slowest : std::min(slowest, model.axis(axis).max_velocity);
-    }
-    return std::max({slowest,
-                     decoding.velocity,
-                     decoding.travel_velocity.value_or(0.0),
-                     decoding.plunge_velocity.value_or(0.0)});
-}
-
-/// From where the table stands to `height`, where it travels.
-std::vector<Vec3> way_up(const Vec3& stands, double height, const plot::DecodeSettings& decoding) {
-    const double step = decoding.velocity * decoding.period;
-    const double way = height - stands.z();
-    const auto steps = static_cast<std::int64_t>(std::ceil(std::abs(way) / step));
-    std::vector<Vec3> points;
-    for (std::int64_t n = 0; n < steps; ++n) {
-        points.push_back(stands +
-                         Vec3::UnitZ() * (way * static_cast<double>(n) / static_cast<double>(steps)));
-    }
-    return points;
-}
-
-std::vector<Vec3> joined(std::vector<Vec3> points, const std::vector<Vec3>& rest) {
-    points.insert(points.end(), rest.begin(), rest.end());
-    return points;
-}
-
 /// In the words of the pane, whose points have no lines.
-void expect_playable(const std::vector<Vec3>& points, double period, const kinematics::MachineModel& model) {
-    const auto faults = machine::check_points(points, period, model, "the points");
+void expect_playable(const machine::Job& job) {
+    const auto faults = machine::check_points(*job.points, *job.machine, "the points");
     if (!faults.empty()) {
         const Diagnostic& first = faults.front();
         throw Error(Diagnostic{.place = {},
@@ -60,108 +26,143 @@ void expect_playable(const std::vector<Vec3>& points, double period, const kinem
     }
 }
 
+machine::Job table_job(const TableChoice& choice, const TableWork& work, const std::optional<Vec3>& start) {
+    constexpr std::int64_t most = 5'000'000;
+    machine::PathPoints settings{.decoding = choice.decoding,
+                                 .start = start,
+                                 .speed = choice.port.empty() ? 1.0 : choice.speed,
+                                 .spindle_rpm = work.spindle_rpm};
+    settings.decoding.most_points = most;
+    machine::Job job = machine::path_points_job(*work.path, work.file, work.model, settings);
+    expect_playable(job);
+    job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    return job;
+}
+
 } // namespace
 
-void TablePlayer::play(const TableChoice& choice,
-                       const plot::Strokes& strokes,
-                       const std::shared_ptr<const kinematics::MachineModel>& model) {
-    play_points(
-        choice,
-        [&](const plot::DecodeSettings& decoding, double fastest, const std::optional<Vec3>& stands) {
-            return stands ? joined(way_up(*stands, decoding.pen_up_z, decoding),
-                                   plot::decode_within(fastest, strokes, decoding, stands->head<2>()))
-                          : plot::decode_within(fastest, strokes, decoding);
-        },
-        *model);
-}
-
-void TablePlayer::play(const TableChoice& choice,
-                       const plot::CutPath& path,
-                       const std::shared_ptr<const kinematics::MachineModel>& model) {
-    if (std::ranges::find(path, plot::CutMove::tool_change, &plot::CutPoint::move) != path.end()) {
-        throw Error("it changes its tool, and points do not stop for that", {}, "send its program");
-    }
-    play_points(
-        choice,
-        [&](const plot::DecodeSettings& decoding, double fastest, const std::optional<Vec3>& stands) {
-            return stands ? joined(way_up(*stands, path.front().at.z(), decoding),
-                                   plot::decode_path(path, decoding, fastest, stands->head<2>()))
-                          : plot::decode_path(path, decoding, fastest);
-        },
-        *model);
-}
-
-void TablePlayer::play_points(const TableChoice& choice,
-                              const Points& points,
-                              const kinematics::MachineModel& model) {
+void TablePlayer::play(const TableChoice& choice, TableWork work) {
     if (playing()) {
         throw Error("the table is moving", {}, "stop it, or wait for its end");
     }
     thread_ = {};
+    const std::optional<Vec3> start = place(choice.port);
+    auto play = std::make_shared<Play>();
+    play->choice = choice;
+    play->driver = std::make_shared<machine::PointsDriver>(
+        choice.port.empty() ? nullptr : machine::make_link(choice.port),
+        clock_,
+        work.model,
+        start.value_or(machine::usual_start(*work.path)),
+        // Shown faster, a table that is not there moves no faster.
+        machine::PlayerOptions{.speed = choice.port.empty() ? choice.speed : 1.0, .format = choice.record});
+    play->dispatcher = std::make_unique<machine::Dispatcher>(*play->driver, clock_, log_folder_);
     const std::scoped_lock lock(mutex_);
-    const std::optional<Vec3> stands = place_of(choice.port);
-    player_.reset();
+    place_before_ = last_place();
+    play_ = play;
+    playing_ = true;
+    total_ = 0;
     failure_.reset();
-    try {
-        constexpr std::int64_t most = 5'000'000;
-        plot::DecodeSettings decoding = choice.decoding;
-        decoding.most_points = most;
-        const auto made =
-            std::make_shared<const std::vector<Vec3>>(points(decoding, fastest_of(decoding, model), stands));
-        machine::PlayerOptions options;
-        options.period = choice.decoding.period;
-        options.speed = choice.speed;
-        options.format = choice.record;
-        expect_playable(*made, machine::machine_period(options, !choice.port.empty()), model);
-        total_ = std::ssize(*made);
-        player_ = std::make_shared<machine::PointPlayer>(
-            choice.port.empty() ? nullptr : machine::make_link(choice.port), clock_, made, model, options);
-        port_ = choice.port;
-    } catch (const Error& error) {
-        failure_ = error.diagnostic();
-        return;
-    }
-    thread_ = std::jthread([this, player = player_](const std::stop_token& stop) {
-        try {
-            (void)player->play(stop, [this](const machine::PlayStatus&) { wake_(); });
-        } catch (const Error& error) {
-            const std::scoped_lock failed(mutex_);
-            failure_ = error.diagnostic();
-        }
-        wake_();
+    outcome_.reset();
+    thread_ = std::jthread([this, play, work = std::move(work), start](const std::stop_token& stop) {
+        run(play, work, start, stop);
     });
 }
 
-/// For the eyes alone everything begins anew.
-std::optional<Vec3> TablePlayer::place_of(const std::string& port) {
-    if (player_ && !port_.empty() && player_->status().sent > 0) {
-        stands_ = {port_, player_->status().position};
+void TablePlayer::run(const std::shared_ptr<Play>& play,
+                      const TableWork& work,
+                      const std::optional<Vec3>& start,
+                      const std::stop_token& stop) {
+    std::optional<Diagnostic> failure;
+    std::optional<machine::JobOutcome> outcome;
+    try {
+        const machine::Job job = table_job(play->choice, work, start);
+        {
+            const std::scoped_lock lock(mutex_);
+            total_ = std::ssize(job.points->points);
+        }
+        outcome = play->dispatcher->run(
+            job, Progress(nullptr, stop), [this](const machine::JobReport&) { wake_(); });
+    } catch (const Error& error) {
+        failure = error.diagnostic();
+    } catch (const Cancelled&) {
+        failure = Diagnostic{{}, "it was stopped before it began", {}};
+    } catch (const std::exception& defect) {
+        failure = Diagnostic{{}, defect.what(), {}};
     }
-    return stands_ && stands_->port == port ? std::optional(stands_->at) : std::nullopt;
+    play->driver->close();
+    {
+        const std::scoped_lock lock(mutex_);
+        playing_ = false;
+        failure_ = std::move(failure);
+        outcome_ = std::move(outcome);
+    }
+    wake_();
 }
 
-void TablePlayer::stop() {
+std::shared_ptr<TablePlayer::Play> TablePlayer::current() const {
     const std::scoped_lock lock(mutex_);
-    if (player_) {
-        player_->stop();
+    return playing_ ? play_ : nullptr;
+}
+
+/// A play that was refused, or that nothing was sent for, moved no table. With the mutex held.
+std::optional<TablePlayer::Place> TablePlayer::last_place() const {
+    if (play_ && !play_->choice.port.empty()) {
+        const machine::PlayStatus played = play_->driver->played();
+        if (played.sent > 0) {
+            return Place{play_->choice.port, played.position};
+        }
+    }
+    return place_before_;
+}
+
+std::optional<Vec3> TablePlayer::place(const std::string& port) const {
+    const std::scoped_lock lock(mutex_);
+    const std::optional<Place> last = last_place();
+    return last && last->port == port ? std::optional(last->at) : std::nullopt;
+}
+
+void TablePlayer::hold() {
+    if (const auto play = current()) {
+        play->dispatcher->hold();
+    }
+}
+
+void TablePlayer::resume() {
+    if (const auto play = current()) {
+        play->dispatcher->resume();
+    }
+}
+
+/// Where nothing moves yet, the job does not begin.
+void TablePlayer::stop() {
+    if (const auto play = current()) {
+        if (play->driver->status().activity == machine::Activity::none) {
+            thread_.request_stop();
+        }
+        play->dispatcher->stop();
     }
 }
 
 void TablePlayer::emergency_stop() {
-    const std::scoped_lock lock(mutex_);
-    if (player_) {
-        player_->emergency_stop();
+    if (const auto play = current()) {
+        play->driver->emergency_stop();
+        if (play->driver->status().activity == machine::Activity::none) {
+            thread_.request_stop();
+        }
     }
 }
 
 TableView TablePlayer::view() const {
     const std::scoped_lock lock(mutex_);
     TableView view;
+    view.playing = playing_;
     view.failure = failure_;
-    if (player_) {
-        view.there = true;
+    view.outcome = outcome_;
+    if (play_) {
         view.total = total_;
-        view.status = player_->status();
+        view.status = play_->driver->played();
+        view.there = playing_ || view.status.sent > 0;
     }
     return view;
 }

@@ -1,91 +1,113 @@
-// Points that are played to an XYZ table, one a period, in a thread of its own.
+// A plot's path that is played to an XYZ table, one point per period, in a thread of its own: through a
+// driver, the dispatcher and a job log like every other job.
 #pragma once
 
 #include "core/base/error.h"
 #include "core/geometry/vectors.h"
 #include "core/kinematics/machine_model.h"
-#include "core/machine/point_player.h"
+#include "core/machine/clock.h"
+#include "core/machine/dispatcher.h"
+#include "core/machine/drivers/points/points_driver.h"
+#include "core/machine/job.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/decode.h"
-#include "core/plot/strokes.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace millwright::actions {
 
 struct TableChoice {
     std::string port = {}; ///< empty: for the eyes alone
-    plot::DecodeSettings decoding = {
-        .velocity = 8.0, .period = 0.02, .pen_up_z = 5.0, .mode = plot::DecodeMode::path};
+    plot::DecodeSettings decoding = {.velocity = 8.0, .period = 0.02, .mode = plot::DecodeMode::path};
     double speed = 1.0; ///< times real time
-    machine::RecordFormat record = machine::PlayerOptions().format;
+    machine::RecordFormat record = {.pattern = "{X},{Y},{Z}"};
 
     friend bool operator==(const TableChoice&, const TableChoice&) = default;
 };
 
-/// How it stands, for one frame.
+/// What is played.
+struct TableWork {
+    std::shared_ptr<const plot::CutPath> path;
+    std::filesystem::path file; ///< that it was made of
+    std::shared_ptr<const kinematics::MachineModel> model;
+    double spindle_rpm = 0.0; ///< of its program
+};
+
+/// For one frame.
 struct TableView {
     bool there = false;     ///< something was played, or is
-    std::int64_t total = 0; ///< points
+    bool playing = false;   ///< it is being prepared, moves, or rests at a stop
+    std::int64_t total = 0; ///< points; 0 while they are computed
     machine::PlayStatus status;
-    std::optional<Diagnostic> failure; ///< it could not begin
+    std::optional<Diagnostic> failure;          ///< it could not begin
+    std::optional<machine::JobOutcome> outcome; ///< of the last, once it ended
 };
 
 class TablePlayer {
 public:
-    explicit TablePlayer(std::function<void()> wake) : wake_(std::move(wake)) {}
+    /// Logs go to `log_folder`. `wake`: from any thread, when there is something new to see.
+    TablePlayer(std::filesystem::path log_folder, std::function<void()> wake)
+        : log_folder_(std::move(log_folder)), wake_(std::move(wake)) {}
     TablePlayer(const TablePlayer&) = delete;
     TablePlayer& operator=(const TablePlayer&) = delete;
-    ~TablePlayer() = default; // the thread stops the player: nothing is sent any more
+    ~TablePlayer() = default; // the thread stops the table: nothing is sent any more
 
-    /// In whole paths at constant velocity; limits of the machine are checked before. What is wrong is told
-    /// by view(). A table that something was played to before is led up and to the beginning from where that
-    /// ended; else it is taken to stand there. Throws Error while one is playing.
-    void play(const TableChoice& choice,
-              const plot::Strokes& strokes,
-              const std::shared_ptr<const kinematics::MachineModel>& model);
-    /// The same of a path with its own heights, which is begun at that of its first point. Throws Error too
-    /// where it changes tools, for points do not stop.
-    void play(const TableChoice& choice,
-              const plot::CutPath& path,
-              const std::shared_ptr<const kinematics::MachineModel>& model);
-    /// At once.
+    /// At constant velocity; limits of the machine are checked before. view() has what is wrong. A table that
+    /// something was played to before starts from where that ended; else it is assumed to be at
+    /// machine::usual_start(). It rests at each tool change until resume(). Throws Error while one is
+    /// playing, and for a port that is none.
+    void play(const TableChoice& choice, TableWork work);
+    /// At once, and entered in the job's log.
+    void hold();
+    void resume();
     void stop();
     void emergency_stop();
     [[nodiscard]] TableView view() const;
-    [[nodiscard]] bool playing() const { return view().status.state == machine::PlayState::playing; }
+    [[nodiscard]] bool playing() const { return view().playing; }
+    /// Where the next would start; nothing: not known, see play().
+    [[nodiscard]] std::optional<Vec3> place(const std::string& port) const;
     /// Blocks until nothing is played (tests).
     void wait();
 
 private:
-    /// Where a table is that was sent points.
+    /// One job on its table.
+    struct Play {
+        TableChoice choice;
+        std::shared_ptr<machine::PointsDriver> driver;
+        std::unique_ptr<machine::Dispatcher> dispatcher;
+    };
+
+    /// Of a table that was sent points.
     struct Place {
         std::string port;
         Vec3 at = Vec3::Zero(); ///< mm
     };
 
-    /// Of the table, from where it stands, if that is known; `fastest` as in decode_within().
-    using Points = std::function<std::vector<Vec3>(
-        const plot::DecodeSettings& decoding, double fastest, const std::optional<Vec3>& stands)>;
+    void run(const std::shared_ptr<Play>& play,
+             const TableWork& work,
+             const std::optional<Vec3>& start,
+             const std::stop_token& stop);
+    [[nodiscard]] std::shared_ptr<Play> current() const;
+    [[nodiscard]] std::optional<Place> last_place() const;
 
-    void play_points(const TableChoice& choice, const Points& points, const kinematics::MachineModel& model);
-    [[nodiscard]] std::optional<Vec3> place_of(const std::string& port);
-
+    std::filesystem::path log_folder_;
     std::function<void()> wake_;
     machine::SteadyClock clock_;
     mutable std::mutex mutex_; ///< guards what follows
-    std::shared_ptr<machine::PointPlayer> player_;
-    std::string port_;            ///< of the player
-    std::optional<Place> stands_; ///< after the player before it
+    std::shared_ptr<Play> play_;
+    std::optional<Place> place_before_; ///< where the plays before that one left a table
+    bool playing_ = false;
     std::int64_t total_ = 0;
     std::optional<Diagnostic> failure_;
-    std::jthread thread_;
+    std::optional<machine::JobOutcome> outcome_;
+    std::jthread thread_; // last: it ends before what it uses
 };
 
 } // namespace millwright::actions

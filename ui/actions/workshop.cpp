@@ -70,7 +70,7 @@ Workshop::Workshop(WorkshopOptions options)
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
     reader_ = std::make_unique<project::ProgramReader>(wake);
     set_up_ = std::make_unique<project::SetUpWorker>(wake);
-    plot_ = std::make_unique<PlotBench>(options_.assets, wake);
+    plot_ = std::make_unique<PlotBench>(options_.assets, options_.log_folder, wake);
     import_ = std::make_unique<ImportBench>(wake);
     export_ = std::make_unique<SurfaceExport>(wake);
     controller_ = std::make_unique<Controller>(options_.log_folder, wake);

@@ -190,6 +190,7 @@ private:
     void put_project(const std::filesystem::path& whole);
     void begin(project::Project other, const std::string& title, Document document);
     void look_at_another();
+    void play_again(const machine::JobStory& story);
     void open_gcode(const std::filesystem::path& file);
     void follow_file();
     void follow_received();

@@ -410,11 +410,23 @@ void Workshop::leave_left_behind() {
     left_behind_.clear();
 }
 
+/// Points are played from their beginning, by the pane of the table.
+void Workshop::play_again(const machine::JobStory& story) {
+    session_.workspace = Workspace::plot;
+    open(story.start.project);
+    plot_->set_table_port(story.start.address);
+}
+
 void Workshop::continue_broken_job() {
     const auto stories = job_recovery_->broken();
     expects(!stories->empty(), "a job was broken off");
     const machine::JobStory story = stories->front();
     const fs::path file(story.start.project);
+    if (story.start.driver == "points") {
+        play_again(story);
+        job_recovery_->dismiss();
+        return;
+    }
     if (is_project_file(file)) {
         close_file();
     }

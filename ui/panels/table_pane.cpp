@@ -1,6 +1,7 @@
 #include "ui/panels/table_pane.h"
 
 #include "core/base/text.h"
+#include "core/machine/point_job.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/sketch.h"
@@ -53,6 +54,8 @@ std::string_view play_state_text(PlayState state) {
         return "ready";
     case PlayState::playing:
         return "moving";
+    case PlayState::holding:
+        return "held";
     case PlayState::done:
         return "every point was sent";
     case PlayState::stopped:
@@ -224,12 +227,6 @@ void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask
     }
 }
 
-/// Paths of programs, path files and reliefs go where they say; strokes as high as the pen.
-bool has_own_heights(const Workbench& now) {
-    const auto made = now.plot.latest();
-    return made && made->path && !made->strokes;
-}
-
 /// Nobody tells where the table stands when it begins.
 void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
     {
@@ -246,20 +243,15 @@ void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
 
 } // namespace
 
-/// Nothing where nobody knows, and where nothing is sent.
-std::optional<Vec3> TablePane::place_of_begin(const Workbench& now) const {
+/// Nothing where nothing is sent.
+std::optional<Vec3> TablePane::place_of_begin(const Workbench& now) {
     const TableChoice& choice = now.plot.table_choice();
     const actions::TableView table = now.plot.table().view();
-    if (choice.port.empty() || table.status.state == PlayState::playing) {
+    const auto made = now.plot.latest();
+    if (choice.port.empty() || table.playing || !made || !made->path) {
         return std::nullopt;
     }
-    if (!table.there) {
-        const auto made = now.plot.latest();
-        const bool own_heights = has_own_heights(now) && made->path && !made->path->empty();
-        return Vec3(0.0, 0.0, own_heights ? made->path->front().at.z() : choice.decoding.pen_up_z);
-    }
-    return port_ == choice.port && table.status.sent > 0 ? std::optional(table.status.position)
-                                                         : std::nullopt;
+    return now.plot.table().place(choice.port).value_or(machine::usual_start(*made->path));
 }
 
 void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -291,19 +283,6 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
             ui.number(choice.speed, {"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2})) {
         change_table_choice(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
     }
-    {
-        const auto heights =
-            ui.permitted(has_own_heights(now) ? widgets::Permission::refused("The file has its own heights.")
-                                              : widgets::Permission{});
-        number({"pen_up", "Z up", "mm", "Between strokes", -100.0, 100.0, 5.0, 2},
-               points.pen_up_z,
-               1.0,
-               &DecodeSettings::pen_up_z);
-        number({"pen_down", "Z down", "mm", "On strokes", -100.0, 100.0, 0.0, 2},
-               points.pen_down_z,
-               1.0,
-               &DecodeSettings::pen_down_z);
-    }
     if (const auto begins = place_of_begin(now)) {
         begin_fields(ui, choice, *begins);
     }
@@ -313,18 +292,24 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
 
 void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {
-        const auto line = ui.row(2);
+        const bool held = now.plot.table().view().status.state == PlayState::holding;
+        const auto line = ui.row(3);
         action_button(ui, now, ask, catalogue_, "plot.play_table", widgets::Rank::primary, "Play");
+        if (held) {
+            action_button(ui, now, ask, catalogue_, "plot.resume_table", widgets::Rank::primary, "Resume");
+        } else {
+            action_button(ui, now, ask, catalogue_, "plot.hold_table", widgets::Rank::normal, "Hold");
+        }
         action_button(ui, now, ask, catalogue_, "plot.stop_table", widgets::Rank::danger, "Stop");
     }
     const actions::TableView table = now.plot.table().view();
-    if (table.status.state == PlayState::playing) {
-        port_ = now.plot.table_choice().port;
-    }
     if (table.there && table.status.state == PlayState::emergency_stop) {
         ui.words(table.status.sentence, widgets::Tone::danger);
     }
-    if (table.failure && !table.there) {
+    if (table.status.state == PlayState::holding && !table.status.sentence.empty()) {
+        ui.words(fmt::format("Waiting: {}", table.status.sentence), widgets::Tone::warning);
+    }
+    if (table.failure) {
         (void)widgets::banner(ui, "table_failure", {widgets::Severity::warning, to_text(*table.failure), {}});
     }
     const Rect all = ui.rest();
@@ -341,10 +326,11 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         histogram(ui, table.status.jitter, right);
     } else {
         widgets::Sketch sketch(ui, {middle.x, middle.y, 2.0F * part + gap, ui.px(24.0F)});
-        sketch.text(
-            sketch.rect(), "Points at constant velocity go to the table, one a period.", ui.colours().muted);
+        sketch.text(sketch.rect(),
+                    "Points at constant velocity go to the table, one per period.",
+                    ui.colours().muted);
     }
-    if (table.status.state == PlayState::playing) {
+    if (table.playing) {
         constexpr double frame = 0.03;
         ui.change_in(frame);
     }

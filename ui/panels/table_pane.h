@@ -1,10 +1,9 @@
-// An XYZ table that points are played to, one a period: port, speed, live read-out of three axes, jitter.
+// An XYZ table that points are played to, one per period: port, speed, live read-out of three axes, jitter.
 #pragma once
 
 #include "ui/panels/panel.h"
 
 #include <optional>
-#include <string>
 
 namespace millwright::panels {
 
@@ -17,10 +16,9 @@ public:
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    [[nodiscard]] std::optional<Vec3> place_of_begin(const Workbench& now) const;
+    [[nodiscard]] static std::optional<Vec3> place_of_begin(const Workbench& now);
 
     const actions::Catalogue& catalogue_;
-    std::string port_; ///< that was played to last
 };
 
 } // namespace millwright::panels

@@ -27,9 +27,6 @@ struct LineWord {
 /// A letter or underscore, then also digits.
 [[nodiscard]] bool is_name(std::string_view text);
 
-/// Behind the mark that some editors put in front of UTF-8.
-[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
-
 /// The next line of `text`, which is taken from it, without its end.
 [[nodiscard]] std::string_view take_line(std::string_view& text);
 

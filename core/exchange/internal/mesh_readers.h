@@ -13,7 +13,8 @@ namespace millwright::exchange {
 void read_stl(std::string_view bytes, Soup& soup, const Progress& progress);
 /// Wavefront: v and f; all else is read over.
 void read_obj(std::string_view bytes, Soup& soup, const Progress& progress);
-/// Text or binary of either byte order: x, y, z of `vertex`, vertex_indices of `face`; all else is read over.
+/// Text or binary of either byte order: x, y, z of `vertex`, vertex_indices of `face` and `tristrips`; all
+/// else is read over.
 void read_ply(std::string_view bytes, Soup& soup, const Progress& progress);
 
 } // namespace millwright::exchange

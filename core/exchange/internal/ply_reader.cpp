@@ -212,6 +212,29 @@ private:
     std::size_t word_ = 0;
 };
 
+/// The corners of strips, one after another, each pair of neighbours with the next making a triangle; -1 ends
+/// a strip. Every other triangle of a strip is turned round, and so are its corners.
+class Strips {
+public:
+    Strips(Soup& soup, int line) : soup_(soup), line_(line) {}
+
+    void add(double corner) {
+        if (std::abs(corner + 1.0) > 0.0) {
+            corners_.push_back(corner);
+            add_triangle();
+        } else {
+            corners_.clear();
+        }
+    }
+
+private:
+    Soup& soup_;
+    int line_;
+    std::vector<double> corners_; ///< of the strip, so far
+
+    void add_triangle();
+};
+
 /// A whole number that fits.
 int whole(double value, const Soup& soup, int line) {
     constexpr double largest = 2147483647.0;
@@ -219,6 +242,24 @@ int whole(double value, const Soup& soup, int line) {
         soup.fail(fmt::format("{} is no index and no length of a list", value), line);
     }
     return static_cast<int>(value);
+}
+
+/// Of two that are the same there is no triangle: strips are joined by such corners.
+void Strips::add_triangle() {
+    const std::size_t count = corners_.size();
+    if (count < 3) {
+        return;
+    }
+    std::array<int, 3> face{};
+    for (std::size_t k = 0; k < face.size(); ++k) {
+        face[k] = whole(corners_[count - 3 + k], soup_, line_);
+    }
+    if (count % 2 == 0) {
+        std::swap(face[0], face[1]);
+    }
+    if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) {
+        soup_.add_face(face, line_);
+    }
 }
 
 void read_element(const Element& element, Numbers& numbers, Soup& soup, const Progress& progress) {
@@ -230,6 +271,7 @@ void read_element(const Element& element, Numbers& numbers, Soup& soup, const Pr
         }
         Vec3 point = Vec3::Zero();
         std::vector<int> face;
+        const bool strips = element.name == "tristrips";
         for (const Property& property : element.properties) {
             const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
             if (!property.count) {
@@ -241,9 +283,12 @@ void read_element(const Element& element, Numbers& numbers, Soup& soup, const Pr
                 continue;
             }
             const int length = whole(numbers.next(*property.count), soup, numbers.line());
+            Strips strip(soup, numbers.line());
             for (int k = 0; k < length; ++k) {
                 const double value = numbers.next(property.type);
-                if (corners) {
+                if (corners && strips) {
+                    strip.add(value);
+                } else if (corners) {
                     face.push_back(whole(value, soup, numbers.line()));
                 }
             }

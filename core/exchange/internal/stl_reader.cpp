@@ -8,7 +8,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace millwright::exchange {
 
@@ -17,6 +19,10 @@ namespace {
 constexpr std::size_t stl_head_size = 84; // 80 bytes of text and the count
 constexpr std::size_t facet_size = 50;    // normal, three corners, two bytes more
 constexpr std::uint32_t between_checks = 10'000;
+
+char small_letter(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 /// Intel's byte order, which is ours.
 template <typename Value> Value value_at(std::string_view bytes, std::size_t place) {
@@ -66,6 +72,17 @@ void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
     }
 }
 
+/// In small letters: some programs write capitals. `end loop` is taken for `endloop`.
+std::string keyword_of(const std::vector<std::string_view>& words) {
+    std::string word(words.front());
+    std::ranges::transform(word, word.begin(), small_letter);
+    if (word == "end" && words.size() > 1) {
+        word += words[1];
+        std::ranges::transform(word, word.begin(), small_letter);
+    }
+    return word;
+}
+
 void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
     WordLines lines(bytes);
     int corners = -1; // outside of a loop
@@ -76,7 +93,7 @@ void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
         if (words->empty()) {
             continue;
         }
-        const std::string_view word = words->front();
+        const std::string word = keyword_of(*words);
         if (word == "outer") {
             corners = 0;
         } else if (word == "vertex") {
@@ -101,12 +118,18 @@ void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
     }
 }
 
+bool begins_with_solid(std::string_view text) {
+    return std::ranges::equal(
+        text.substr(0, 5), std::string_view("solid"), std::ranges::equal_to(), small_letter);
+}
+
 /// A binary file may begin with the word solid, too. The count of one that is read has a byte of 0, as no
 /// text has: 2^24 triangles are too many.
 bool is_text(std::string_view bytes) {
     static_assert(most_mesh_triangles < 1 << 24);
-    const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-    return start != std::string_view::npos && bytes.substr(start).starts_with("solid") &&
+    const std::string_view text = without_byte_order_mark(bytes);
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
+    return start != std::string_view::npos && begins_with_solid(text.substr(start)) &&
            bytes.substr(0, stl_head_size).find('\0') == std::string_view::npos;
 }
 

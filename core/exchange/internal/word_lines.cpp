@@ -10,9 +10,13 @@ const std::vector<std::string_view>* WordLines::next() {
     if (left_.empty()) {
         return nullptr;
     }
-    const std::size_t end = left_.find('\n');
+    const auto ends = [](char c) { return c == '\n' || c == '\r'; };
+    const auto end = static_cast<std::size_t>(std::ranges::find_if(left_, ends) - left_.begin());
     std::string_view line = left_.substr(0, end);
-    left_.remove_prefix(end == std::string_view::npos ? left_.size() : end + 1);
+    left_.remove_prefix(end);
+    const bool both = left_.starts_with("\r\n");
+    cr_alone_ = number_ == 0 ? left_.starts_with('\r') && !both : cr_alone_;
+    left_.remove_prefix(std::min<std::size_t>(left_.size(), both && !cr_alone_ ? 2 : 1));
     ++number_;
     words_.clear();
     constexpr std::string_view white = " \t\r\f\v";

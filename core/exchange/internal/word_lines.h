@@ -1,6 +1,7 @@
-// The lines of a text file as words between white space.
+// The lines of a text file, ended by LF, CR LF or CR, as words between white space.
 #pragma once
 
+#include "core/base/text.h"
 #include "core/exchange/internal/soup.h"
 
 #include <charconv>
@@ -12,7 +13,8 @@ namespace millwright::exchange {
 
 class WordLines {
 public:
-    explicit WordLines(std::string_view text) : left_(text) {}
+    /// A byte order mark at the beginning is skipped.
+    explicit WordLines(std::string_view text) : left_(without_byte_order_mark(text)) {}
 
     /// The words of the next line, which may be none; nothing at the end. Valid until the next call.
     [[nodiscard]] const std::vector<std::string_view>* next();
@@ -25,6 +27,7 @@ private:
     std::string_view left_;
     std::vector<std::string_view> words_;
     int number_ = 0;
+    bool cr_alone_ = false; ///< as the first line ends: a LF behind a CR is not of the line, but what follows
 };
 
 /// The whole word as a number; nothing if it is none, or does not fit.

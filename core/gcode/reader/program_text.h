@@ -1,14 +1,16 @@
 // What a file has around its program: every reader of programs leaves it out in the same way.
 #pragma once
 
+#include "core/base/text.h"
+
+#include <cstddef>
 #include <string_view>
 
 namespace millwright::gcode {
 
 /// How long the byte order mark of UTF-8 is with which `text` begins; 0 where there is none.
-[[nodiscard]] constexpr std::size_t length_of_byte_order_mark(std::string_view text) {
-    constexpr std::string_view mark = "\xEF\xBB\xBF";
-    return text.substr(0, mark.size()) == mark ? mark.size() : 0;
+[[nodiscard]] inline std::size_t length_of_byte_order_mark(std::string_view text) {
+    return text.size() - without_byte_order_mark(text).size();
 }
 
 /// `last_line`, which has no end of its own, without the mark of DOS for the end of a file (byte 0x1A, once
@@ -21,8 +23,8 @@ namespace millwright::gcode {
 }
 
 /// `bytes` without either.
-[[nodiscard]] constexpr std::string_view program_text(std::string_view bytes) {
-    return without_dos_end(bytes.substr(length_of_byte_order_mark(bytes)));
+[[nodiscard]] inline std::string_view program_text(std::string_view bytes) {
+    return without_dos_end(without_byte_order_mark(bytes));
 }
 
 } // namespace millwright::gcode

@@ -1,6 +1,7 @@
 #include "core/machine/service/scale_calibration.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,7 @@ ScaleFit fit(int motor, const std::vector<ScaleReading>& readings) {
 
 std::vector<ScaleReading> parse_scale_readings(std::string_view text, const std::filesystem::path& file) {
     std::vector<ScaleReading> readings;
+    text = without_byte_order_mark(text);
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         Words words(text.substr(0, end), file, number);

@@ -3,13 +3,16 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/plot/hpgl/internal/commands.h"
+#include "core/plot/hpgl/internal/line_end_evidence.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -21,9 +24,14 @@ namespace {
 /// Runs a file through the plotter, command by command.
 class Reading {
 public:
-    Reading(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings)
+    /// `settings` must outlive it. `evidence` may be null.
+    Reading(std::string_view bytes,
+            const std::filesystem::path& file,
+            const ReaderSettings& settings,
+            LineEndEvidence* evidence = nullptr)
         : size_(static_cast<std::int64_t>(bytes.size())), problems_(file, settings),
-          lexer_(bytes, arguments_of, problems_), run_(settings, problems_, lexer_, plot_) {}
+          lexer_(bytes, arguments_of, problems_), run_(settings, problems_, lexer_, plot_),
+          evidence_(evidence) {}
 
     Plot read() {
         while (const auto command = lexer_.next()) {
@@ -90,7 +98,13 @@ private:
             return false;
         }
         const Pen::Mark before = run_.pen.mark();
-        row.follow(run_, {.command = command, .numbers = numbers_});
+        if (row.moves && !command.terminated && !numbers_.empty()) {
+            if (!follow_cut_off(row, command)) {
+                return false;
+            }
+        } else {
+            row.follow(run_, {.command = command, .numbers = numbers_});
+        }
         if (auto why = run_.pen.take_refusal()) {
             if (row.moves) {
                 run_.pen.take_back(before);
@@ -99,6 +113,32 @@ private:
             return false;
         }
         return true;
+    }
+
+    /// The last number of the file may be a part of one. What stands before its point is whole, and the point
+    /// is if it closes the stroke. False: nothing is drawn.
+    bool follow_cut_off(const CommandRow& row, const Command& command) {
+        const bool pairs = row.count.least == 0 && row.count.step == 2;
+        const bool some = pairs && numbers_.size() > 2;
+        bool closes = false;
+        if (some) {
+            const std::array<double, 2> last{numbers_[numbers_.size() - 2], numbers_.back()};
+            numbers_.resize(numbers_.size() - 2);
+            row.follow(run_, {.command = command, .numbers = numbers_});
+            const Vec2 point(last[0], last[1]);
+            const bool relative = run_.modes.relative;
+            closes = run_.pen.would_close(relative ? run_.pen.at() + run_.units.plotter_step(point)
+                                                   : run_.units.plotter(point));
+            if (closes) {
+                row.follow(run_, {.command = command, .numbers = last});
+            }
+        }
+        problems_.add(command.byte,
+                      fmt::format("the file ends in the middle of {}", command.name),
+                      closes ? "its last point closes the stroke and is taken"
+                      : some ? "its last point may be cut off and is left out"
+                             : "its last number may be cut off, so nothing is drawn from it");
+        return some;
     }
 
     bool take_numbers(const CommandRow& row, const Command& command) {
@@ -119,14 +159,8 @@ private:
             throw Error(
                 problems_.at(fault->byte, "the plot has more points than are allowed", "it may be damaged"));
         }
-        const bool fits = !fault && row.count.allows(numbers_.size());
-        const bool wrapped = numbers.arguments.find_first_of("\r\n") != std::string_view::npos;
-        if (!fits && wrapped && ends == LineEnds::automatic) {
-            std::vector<double> joined;
-            if (!read_numbers(numbers, true, most, joined) && row.count.allows(joined.size())) {
-                numbers_ = std::move(joined);
-                fault.reset();
-            }
+        if (evidence_ != nullptr && numbers.arguments.find_first_of("\r\n") != std::string_view::npos) {
+            evidence_->look_at(numbers, row.count);
         }
         if (fault) {
             problems_.add(fault->byte, fmt::format("{}: {}", command.name, fault->message));
@@ -138,12 +172,6 @@ private:
         if (!row.count.allows(numbers_.size())) {
             problems_.add(command.byte,
                           fmt::format("{} cannot have {} numbers", command.name, numbers_.size()));
-            return false;
-        }
-        if (!command.terminated && !numbers_.empty() && row.moves) {
-            problems_.add(command.byte,
-                          fmt::format("the file ends in the middle of {}", command.name),
-                          "its last number may be cut off, so nothing is drawn from it");
             return false;
         }
         return true;
@@ -169,8 +197,50 @@ private:
     Problems problems_;
     Lexer lexer_;
     Run run_;
+    LineEndEvidence* evidence_;
     std::vector<double> numbers_;
 };
+
+/// Settings that say what line ends mean, and in `notice` what that is, if the file leaves a choice.
+ReaderSettings with_line_ends(std::string_view bytes,
+                              const std::filesystem::path& file,
+                              ReaderSettings settings,
+                              std::optional<Diagnostic>& notice) {
+    if (settings.line_ends != LineEnds::automatic) {
+        return settings;
+    }
+    settings.line_ends = LineEnds::separate;
+    if (!has_line_end_in_digits(bytes)) {
+        return settings;
+    }
+    LineEndEvidence evidence(bytes);
+    ReaderSettings looking = settings;
+    looking.strictness = Strictness::tolerant;
+    static_cast<void>(Reading(bytes, file, looking, &evidence).read());
+    if (evidence.count() == 0) {
+        return settings;
+    }
+    const auto meaning = evidence.meaning();
+    const Place place{.file = file, .byte = evidence.first_byte()};
+    const std::string choose = "choose what Line ends are under Source, or --line-ends separate or join";
+    if (!meaning) {
+        throw Error({.place = place,
+                     .message = fmt::format("the file does not show whether line ends between two digits "
+                                            "separate numbers or wrap them ({}, the first here)",
+                                            evidence.count()),
+                     .hint = choose});
+    }
+    settings.line_ends = *meaning;
+    if (*meaning == LineEnds::join || evidence.both_fit()) {
+        notice = {.place = place,
+                  .message = fmt::format("line ends between two digits {} ({}, the first here)",
+                                         *meaning == LineEnds::join ? "are read as wraps within numbers"
+                                                                    : "are read as separators",
+                                         evidence.count()),
+                  .hint = "if not, " + choose};
+    }
+    return settings;
+}
 
 } // namespace
 } // namespace internal
@@ -182,11 +252,18 @@ Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const 
                      .message = "the file is text in UTF-16, a plot file is plain text",
                      .hint = "save it as ASCII or UTF-8"});
     }
-    return internal::Reading(bytes, file, settings).read();
+    std::optional<Diagnostic> notice;
+    const ReaderSettings chosen = internal::with_line_ends(bytes, file, settings, notice);
+    Plot plot = internal::Reading(bytes, file, chosen).read();
+    plot.line_ends = std::move(notice);
+    return plot;
 }
 
 std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& file) {
     std::vector<Diagnostic> all = plot.diagnostics;
+    if (plot.line_ends) {
+        all.insert(all.begin(), *plot.line_ends);
+    }
     if (plot.more_diagnostics > 0) {
         all.push_back({.place = {.file = file},
                        .message = fmt::format("and {} more", plot.more_diagnostics),

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,11 +44,14 @@ struct Plot {
     std::vector<LeftOut> left_out;
     std::vector<Diagnostic> diagnostics; ///< in the order of the file, each with its byte
     std::int64_t more_diagnostics = 0;   ///< that are not kept
+    /// What line ends between two digits are read as, where the file leaves a choice (LineEnds::automatic).
+    std::optional<Diagnostic> line_ends;
 };
 
 /// Reads a whole file's bytes; `file` is named in every diagnostic. Nothing is drawn from a command that is
 /// wrong, and the pen is up from there to the next absolute position. Throws Error at the first diagnostic if
-/// reading strictly, and always for more points than `settings.most_points`.
+/// reading strictly, and always for more points than `settings.most_points`, for text in UTF-16, and where
+/// the file does not show what its line ends between two digits mean. A byte order mark of UTF-8 is skipped.
 [[nodiscard]] Plot
 read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings = {});
 

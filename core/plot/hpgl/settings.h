@@ -25,8 +25,8 @@ inline constexpr PlotterUnit table_unit{0.02488, 0.02488};
 
 /// What the end of a line means inside the numbers of a command.
 enum class LineEnds {
-    automatic, ///< a separator where the command then has numbers that it can take, else nothing
-    join,      ///< nothing: listings are wrapped in the middle of numbers
+    automatic, ///< one of the others, as the file shows; where it does not show, reading ends with an Error
+    join,      ///< nothing: lines are wrapped in the middle of numbers
     separate   ///< a separator, like a blank
 };
 

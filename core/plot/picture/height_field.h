@@ -5,6 +5,7 @@
 #include "core/plot/picture/picture.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct HeightField {
     }
     [[nodiscard]] double y_of_row(double i) const { return (rows - 1 - i) * pitch; }
 };
+
+/// The brightness that stays at the top, as PictureSettings::ground of a relief.
+inline constexpr std::uint16_t relief_top = 0;
 
 /// z = -depth G / white: bright is deep, as in plates that are looked at against the light; a picture that
 /// was inverted while it was read makes bright high. Throws Error unless pitch and depth are above 0 and

@@ -9,16 +9,17 @@ namespace millwright::plot {
 namespace {
 
 /// Cameras lay their pictures down as they were held, and say so.
-ReadPicture read_jpeg(std::string_view bytes,
-                      const std::filesystem::path& file,
-                      PictureSettings settings,
-                      const Progress& progress) {
-    const internal::JpegTurn turn = internal::jpeg_turn(bytes);
+ReadPicture read_turned(std::string_view bytes,
+                        const std::filesystem::path& file,
+                        PictureSettings settings,
+                        const Progress& progress,
+                        const internal::PictureTurn& turn,
+                        void (*read_rows)(std::string_view bytes, internal::RowSink& sink)) {
     if (settings.region && turn.orientation != 1) {
         settings.region = internal::region_in_file(*settings.region, turn);
     }
     internal::RowSink sink(settings, file, progress);
-    internal::read_jpeg_rows(bytes, sink);
+    read_rows(bytes, sink);
     ReadPicture read = sink.end();
     if (turn.orientation != 1) {
         read.picture = internal::turned(read.picture, turn.orientation);
@@ -33,12 +34,15 @@ ReadPicture read_picture(std::string_view bytes,
                          const PictureSettings& settings,
                          const Progress& progress) {
     if (bytes.starts_with("\xff\xd8")) {
-        return read_jpeg(bytes, file, settings, progress);
+        return read_turned(
+            bytes, file, settings, progress, internal::jpeg_turn(bytes), internal::read_jpeg_rows);
+    }
+    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) {
+        return read_turned(
+            bytes, file, settings, progress, internal::png_turn(bytes), internal::read_png_rows);
     }
     internal::RowSink sink(settings, file, progress);
-    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) {
-        internal::read_png_rows(bytes, sink);
-    } else if (bytes.starts_with("BM")) {
+    if (bytes.starts_with("BM")) {
         internal::read_bmp_rows(bytes, sink);
     } else if (bytes.starts_with("P5") || bytes.starts_with("P6")) {
         internal::read_pnm_rows(bytes, sink);

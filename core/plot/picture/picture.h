@@ -51,7 +51,9 @@ struct PixelRegion {
 
 struct PictureSettings {
     GrayRule gray = GrayRule::mean;
-    bool invert = false;                    ///< dark becomes bright
+    bool invert = false; ///< dark becomes bright
+    /// Brightness of what is transparent, also if the picture is inverted: that of what is not cut.
+    std::uint16_t ground = white;
     std::optional<PixelRegion> region = {}; ///< not given: all of it
     /// A region of more pixels is averaged over squares of 2, 3, ... pixels until it has no more, >= 1.
     std::int64_t most_pixels = 64'000'000;
@@ -66,9 +68,9 @@ struct ReadPicture {
     std::vector<Diagnostic> notices; ///< what a person should know: averaged, transparent, CMYK
 };
 
-/// Reads a file's bytes; which format it is they say themselves. Transparent pixels lie on white. Throws
-/// Error naming `file` for what is no picture, is damaged or cut off, or leaves the limits; and for a region
-/// that leaves the picture. Throws Cancelled through `progress`.
+/// Reads a file's bytes; which format it is they say themselves. Pixels that are not square are made so.
+/// Throws Error naming `file` for what is no picture, is damaged or cut off, or leaves the limits; and for a
+/// region that leaves the picture. Throws Cancelled through `progress`.
 [[nodiscard]] ReadPicture read_picture(std::string_view bytes,
                                        const std::filesystem::path& file,
                                        const PictureSettings& settings = {},

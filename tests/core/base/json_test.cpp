@@ -33,6 +33,10 @@ std::string fault(const std::function<void()>& action) {
     return {};
 }
 
+TEST(JsonFile, AByteOrderMarkIsSkipped) {
+    EXPECT_EQ(JsonValue::parse("\xEF\xBB\xBF{\"a\": \"b\"}", "a.json").at("a").text(), "b");
+}
+
 TEST(JsonValue, ReadsNestedFieldsOfEveryType) {
     const JsonValue value = parsed(part);
     EXPECT_EQ(value.at("name").text(), "dome, \"big\"");

@@ -23,6 +23,13 @@ TEST(Fixed, HasTheDecimalsAskedForAndNoNegativeZero) {
     EXPECT_EQ(fixed(-2.0, 0), "-2");
 }
 
+TEST(ByteOrderMark, IsSkippedOnceAtTheBeginning) {
+    EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBFIP"), "IP");
+    EXPECT_EQ(without_byte_order_mark("IP\xEF\xBB\xBF"), "IP\xEF\xBB\xBF");
+    EXPECT_EQ(without_byte_order_mark("\xEF\xBB"), "\xEF\xBB");
+    EXPECT_EQ(without_byte_order_mark(""), "");
+}
+
 TEST(Shortest, ReadsBackAsTheSameNumber) {
     std::mt19937_64 random(1997);
     std::uniform_real_distribution<double> mantissa(-1.0, 1.0);

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <stop_token>
@@ -93,6 +95,75 @@ TEST(MeshFile, BinaryStlIsTheSame) {
     const MeshFile read = parsed(binary_stl(plate));
     EXPECT_EQ(read.mesh.points, parsed(two_triangles).mesh.points);
     EXPECT_EQ(read.mesh.triangles, parsed(two_triangles).mesh.triangles);
+}
+
+// As other programs and editors write text: all were refused.
+TEST(MeshFile, TextStlIsReadHoweverItIsWritten) {
+    const auto replaced = [](std::string text, std::string_view from, std::string_view to) {
+        for (std::size_t at = text.find(from); at != std::string::npos;
+             at = text.find(from, at + to.size())) {
+            text.replace(at, from.size(), to);
+        }
+        return text;
+    };
+    const std::string text(two_triangles);
+    std::string capitals = text;
+    std::ranges::transform(capitals, capitals.begin(), [](unsigned char c) { return std::toupper(c); });
+    const std::string mark = "\xEF\xBB\xBF";
+    for (const std::string& written : {capitals,
+                                       replaced(text, "solid", "Solid"),
+                                       replaced(text, "facet", "FACET"),
+                                       mark + text,
+                                       mark + capitals,
+                                       replaced(text, "endsolid", "end solid"),
+                                       replaced(text, "endloop", "end loop"),
+                                       replaced(text, "endfacet", "End Facet"),
+                                       replaced(text, "\n", "\r"),
+                                       replaced(text, "\n", "\r\n")}) {
+        ASSERT_EQ(refusal(written), "none") << written;
+        EXPECT_EQ(parsed(written).mesh.points, parsed(text).mesh.points) << written;
+        EXPECT_EQ(parsed(written).mesh.triangles, parsed(text).mesh.triangles) << written;
+    }
+    EXPECT_THAT(refusal(replaced(text, "endloop", "end of loop")), HasSubstr(":7: 'endof' is no word"));
+}
+
+TEST(MeshFile, LinesOfObjAndPlyMayEndInCrAndBeginWithAMark) {
+    const std::string mark = "\xEF\xBB\xBF";
+    EXPECT_EQ(parsed(mark + "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", "a.obj").mesh.triangles.size(), 1u);
+    const std::string head = "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\r"
+                             "property float z\relement face 1\rproperty list uchar int vertex_indices\r"
+                             "end_header\r";
+    EXPECT_EQ(parsed(mark + head + "0 0 0\r1 0 0\r0 1 0\r3 0 1 2\r", "a.ply").mesh.triangles.size(), 1u);
+    // Behind a head of such lines a binary file may begin with the byte of a LF.
+    std::string binary = head;
+    binary.replace(binary.find("ascii"), 5, "binary_little_endian");
+    const std::array<float, 9> corners{std::bit_cast<float>(0x3F80000AU), 0, 0, 1, 0, 0, 0, 1, 0};
+    append(binary, corners.data(), sizeof corners);
+    binary += '\x03';
+    const std::array<std::int32_t, 3> face{0, 1, 2};
+    append(binary, face.data(), sizeof face);
+    ASSERT_EQ(refusal(binary, "a.ply"), "none");
+    EXPECT_FLOAT_EQ(static_cast<float>(parsed(binary, "a.ply").mesh.points.front().x()), corners[0]);
+}
+
+// They were read over: "the file has no triangle with an area".
+TEST(MeshFile, TriangleStripsOfPlyAreReadWithTheirSides) {
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                             "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+                             "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n";
+    const MeshFile strip = parsed(head + "6 1 0 3 2 5 4\n", "a.ply");
+    EXPECT_EQ(strip.mesh.triangles.size(), 4u);
+    EXPECT_DOUBLE_EQ(area(strip.mesh), 2.0);
+    for (std::size_t n = 0; n < 4; ++n) {
+        EXPECT_GT(strip.mesh.doubled_area(n).z(), 0.0) << n; // all look the same way
+    }
+    EXPECT_EQ(parsed(head + "9 1 0 3 2 -1 3 2 5 4\n", "a.ply").mesh.triangles.size(), 4u);
+    // Strips are joined by corners that come twice.
+    const MeshFile joined = parsed(head + "8 1 0 3 3 3 2 5 4\n", "a.ply");
+    EXPECT_EQ(joined.mesh.triangles.size(), 3u);
+    EXPECT_EQ(joined.without_area, 0);
+    EXPECT_THAT(refusal(head + "3 0 1 9\n", "a.ply"), HasSubstr("a.ply:16"));
+    EXPECT_THAT(refusal(head + "3 0 1 -2\n", "a.ply"), HasSubstr("-2 is no index"));
 }
 
 // They were left out without a word.

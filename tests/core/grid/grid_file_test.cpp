@@ -82,6 +82,13 @@ TEST(GridFile, PairsComeBackExactToEightDecimals) {
     EXPECT_EQ(pairs_text(found), pairs_text(nodes));
 }
 
+TEST(GridFile, AByteOrderMarkIsSkipped) {
+    const NodeArray nodes = uneven_grid(5, 3, 0.1);
+    const std::string mark = "\xEF\xBB\xBF";
+    EXPECT_EQ(pairs_text(parse_pairs(mark + pairs_text(nodes), "a.dat", 5, 3)), pairs_text(nodes));
+    EXPECT_EQ(parse_blocks(mark + blocks_text(nodes), "a.dat").rows, 5);
+}
+
 TEST(GridFile, ResidualsMayBeWhatNoGridIs) {
     NodeArray residuals(2, 2);
     residuals.at(0, 1) = Vec2(-3e10, 4.0);

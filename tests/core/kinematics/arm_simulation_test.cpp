@@ -28,8 +28,8 @@ std::vector<ArmRecord> simulated(std::string_view text, double step) {
 }
 
 TEST(ArmMotionFileS1, ReadsWordsOfEitherCaseInAnyOrder) {
-    const auto blocks =
-        parse_arm_motion("g1x10 y-2.5;Z+3 F20\n;; G3 X5 I2.5 A0 B0 C-2 S100 M3;\nG1 X1;", "a.mot");
+    const auto blocks = parse_arm_motion(
+        "\xEF\xBB\xBFg1x10 y-2.5;Z+3 F20\n;; G3 X5 I2.5 A0 B0 C-2 S100 M3;\nG1 X1;", "a.mot");
     ASSERT_EQ(blocks.size(), 4U);
     EXPECT_EQ(blocks[0].way, Vec3(10.0, -2.5, 0.0));
     EXPECT_EQ(blocks[1].way, Vec3(0.0, 0.0, 3.0));

@@ -408,7 +408,7 @@ TEST(PathDecoding, StepsAreAlikeInSpaceAndAtTheSpeedOfTheirMove) {
     settings.mode = DecodeMode::path;
     settings.travel_velocity = 100.0;
     settings.plunge_velocity = 10.0;
-    const std::vector<Vec3> points = decode_path(ramp(), settings);
+    const std::vector<Vec3> points = decode_path(ramp(), settings).points;
     EXPECT_EQ(points.front(), Vec3(0, 0, 5));
     EXPECT_EQ(points.back(), Vec3(0, 0, 5));
     for (const CutPoint& point : ramp()) {
@@ -428,7 +428,7 @@ TEST(PathDecoding, KeepsTheAccelerationInSpace) {
     DecodeSettings settings = steps_of(0.3);
     settings.mode = DecodeMode::path;
     settings.acceleration = 50.0;
-    const std::vector<Vec3> points = decode_path(ramp(), settings);
+    const std::vector<Vec3> points = decode_path(ramp(), settings).points;
     const double most = 50.0 * settings.period * settings.period;
     for (std::size_t n = 2; n < points.size(); ++n) {
         EXPECT_LE((points[n] - 2.0 * points[n - 1] + points[n - 2]).norm(), most * 1.001) << n;
@@ -457,6 +457,14 @@ TEST(PointFiles, AreReadWithAndWithoutBlankLines) {
     }
     EXPECT_EQ(read_points(spaced, "a.csv").points, plain.points);
     EXPECT_EQ(point_file_text(plain.points), text);
+}
+
+TEST(PointFiles, AByteOrderMarkIsSkipped) {
+    const PointFile read = read_points("\xEF\xBB\xBF"
+                                       "1,2,3\n4,5,6\n",
+                                       "a.csv");
+    EXPECT_TRUE(read.diagnostics.empty());
+    EXPECT_EQ(read.points, (std::vector<Vec3>{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}));
 }
 
 TEST(PointFiles, BadLinesAreReportedByTheirNumber) {

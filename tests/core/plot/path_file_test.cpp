@@ -30,6 +30,12 @@ TEST(PathFiles, ComeBackToTheLastBit) {
     EXPECT_TRUE(read_path(path_file_text({}), "a.path").empty());
 }
 
+TEST(PathFiles, AByteOrderMarkIsSkipped) {
+    const std::string marked = "\xEF\xBB\xBF" + path_file_text(random_path());
+    EXPECT_TRUE(is_path_file(marked));
+    EXPECT_EQ(read_path(marked, "a.path"), random_path());
+}
+
 int line_of_fault(const std::string& record) {
     try {
         static_cast<void>(read_path(path_file_text({}) + "1,2,3,4,cut,1\n" + record + "\n", "a.path"));

@@ -1,4 +1,5 @@
 // Points that the Plot & Picture workspace plays to a table, with real mouse and keys in real OpenGL.
+#include "core/machine/job_log.h"
 #include "tests/ui/panels/plot_person.h"
 #include "tests/ui/panels/table_bench.h"
 
@@ -6,7 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace millwright::panels {
@@ -32,6 +36,86 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
     EXPECT_LT(stopped.status.points, stopped.total);
     EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
+    ASSERT_TRUE(stopped.outcome);
+    const machine::ReadLog log = machine::read_job_log(stopped.outcome->log_file);
+    EXPECT_EQ(log.start.driver, "points");
+    EXPECT_EQ(log.end(), machine::JobEnd::fault);
+}
+
+/// Six squares beside each other, a pen each.
+void write_six_squares(const std::filesystem::path& file) {
+    std::ofstream out(file);
+    out << "IN;";
+    for (int pen = 1; pen <= 6; ++pen) {
+        const int x = 400 * pen;
+        out << "SP" << pen << ";PU" << x << ",400;PD" << x + 200 << ",400," << x + 200 << ",600," << x
+            << ",600," << x << ",400;PU;";
+    }
+    out << "SP;";
+}
+
+// It was played at Z 0 in the order of the file, pens that are off too, and with one tool.
+TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
+    test::TableBench table({.keep = true});
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    write_six_squares(bench.folder / "six.plt");
+    bench.drop(bench.folder / "six.plt");
+    std::vector<plot::Level> levels = bench.plot().levels();
+    ASSERT_EQ(levels.size(), 6U);
+    for (plot::Level& level : levels) {
+        level.enabled = level.pen != 2;
+        level.order = -level.pen;
+        level.depth = 0.25 * level.pen;
+        level.tool = level.pen == 1 ? 2 : 1;
+    }
+    bench.person.workshop().edit("Levels",
+                                 [&](project::Project& draft) {
+                                     draft.plot.settings.levels = levels;
+                                     draft.plot.settings.machine = "router-xyz"; // a faster one
+                                 },
+                                 {});
+    bench.settle();
+    actions::TableChoice choice;
+    choice.decoding.velocity = 45.0;
+    choice.port = table.port();
+    choice.record = {};
+    choice.record.answer = "ok";
+    bench.plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    bench.person.click("lower/plot_play_table");
+    const auto held = [&] {
+        const actions::TableView now = bench.plot().table().view();
+        return now.playing && now.status.state == machine::PlayState::holding;
+    };
+    ASSERT_TRUE(bench.person.live_until(held, 20.0));
+    EXPECT_THAT(bench.plot().table().view().status.sentence, HasSubstr("put in tool 1"));
+    EXPECT_EQ(table.records(), 0);
+    bench.person.frames(2);
+    bench.person.keep("plot-table-tool");
+    bench.person.click("lower/plot_resume_table");
+    ASSERT_TRUE(bench.person.live_until([&] { return table.records() > 0; }, 20.0));
+    ASSERT_TRUE(bench.person.live_until(held, 120.0));
+    EXPECT_THAT(bench.plot().table().view().status.sentence, HasSubstr("change to tool 2"));
+    bench.person.press_key(render::Key::f11); // as every other machine
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }, 60.0));
+    const actions::TableView end = bench.plot().table().view();
+    ASSERT_TRUE(end.outcome) << (end.failure ? to_text(*end.failure) : "");
+    EXPECT_EQ(end.outcome->end, machine::JobEnd::done) << end.outcome->sentence;
+    std::vector<int> squares; // as they were cut
+    for (const std::vector<double>& at : table.positions()) {
+        const int square = static_cast<int>(at[0] / 10.0);
+        if (at[2] < -0.01) {
+            EXPECT_GE(at[2], -0.25 * square - 1e-6);
+            if (squares.empty() || squares.back() != square) {
+                squares.push_back(square);
+            }
+        }
+    }
+    EXPECT_THAT(squares, testing::ElementsAre(6, 5, 4, 3, 1));
+    const machine::ReadLog log = machine::read_job_log(end.outcome->log_file);
+    EXPECT_EQ(log.end(), machine::JobEnd::done);
+    EXPECT_EQ(log.start.address, table.port());
 }
 
 TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
@@ -56,6 +140,21 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     bench.person.frames(2);
     EXPECT_TRUE(bench.person.sees("lower/begins"));
     const auto first = static_cast<std::size_t>(table.records());
+    // What is refused moves no table, nor does what is played for the eyes alone.
+    const std::optional<Vec3> place = bench.plot().table().place(choice.port);
+    ASSERT_TRUE(place);
+    actions::TableChoice other = choice;
+    other.decoding.velocity = 500.0;
+    for (const bool port : {true, false}) {
+        other.port = port ? choice.port : "";
+        bench.plot().set_table(other);
+        bench.person.frames(2);
+        bench.person.click("lower/plot_play_table");
+        ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().failure.has_value(); }));
+        EXPECT_EQ(bench.plot().table().place(choice.port), place);
+    }
+    EXPECT_EQ(static_cast<std::size_t>(table.records()), first);
+    bench.plot().set_table(choice);
     bench.person.frames(2);
     bench.person.click("lower/plot_play_table");
     ASSERT_TRUE(bench.person.live_until(
@@ -73,10 +172,10 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     }
 }
 
-// As `plot decode` has it: the table stood at the end of the last stroke, in the work.
-TEST(PlotTable, PointsGoToWhereTheFileLeavesThePen) {
+// As its program does, above the last stroke.
+TEST(PlotTable, PointsEndAtTheSafeHeight) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    std::ofstream(bench.folder / "away.plt") << "IN;SP1;PU400,0;PD800,0;PU;PA0,2000;SP;";
+    std::ofstream(bench.folder / "away.plt") << "IN;SP1;PU400,0;PD800,0;PU;SP;";
     bench.drop(bench.folder / "away.plt");
     bench.person.fill_in("inspector/work/origin_x_mm", "10");
     bench.settle();
@@ -88,7 +187,8 @@ TEST(PlotTable, PointsGoToWhereTheFileLeavesThePen) {
     bench.person.click("lower/plot_play_table");
     ASSERT_TRUE(bench.person.live_until(
         [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }));
-    EXPECT_EQ(bench.plot().table().view().status.position, Vec3(10.0, 50.0, choice.decoding.pen_up_z));
+    EXPECT_EQ(bench.plot().table().view().status.position,
+              Vec3(30.0, 0.0, bench.plot().settings().safe_height));
 }
 
 // Programs, path files and reliefs have a path with heights of its own.
@@ -105,7 +205,6 @@ TEST(PlotTable, GCodeIsPlayedAtItsOwnHeights) {
     bench.plot().set_table(choice);
     bench.person.click("lower/tabs/table");
     bench.person.frames();
-    EXPECT_THAT(bench.person.refusal("lower/pen_up"), HasSubstr("its own heights"));
     EXPECT_TRUE(bench.person.sees("lower/begins"));
     EXPECT_EQ(bench.person.refusal("lower/plot_play_table"), "");
     bench.person.click("lower/plot_play_table");
@@ -129,7 +228,8 @@ TEST(PlotTable, WhatIsRefusedIsToldWholeAndInTheWordsOfThePane) {
     bench.person.click("lower/tabs/table");
     bench.person.frames();
     bench.person.click("lower/plot_play_table");
-    bench.person.frames(3);
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().failure.has_value(); }));
+    bench.person.frames(2);
     EXPECT_TRUE(bench.person.sees("lower/table_failure"));
     const auto failure = bench.plot().table().view().failure;
     ASSERT_TRUE(failure);

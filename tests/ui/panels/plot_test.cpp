@@ -114,14 +114,19 @@ TEST(PlotWorkspace, ThePlannersTimeIsToldWithLinksAndWithout) {
 
 TEST(PlotWorkspace, EachAxisHasItsUnit) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    const auto width = [&] { return extents(*bench.made().strokes)->upper.x(); };
-    const auto height = [&] { return extents(*bench.made().strokes)->upper.y(); };
-    const double x = width();
-    const double y = height();
+    const auto farthest_cut = [&](Eigen::Index axis) {
+        double most = 0.0;
+        for (const plot::CutPoint& point : *bench.made().path) {
+            most = point.move == plot::CutMove::cut ? std::max(most, point.at[axis]) : most;
+        }
+        return most;
+    };
+    const double x = farthest_cut(0);
+    const double y = farthest_cut(1);
     bench.person.fill_in("inspector/source/unit_y_mm", "0.05");
     bench.settle();
-    EXPECT_NEAR(width(), x, 1e-9);
-    EXPECT_NEAR(height(), 2.0 * y, 1e-9);
+    EXPECT_NEAR(farthest_cut(0), x, 1e-9);
+    EXPECT_NEAR(farthest_cut(1), 2.0 * y, 1e-9);
 }
 
 bool yellow(int r, int g, int b) {

@@ -1,5 +1,6 @@
 #include "core/machine/drivers/pmac/pmac_file.h"
 
+#include "core/base/text.h"
 #include "core/machine/drivers/pmac/guard_rules.h"
 
 #include <fmt/format.h>
@@ -233,6 +234,7 @@ private:
 namespace {
 
 PmacFile read(std::string_view text, Reader reader) {
+    text = without_byte_order_mark(text);
     for (int line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         reader.take(text.substr(0, end), line);

@@ -2,6 +2,7 @@
 // interface, PJL lines and PCL's switches are passed over.
 #pragma once
 
+#include "core/base/text.h"
 #include "core/plot/hpgl/internal/problems.h"
 
 #include <cstdint>
@@ -34,7 +35,8 @@ public:
     using ArgumentsOf = Arguments (*)(std::string_view name);
 
     Lexer(std::string_view bytes, ArgumentsOf arguments_of, Problems& problems)
-        : bytes_(bytes), arguments_of_(arguments_of), problems_(problems) {}
+        : bytes_(bytes), arguments_of_(arguments_of), problems_(problems),
+          at_(bytes.size() - without_byte_order_mark(bytes).size()) {}
 
     [[nodiscard]] std::optional<Command> next();
 
@@ -66,7 +68,7 @@ private:
     std::string_view bytes_;
     ArgumentsOf arguments_of_;
     Problems& problems_;
-    std::size_t at_ = 0;
+    std::size_t at_;
     bool after_command_ = true; ///< a `;` that follows ends something
     char label_end_ = '\x03';
     bool label_end_printed_ = false;

@@ -58,6 +58,10 @@ void Pen::draw(const Vec2& to) {
     move(to, !lost_);
 }
 
+bool Pen::would_close(const Vec2& to) const {
+    return open_ && down_ && !lost_ && !strokes_.empty() && strokes_.back().points.front() == mm(to);
+}
+
 bool Pen::is_near(const Vec2& place) {
     if (std::abs(place.x()) <= farthest_.x() && std::abs(place.y()) <= farthest_.y()) {
         return true;

@@ -49,6 +49,9 @@ public:
     /// Down, whatever the pen's state, which stays.
     void draw(const Vec2& to);
 
+    /// Whether a line to there would end where the stroke that is being drawn began; plotter units.
+    [[nodiscard]] bool would_close(const Vec2& to) const;
+
     /// A place so far away that two numbers must have become one is refused; plotter units.
     [[nodiscard]] bool is_near(const Vec2& place);
 

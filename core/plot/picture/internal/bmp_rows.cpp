@@ -53,9 +53,7 @@ public:
     void read() {
         read_head();
         sink_.begin(width_, height_, {3, 8});
-        if (pixels_per_metre_ > 0) {
-            sink_.set_pixels_per_mm(pixels_per_metre_ / 1000.0);
-        }
+        sink_.set_pixels_per_mm(pixels_per_metre_ / 1000.0, rows_per_metre_ / 1000.0);
         if (in_runs_) {
             read_runs();
         } else {
@@ -128,6 +126,7 @@ private:
         bits_ = static_cast<int>(number(small ? 24 : 28, 2));
         const std::uint32_t compression = small ? uncompressed : word(30);
         pixels_per_metre_ = small ? 0 : signed_word(38);
+        rows_per_metre_ = small ? 0 : signed_word(42);
         check_kind(compression);
         if (bits_ <= 8) {
             read_palette(file_head + head, small ? 3 : 4, small ? 0 : word(46));
@@ -225,6 +224,7 @@ private:
     bool in_runs_ = false; ///< its pixels are run-length codes
     int bits_ = 24;
     std::int32_t pixels_per_metre_ = 0;
+    std::int32_t rows_per_metre_ = 0;
     std::array<Rgb, 256> palette_ = {};
     std::uint32_t colors_ = 0;
     std::array<Field, 3> fields_ = {Field(0), Field(0), Field(0)};

@@ -87,12 +87,12 @@ std::pair<int, int> in_file(int x, int y, int orientation, int width, int height
 
 } // namespace
 
-JpegTurn jpeg_turn(std::string_view bytes) {
+PictureTurn jpeg_turn(std::string_view bytes) {
     constexpr std::uint32_t exif_marker = 0xE1;
     constexpr std::uint32_t scan_marker = 0xDA;
     const std::string_view exif("Exif\0\0", 6);
     const Numbers number(bytes, false);
-    JpegTurn turn;
+    PictureTurn turn;
     std::size_t at = 2; // behind the start of the picture
     while (at + 4 <= bytes.size() && static_cast<unsigned char>(bytes[at]) == 0xFF) {
         const std::uint32_t marker = number.two(at) & 0xFFU;
@@ -115,7 +115,28 @@ JpegTurn jpeg_turn(std::string_view bytes) {
     return turn;
 }
 
-PixelRegion region_in_file(PixelRegion seen, const JpegTurn& turn) {
+PictureTurn png_turn(std::string_view bytes) {
+    const Numbers number(bytes, false);
+    PictureTurn turn;
+    constexpr std::size_t around = 12;                       // a chunk's length, type and check sum
+    for (std::size_t at = 8; at + around <= bytes.size();) { // behind the signature
+        const std::size_t length = number.four(at);
+        const std::string_view type = bytes.substr(at + 4, 4);
+        if (length > bytes.size() - at - around || type == "IEND") {
+            break;
+        }
+        if (type == "IHDR") {
+            turn.width = static_cast<int>(number.four(at + 8));
+            turn.height = static_cast<int>(number.four(at + around));
+        } else if (type == "eXIf") {
+            turn.orientation = orientation_in(bytes.substr(at + 8, length));
+        }
+        at += length + around;
+    }
+    return turn;
+}
+
+PixelRegion region_in_file(PixelRegion seen, const PictureTurn& turn) {
     const bool sideways = lies(turn.orientation);
     seen = up_to_edge(seen, sideways ? turn.height : turn.width, sideways ? turn.width : turn.height);
     const auto [x0, y0] = in_file(seen.left, seen.top, turn.orientation, turn.width, turn.height);

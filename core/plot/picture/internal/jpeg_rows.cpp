@@ -137,9 +137,11 @@ private:
         constexpr double mm_per_inch = 25.4;
         constexpr double mm_per_cm = 10.0;
         if (jpeg_.density_unit == 1) {
-            sink_.set_pixels_per_mm(jpeg_.X_density / mm_per_inch);
+            sink_.set_pixels_per_mm(jpeg_.X_density / mm_per_inch, jpeg_.Y_density / mm_per_inch);
         } else if (jpeg_.density_unit == 2) {
-            sink_.set_pixels_per_mm(jpeg_.X_density / mm_per_cm);
+            sink_.set_pixels_per_mm(jpeg_.X_density / mm_per_cm, jpeg_.Y_density / mm_per_cm);
+        } else {
+            sink_.set_pixel_shape(jpeg_.X_density, jpeg_.Y_density);
         }
     }
 

@@ -31,8 +31,10 @@ public:
         const auto height = static_cast<int>(png_get_image_height(png_, info_));
         const int passes = passes_;
         sink_.begin(png_get_image_width(png_, info_), height, format());
-        if (density_ > 0.0) {
-            sink_.set_pixels_per_mm(density_);
+        if (in_metres_) {
+            sink_.set_pixels_per_mm(across_ / 1000.0, down_ / 1000.0);
+        } else {
+            sink_.set_pixel_shape(across_, down_);
         }
         const std::size_t stride = png_get_rowbytes(png_, info_);
         if (passes > 1) {
@@ -79,11 +81,9 @@ private:
         if (std::endian::native == std::endian::little) {
             png_set_swap(png_);
         }
-        png_uint_32 x = 0;
-        png_uint_32 y = 0;
         int unit = PNG_RESOLUTION_UNKNOWN;
-        if (png_get_pHYs(png_, info_, &x, &y, &unit) != 0 && unit == PNG_RESOLUTION_METER) {
-            density_ = x / 1000.0;
+        if (png_get_pHYs(png_, info_, &across_, &down_, &unit) != 0) {
+            in_metres_ = unit == PNG_RESOLUTION_METER;
         }
         passes_ = png_set_interlace_handling(png_);
         png_read_update_info(png_, info_);
@@ -134,8 +134,10 @@ private:
     std::jmp_buf back_ = {};
     char text_[160] = {};
     int passes_ = 1;
-    bool cut_ = false;     ///< more was asked for than there is
-    double density_ = 0.0; ///< pixels a mm; 0: not said
+    bool cut_ = false;       ///< more was asked for than there is
+    png_uint_32 across_ = 0; ///< pixels per metre, or of any unit; 0: not said
+    png_uint_32 down_ = 0;   ///< the same of rows
+    bool in_metres_ = false;
 };
 
 } // namespace

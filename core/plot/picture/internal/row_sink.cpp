@@ -1,5 +1,7 @@
 #include "core/plot/picture/internal/row_sink.h"
 
+#include "core/plot/picture/internal/square_pixels.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,24 +40,29 @@ template <typename Sample> std::uint32_t gray_of(const unsigned char* pixel, Gra
         (std::uint64_t{2126} * r + std::uint64_t{7152} * g + std::uint64_t{722} * b) * scale / 10'000);
 }
 
-/// On white paper.
-std::uint32_t over_white(std::uint32_t gray, std::uint32_t opacity) {
+std::uint32_t over_ground(std::uint32_t gray, std::uint32_t opacity, std::uint32_t ground) {
     const std::uint64_t most = white;
-    return static_cast<std::uint32_t>((gray * std::uint64_t{opacity} + most * (most - opacity) + most / 2) /
+    return static_cast<std::uint32_t>((gray * std::uint64_t{opacity} + ground * (most - opacity) + most / 2) /
                                       most);
 }
 
-/// The pixels as brightness; whether one of them was transparent.
+/// The pixels as brightness; whether one of them was transparent. What is transparent is no part of what is
+/// inverted.
 template <typename Sample>
-bool brighten(const unsigned char* pixel, int channels, GrayRule rule, std::vector<std::uint16_t>& line) {
+bool brighten(const unsigned char* pixel,
+              int channels,
+              const PictureSettings& settings,
+              std::vector<std::uint16_t>& line) {
     constexpr std::uint32_t scale = Scale<Sample>::to_16_bits;
     bool transparent = false;
     for (std::uint16_t& to : line) {
-        std::uint32_t gray = channels >= 3 ? gray_of<Sample>(pixel, rule) : sample<Sample>(pixel, 0) * scale;
+        std::uint32_t gray =
+            channels >= 3 ? gray_of<Sample>(pixel, settings.gray) : sample<Sample>(pixel, 0) * scale;
+        gray = settings.invert ? white - gray : gray;
         if (channels % 2 == 0) {
             const std::uint32_t opacity = sample<Sample>(pixel, channels - 1) * scale;
             transparent = transparent || opacity < white;
-            gray = over_white(gray, opacity);
+            gray = over_ground(gray, opacity, settings.ground);
         }
         to = static_cast<std::uint16_t>(gray);
         pixel += static_cast<std::size_t>(channels) * sizeof(Sample);
@@ -115,10 +122,21 @@ void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
     }
 }
 
-void RowSink::set_pixels_per_mm(double density) {
+void RowSink::set_pixels_per_mm(double across, double down) {
     constexpr double densest = 1e4;
-    if (std::isfinite(density) && density > 0.0 && density < densest) {
-        read_.picture.pixels_per_mm = density;
+    const auto possible = [](double density) {
+        return std::isfinite(density) && density > 0.0 && density < densest;
+    };
+    if (possible(across)) {
+        read_.picture.pixels_per_mm = across;
+        set_pixel_shape(across, possible(down) ? down : across);
+    }
+}
+
+void RowSink::set_pixel_shape(double across, double down) {
+    constexpr double longest = 10.0; // a pixel that is longer is a damaged number
+    if (across > 0.0 && down > 0.0 && across < longest * down && down < longest * across) {
+        height_of_width_ = across / down;
     }
 }
 
@@ -132,12 +150,7 @@ void RowSink::row(int y, const unsigned char* samples) {
     const auto stride = static_cast<std::size_t>(format_.channels * format_.bits / 8);
     const unsigned char* first = samples + stride * static_cast<std::size_t>(region_.left);
     const auto brightened = format_.bits == 16 ? brighten<std::uint16_t> : brighten<std::uint8_t>;
-    transparent_ = brightened(first, format_.channels, settings_.gray, line_) || transparent_;
-    if (settings_.invert) {
-        std::ranges::transform(line_, line_.begin(), [](std::uint16_t gray) {
-            return static_cast<std::uint16_t>(white - gray);
-        });
-    }
+    transparent_ = brightened(first, format_.channels, settings_, line_) || transparent_;
     if (square_ > 1) {
         add_to_block(line);
     } else {
@@ -192,6 +205,28 @@ void RowSink::allow_memory(std::int64_t bytes, const std::string& what) const {
     }
 }
 
+/// A pixel is as wide as high in all that follows.
+void RowSink::square_pixels() {
+    Picture& picture = read_.picture;
+    const double height = std::round(picture.height * height_of_width_);
+    constexpr double rounded = 1e-3; // densities are whole numbers
+    if (std::abs(height_of_width_ - 1.0) < rounded || height < 1.0) {
+        return;
+    }
+    if (height * picture.width > static_cast<double>(settings_.most_pixels)) {
+        fail(fmt::format("pixels {:.4g} times as high as wide: with square ones it has {:.0f} rows, more "
+                         "than fit",
+                         height_of_width_,
+                         height),
+             "save it with square pixels");
+    }
+    notice(fmt::format("its pixels are {:.4g} times as high as wide: {} rows become {:.0f} of square ones",
+                       height_of_width_,
+                       picture.height,
+                       height));
+    picture = with_rows(picture, static_cast<int>(height));
+}
+
 ReadPicture RowSink::end() {
     expects(lines_ == region_.height, "a decoder hands in every row of the region");
     flush_block();
@@ -200,8 +235,9 @@ ReadPicture RowSink::end() {
         *read_.picture.pixels_per_mm /= square_;
     }
     if (transparent_) {
-        notice("transparent pixels are taken to lie on white");
+        notice("transparent pixels are not cut");
     }
+    square_pixels();
     return std::move(read_);
 }
 

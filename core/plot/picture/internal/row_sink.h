@@ -23,7 +23,10 @@ public:
 
     /// Once, before the first row. Throws Error for a size or region that cannot be.
     void begin(std::int64_t width, std::int64_t height, RowFormat format);
-    void set_pixels_per_mm(double density);
+    /// As the file says; what cannot be is passed over.
+    void set_pixels_per_mm(double across, double down);
+    /// Where the file says only how many pixels across are as long as how many down.
+    void set_pixel_shape(double across, double down);
 
     /// Row `y` from the top; rows come in order, upward or downward. Throws Cancelled.
     void row(int y, const unsigned char* samples);
@@ -41,6 +44,7 @@ public:
 private:
     void add_to_block(int line);
     void flush_block();
+    void square_pixels();
 
     const PictureSettings& settings_;
     const std::filesystem::path& file_;
@@ -49,6 +53,7 @@ private:
     PixelRegion region_;
     int square_ = 1; ///< side of the squares that are averaged
     bool transparent_ = false;
+    double height_of_width_ = 1.0;    ///< of a pixel of the file
     std::vector<std::uint16_t> line_; ///< brightness of a row of the region
     std::vector<std::uint64_t> sums_; ///< of the row of squares that is being read
     int sums_row_ = -1;

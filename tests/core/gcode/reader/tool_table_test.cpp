@@ -27,6 +27,12 @@ TEST(ToolTableFile, ReadsEveryLetter) {
     EXPECT_EQ(table.row_of(5), -1);
 }
 
+TEST(ToolTableFile, AByteOrderMarkIsSkipped) {
+    const ToolTable table = parse_tool_table("\xEF\xBB\xBFT1 P2 Z3 D8.5\n", "t");
+    ASSERT_EQ(table.tools.size(), 1U);
+    EXPECT_EQ(table.tools[0].number, 1);
+}
+
 TEST(ToolTableFile, RefusesWithThePlace) {
     const test::WithoutTraps numbers_that_are_none;
     const auto place_of = [](const char* text) {

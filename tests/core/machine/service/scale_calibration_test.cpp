@@ -59,6 +59,14 @@ TEST(ScaleCalibrationC1, LeavesTheSmallestSquares) {
     EXPECT_LT(fit.counts_per_degree_error, 1.0);
 }
 
+TEST(ScaleCalibrationC1, AByteOrderMarkIsSkipped) {
+    EXPECT_EQ(parse_scale_readings("\xEF\xBB\xBF"
+                                   "1 0 0\n1 1200 10\n",
+                                   "a")
+                  .size(),
+              2U);
+}
+
 TEST(ScaleCalibrationC1, NamesTheReadingThatIsFarthestOff) {
     const ScaleFit fit =
         fit_scales(parse_scale_readings("1 0 0\n1 1200 10\n1 2400 24\n1 3600 30\n1 4800 40\n", "a")).front();

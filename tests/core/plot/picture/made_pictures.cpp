@@ -82,7 +82,9 @@ std::string png_of(const Samples& samples, const PngKind& kind) {
     }
     if (kind.pixels_per_metre > 0) {
         const auto density = static_cast<png_uint_32>(kind.pixels_per_metre);
-        png_set_pHYs(png, info, density, density, PNG_RESOLUTION_METER);
+        const auto rows = kind.rows_per_metre > 0 ? static_cast<png_uint_32>(kind.rows_per_metre) : density;
+        png_set_pHYs(
+            png, info, density, rows, kind.in_metres ? PNG_RESOLUTION_METER : PNG_RESOLUTION_UNKNOWN);
     }
     std::vector<std::vector<png_byte>> rows;
     std::vector<png_bytep> starts;
@@ -118,7 +120,8 @@ std::string jpeg_of(const Samples& samples, const JpegKind& kind) {
     }
     if (kind.dots_per_inch > 0) {
         jpeg.density_unit = 1;
-        jpeg.X_density = jpeg.Y_density = static_cast<UINT16>(kind.dots_per_inch);
+        jpeg.X_density = static_cast<UINT16>(kind.dots_per_inch);
+        jpeg.Y_density = kind.rows_per_inch > 0 ? static_cast<UINT16>(kind.rows_per_inch) : jpeg.X_density;
     }
     jpeg_start_compress(&jpeg, TRUE);
     const auto stride = static_cast<std::size_t>(samples.width * samples.channels);

@@ -23,6 +23,8 @@ struct PngKind {
     bool palette = false; ///< of 256 grays, darkest last
     bool interlaced = false;
     int pixels_per_metre = 0;
+    int rows_per_metre = 0; ///< 0: as many
+    bool in_metres = true;  ///< else the two say the shape alone
 };
 
 /// 1, 2, 3 or 4 channels: gray, gray and opacity, RGB, RGB and opacity.
@@ -31,7 +33,8 @@ struct PngKind {
 struct JpegKind {
     bool progressive = false;
     int dots_per_inch = 0;
-    bool adobe = true; ///< of four inks: marked, and inverted, as Adobe's are
+    int rows_per_inch = 0; ///< 0: as many
+    bool adobe = true;     ///< of four inks: marked, and inverted, as Adobe's are
 };
 
 /// 1, 3 or 4 channels of 8 bits: gray, RGB, inks.

@@ -125,7 +125,7 @@ TEST(PictureReader, PutsTransparentPixelsOnWhite) {
     const ReadPicture read = read_picture(png_of({3, 1, 4, {0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 0, 51}}), "test");
     EXPECT_EQ(read.picture.gray, (std::vector<std::uint16_t>{white, 0, 204 * 257}));
     ASSERT_EQ(read.notices.size(), 1U);
-    EXPECT_THAT(read.notices[0].message, HasSubstr("lie on white"));
+    EXPECT_THAT(read.notices[0].message, HasSubstr("transparent pixels are not cut"));
 }
 
 TEST(PictureReader, ReadsJpegAsStbDoes) {

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/machine/drivers/internal/pause.h"
+#include "core/machine/internal/pause.h"
 #include "core/machine/links/link.h"
 
 #include <fmt/format.h>

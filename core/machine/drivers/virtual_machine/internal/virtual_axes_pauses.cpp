@@ -1,6 +1,6 @@
 // The virtual machine's pauses: where a program waits for a person.
-#include "core/machine/drivers/internal/pause.h"
 #include "core/machine/drivers/virtual_machine/internal/virtual_axes.h"
+#include "core/machine/internal/pause.h"
 
 #include <algorithm>
 #include <limits>

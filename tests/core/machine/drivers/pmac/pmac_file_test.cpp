@@ -34,6 +34,12 @@ TEST(PmacFileP4, IsTakenWholeWithItsLastLine) {
     EXPECT_EQ(pmac.card.variable('I', 169), 6553.0);
 }
 
+TEST(PmacFileF1, AByteOrderMarkIsSkipped) {
+    const PmacFile file = read_pmac_file("\xEF\xBB\xBFI130=5\nI131=6\n", "a.ini");
+    ASSERT_EQ(file.lines.size(), 2u);
+    EXPECT_EQ(file.lines.front().text, "I130=5");
+}
+
 TEST(PmacFileF1, WarnsOfEachProtectionThatIsOff) {
     const PmacFile file = read_pmac_file(ini, "pmac.ini");
     std::string all;

@@ -1,4 +1,4 @@
-#include "core/machine/drivers/internal/pause.h"
+#include "core/machine/internal/pause.h"
 
 #include <fmt/format.h>
 
