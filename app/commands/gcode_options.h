@@ -20,6 +20,7 @@ namespace millwright::app {
 struct GcodeOptions {
     std::string file;
     std::string dialect = "linuxcnc";
+    std::string axes = "XYZ"; ///< of a Grbl
     std::string tools;
     std::string machine;
     std::vector<double> origin;               ///< where the program's zero lies on it: X, Y and perhaps Z, mm
