@@ -9,8 +9,6 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/machine/dispatcher.h"
-#include "core/machine/drivers/grbl/grbl_driver.h"
-#include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_driver.h"
@@ -26,7 +24,6 @@
 
 #include <cstdio>
 #include <ctime>
-#include <map>
 #include <utility>
 
 namespace millwright::app {
@@ -162,16 +159,11 @@ void Controller::unlock() {
 }
 
 void Controller::say_who_is_there() const {
-    const auto* grbl = dynamic_cast<const machine::GrblDriver*>(driver_.get());
-    const std::string name = grbl != nullptr            ? "Grbl " + grbl->readout().version
-                             : choice_.driver == "pmac" ? "a PMAC"
-                                                        : "LinuxCNC";
+    const std::string firmware = driver_->firmware();
+    const std::string name = !firmware.empty() ? firmware : choice_.driver == "pmac" ? "a PMAC" : "LinuxCNC";
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
-    constexpr int reports = 10;
-    const auto settings = grbl != nullptr ? grbl->readout().settings : std::map<int, double>();
-    if (const auto mask = settings.find(reports); mask != settings.end()) {
-        const std::string_view advice = machine::grbl_reports_advice(static_cast<int>(mask->second));
-        fmt::print("{}{}", advice, advice.empty() ? "" : "\n");
+    for (const std::string& remark : driver_->remarks()) {
+        fmt::print("{}\n", remark);
     }
     std::fflush(stdout);
 }

@@ -15,6 +15,8 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -28,6 +30,8 @@ namespace {
 
 struct EmulateOptions {
     EmulationChoice wire;
+    std::string firmware = "grbl";
+    std::string axes = "XYZ"; ///< of a Grbl
     std::string eeprom;
     std::optional<double> surface; ///< height of what a probe touches, mm
     std::string machine = "router-xyz";
@@ -40,7 +44,17 @@ struct EmulateOptions {
     int channels = 4;
 };
 
+struct FirmwareName {
+    std::string_view name, version;
+    machine::EmulatedFirmware firmware;
+};
+constexpr std::array firmware_names = {
+    FirmwareName{"grbl", "Grbl 1.1h", machine::EmulatedFirmware::grbl},
+    FirmwareName{"grblhal", "grblHAL 1.1f", machine::EmulatedFirmware::grblhal},
+    FirmwareName{"fluidnc", "FluidNC v3.7.12", machine::EmulatedFirmware::fluidnc}};
+
 int emulate_grbl(const EmulateOptions& options) {
+    const auto* const firmware = std::ranges::find(firmware_names, options.firmware, &FirmwareName::name);
     std::function<double(double, double)> surface;
     if (options.surface) {
         surface = [z = *options.surface](double, double) { return z; };
@@ -48,9 +62,11 @@ int emulate_grbl(const EmulateOptions& options) {
     if (options.wire.reset_when_opened && options.wire.tcp < 0) {
         throw UsageError("who opens a pseudo-terminal is not known", {}, "--reset-when-opened needs --tcp");
     }
-    return serve(options.wire, "Grbl 1.1h", [&] {
+    return serve(options.wire, std::string(firmware->version), [&] {
         auto grbl = std::make_unique<machine::GrblEmulator>(
-            machine::GrblEmulatorOptions{.eeprom_file = options.eeprom,
+            machine::GrblEmulatorOptions{.firmware = firmware->firmware,
+                                         .axes = options.axes,
+                                         .eeprom_file = options.eeprom,
                                          .line_numbers = options.line_numbers,
                                          .echo = options.echo,
                                          .mist = options.mist,
@@ -123,7 +139,14 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<EmulateOptions>();
     CLI::App& group = *app.add_subcommand("emulate", "Be a controller, to try things out without a machine");
     group.require_subcommand(1);
-    CLI::App& grbl = add_emulated(group, "grbl", "Grbl 1.1 on a pseudo-terminal or a TCP port", options);
+    CLI::App& grbl = add_emulated(
+        group, "grbl", "Grbl 1.1, grblHAL or FluidNC on a pseudo-terminal or a TCP port", options);
+    grbl.add_option("--firmware", options->firmware, "Which firmware answers")
+        ->check(CLI::IsMember({"grbl", "grblhal", "fluidnc"}))
+        ->capture_default_str();
+    grbl.add_option("--axes", options->axes, "XYZ, and up to three of A B C U V W behind")
+        ->type_name("LETTERS")
+        ->capture_default_str();
     grbl.add_option("--eeprom", options->eeprom, "File that keeps settings and offsets")->type_name("FILE");
     grbl.add_flag("--line-numbers", options->line_numbers, "Report the number of the line in motion");
     grbl.add_flag("--echo", options->echo, "Repeat each line as it was read");

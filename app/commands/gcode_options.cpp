@@ -20,6 +20,7 @@ gcode::ReaderSettings reader_settings(const GcodeOptions& options) {
     gcode::ReaderSettings settings;
     settings.dialect = gcode::dialect_of(options.dialect).value();
     settings.block_delete = options.block_delete;
+    settings.grbl_axes = options.axes;
     if (!options.tools.empty()) {
         settings.tools = gcode::read_tool_table(options.tools);
     }
@@ -74,6 +75,9 @@ CLI::App& add_reader_options(CLI::App& group,
     command.add_option("FILE", options->file, "G-code file")->required();
     command.add_option("--dialect", options->dialect, "Whose rules hold")
         ->check(CLI::IsMember({"linuxcnc", "grbl"}))
+        ->capture_default_str();
+    command.add_option("--axes", options->axes, "Axes of a Grbl")
+        ->type_name("LETTERS")
         ->capture_default_str();
     command.add_option("--tools", options->tools, "LinuxCNC tool table file")->type_name("FILE");
     command.add_option("--parameters", options->parameters, "LinuxCNC parameter file")->type_name("FILE");

@@ -20,6 +20,7 @@ namespace millwright::app {
 struct GcodeOptions {
     std::string file;
     std::string dialect = "linuxcnc";
+    std::string axes = "XYZ"; ///< of a Grbl
     std::string tools;
     std::string parameters;               ///< file of what the controller remembers
     std::vector<std::string> subroutines; ///< folders

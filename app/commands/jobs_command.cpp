@@ -35,6 +35,7 @@ nlohmann::ordered_json job_json(const machine::JobStory& story) {
             {"job", story.start.job},
             {"program", story.start.project},
             {"driver", story.start.driver},
+            {"firmware", story.start.firmware},
             {"port", story.start.address},
             {"options", story.start.options},
             {"started_at", story.start.started_at},

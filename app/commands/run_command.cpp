@@ -11,6 +11,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,11 +27,18 @@ struct RunOptions {
     std::optional<double> clearance;
 };
 
+std::string post_of_driver(const std::string& driver, const kinematics::MachineModel& machine) {
+    const bool turns = std::ranges::any_of(machine.axes(), [](const kinematics::MachineAxis& axis) {
+        return axis.kind == kinematics::AxisKind::rotary;
+    });
+    return driver != "grbl" ? "linuxcnc" : turns ? "grbl-rotary" : "grbl";
+}
+
 /// In the words of the driver's control, or of the one that was chosen.
 machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const RunOptions& options) {
     PostChoice choice = options.post;
     if (choice.post.empty()) {
-        choice.post = options.machine.driver == "grbl" ? "grbl" : "linuxcnc";
+        choice.post = post_of_driver(options.machine.driver, plan.workpiece->machine);
     }
     machine::Job job;
     job.name = opened.file.stem().string();

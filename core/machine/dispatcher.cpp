@@ -33,6 +33,20 @@ void throw_first_with_count(std::vector<Diagnostic> faults) {
     throw Error(std::move(faults.front()));
 }
 
+/// A controller that executes text has axes of its own, in its own order, besides those of the program or in
+/// place of them: what it has to find out by moving is read from the text then.
+Job for_axes_of(const Job& job, const Capabilities& able) {
+    Job result = job;
+    const auto same = [](const gcode::ProgramAxis& a, const gcode::ProgramAxis& b) {
+        return a.letter == b.letter && a.kind == b.kind;
+    };
+    if (job.program != nullptr && able.plans && !able.axes.empty() &&
+        !std::ranges::equal(job.program->axes, able.axes, same)) {
+        result.program = nullptr;
+    }
+    return result;
+}
+
 bool ended(DriverState state) {
     return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm ||
            state == DriverState::disconnected;
@@ -303,10 +317,12 @@ private:
 Dispatcher::Dispatcher(Driver& driver, Clock& clock, std::filesystem::path log_folder)
     : driver_(driver), clock_(clock), log_folder_(std::move(log_folder)) {}
 
-JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Listener& listener) {
+JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Listener& listener) {
     const Turn turn(*this);
-    throw_first_with_count(preflight(job));
+    throw_first_with_count(preflight(asked));
     driver_.connect();
+    const Capabilities able = driver_.capabilities();
+    const Job job = for_axes_of(asked, able);
     const DriverStatus before = driver_.status();
     if (before.state != DriverState::idle && before.state != DriverState::stopped) {
         throw Error(
@@ -315,7 +331,6 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     check_position(job, before);
     constexpr double planning = 0.02; // of the progress
     const bool text_alone = job.program == nullptr;
-    const Capabilities able = driver_.capabilities();
     if (text_alone && !able.plans) {
         throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
     }
@@ -345,7 +360,8 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .planned_time = planned_time(job, trajectory.get()),
                        .options = job.options,
                        .from_line = job.from_line,
-                       .position_confirmed = before.position_confirmed});
+                       .position_confirmed = before.position_confirmed,
+                       .firmware = driver_.firmware()});
     progress.check();
     Watch watch(*this, job, log, trajectory, before, std::move(reach), std::move(estimate));
     try {

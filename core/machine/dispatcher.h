@@ -34,7 +34,7 @@ public:
     /// any motion if something is wrong with job, log folder or driver, or another job is running; if the log
     /// cannot be written any more or the listener throws, stops the machine and passes that on. Reports
     /// JobEnd::done only if the driver executed every block.
-    JobOutcome run(const Job& job, const Progress& progress, const Listener& listener = {});
+    JobOutcome run(const Job& asked, const Progress& progress, const Listener& listener = {});
 
     /// From any thread, at once; entered in the log of the running job.
     void hold();

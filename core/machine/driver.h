@@ -112,6 +112,8 @@ class Driver {
 public:
     virtual ~Driver() = default;
     [[nodiscard]] virtual std::string name() const = 0;
+    /// What answers at the other end, with its version; empty where that is not known, or while disconnected.
+    [[nodiscard]] virtual std::string firmware() const { return {}; }
     /// As make_link() takes it; empty where there is no link.
     [[nodiscard]] virtual std::string address() const { return {}; }
     [[nodiscard]] virtual DriverStatus status() const = 0;
@@ -181,6 +183,8 @@ public:
     /// Empty where there is none, or while disconnected.
     [[nodiscard]] virtual std::vector<ControllerSetting> settings() const { return {}; }
     [[nodiscard]] virtual std::vector<StoredOffset> stored_offsets() const { return {}; }
+    /// What a person should know of the way the controller is set up, in sentences; empty while disconnected.
+    [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
     /// What went over the link; none where there is no link. Lives as long as the driver.
     [[nodiscard]] virtual Console* console() { return nullptr; }
 };

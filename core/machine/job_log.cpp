@@ -86,7 +86,8 @@ LogStart start_from(const JsonValue& value) {
                        "from_line",
                        "address",
                        "options",
-                       "position_confirmed"});
+                       "position_confirmed",
+                       "firmware"});
     if (value.at("record").text() != "start" || value.at("format").text() != log_format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -120,6 +121,9 @@ LogStart start_from(const JsonValue& value) {
     }
     if (const auto confirmed = value.find("position_confirmed")) {
         start.position_confirmed = confirmed->text();
+    }
+    if (const auto firmware = value.find("firmware")) {
+        start.firmware = firmware->text();
     }
     if (const auto line = value.find("from_line")) {
         start.from_line = line->integer(1);
@@ -270,6 +274,9 @@ void JobLog::write(const LogStart& start) {
     }
     if (!start.position_confirmed.empty()) {
         line["position_confirmed"] = start.position_confirmed;
+    }
+    if (!start.firmware.empty()) {
+        line["firmware"] = start.firmware;
     }
     append(one_line(line));
 }

@@ -24,6 +24,7 @@ struct LogStart {
     std::string options; ///< Job::options
     int from_line = 1;   ///< of the program's file; more than 1: it was not run from its beginning
     std::string position_confirmed{}; ///< DriverStatus::position_confirmed
+    std::string firmware{};           ///< Driver::firmware()
 
     friend bool operator==(const LogStart&, const LogStart&) = default;
 };

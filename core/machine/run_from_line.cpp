@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -169,6 +170,7 @@ ModalState state_before(
     gcode::ReaderSettings settings;
     settings.dialect = dialect;
     settings.any_tool = true;
+    settings.grbl_axes = "XYZABCUVW"; // what the controller has, it is asked before the rest is sent
     gcode::Interpreter reader(text, file, std::move(settings), watcher);
     const std::vector<std::string_view> lines = lines_of(text);
     KnownAxes known;
@@ -250,12 +252,26 @@ std::string tool_words(const ModalState& state, const Watcher& watcher, Dialect 
     return fmt::format(" T{}{}", state.selected_tool, changes ? " M6" : "");
 }
 
-/// All but Z.
-std::string across(const ModalState& state, Dialect dialect) {
-    const bool linuxcnc = dialect == Dialect::linuxcnc;
+/// Whether one of the `lines` before has sent the axis somewhere.
+bool sends_axis(std::span<const std::string_view> lines, char letter) {
+    return std::ranges::any_of(lines, [letter](std::string_view line) {
+        const std::string words = internal::bare_line(line);
+        for (std::size_t at = words.find(letter); at != std::string::npos; at = words.find(letter, at + 1)) {
+            constexpr std::string_view number = "0123456789.+-";
+            if (at + 1 < words.size() && number.find(words[at + 1]) != std::string_view::npos) {
+                return true;
+            }
+        }
+        return false;
+    });
+}
+
+/// All but Z. An axis beyond Z goes to zero, too, where a line before has sent it there.
+std::string across(const ModalState& state, std::span<const std::string_view> lines) {
     std::string words = "G0";
     for (std::size_t n = 0; n < gcode::axis_count; ++n) {
-        const bool named = n < 3 || (linuxcnc && std::abs(state.position[n]) > 0.0);
+        const bool named =
+            n < 3 || std::abs(state.position[n]) > 0.0 || sends_axis(lines, gcode::axis_letters[n]);
         if (n != z_axis && named) {
             words += " " + number_word(gcode::axis_letters[n], state.position[n]);
         }
@@ -288,8 +304,11 @@ void restore_modes(const ModalState& state, double plunge, std::vector<std::stri
 
 /// In few lines, for it stands above the first that is left: words of one line take effect in the order of
 /// RS-274, tool, spindle and coolant before the motion.
-std::vector<std::string>
-approach(const ModalState& state, const Watcher& watcher, const RunFromSettings& settings, double clearance) {
+std::vector<std::string> approach(const ModalState& state,
+                                  const Watcher& watcher,
+                                  const RunFromSettings& settings,
+                                  std::span<const std::string_view> lines_before,
+                                  double clearance) {
     using gcode::SpindleTurning;
     std::vector<std::string> lines;
     ModalState by_the_minute = state;
@@ -297,7 +316,7 @@ approach(const ModalState& state, const Watcher& watcher, const RunFromSettings&
     lines.push_back(modes_line(by_the_minute, settings.dialect) +
                     tool_words(state, watcher, settings.dialect));
     lines.push_back("G0 " + number_word('Z', clearance));
-    lines.push_back(across(state, settings.dialect) + (state.flood ? " M8" : ""));
+    lines.push_back(across(state, lines_before) + (state.flood ? " M8" : ""));
     if (state.spindle != SpindleTurning::stopped) {
         lines.back() += fmt::format(" {} {}",
                                     state.spindle == SpindleTurning::clockwise ? "M3" : "M4",
@@ -349,7 +368,8 @@ RunFrom run_from_line(std::string_view text,
                 : "the lines before do not tell at which Z the tool can go anywhere",
             "name the clearance");
     }
-    const std::vector<std::string> before = approach(state, watcher, settings, *clearance);
+    const std::vector<std::string> before = approach(
+        state, watcher, settings, std::span(lines).first(static_cast<std::size_t>(line) - 1), *clearance);
     check_room(before, file, line);
     RunFrom result{.text = {}, .line = line, .tool = state.selected_tool};
     for (const std::string& one : before) {

@@ -165,6 +165,15 @@ AxisValues values_by_letter(const kinematics::AxisPositions& axes,
     return values;
 }
 
+/// XYZ where the machine's axes are not known.
+std::string letters_of(const std::vector<gcode::ProgramAxis>& axes) {
+    std::string letters;
+    for (const gcode::ProgramAxis& axis : axes) {
+        letters += axis.letter;
+    }
+    return letters.empty() ? gcode::ReaderSettings().grbl_axes : letters;
+}
+
 void take_start(Survey& found, const SurveySettings& settings) {
     for (Eigen::Index n = 0; n < settings.start.size() && n < std::ssize(settings.axes); ++n) {
         found.start[index_of(settings.axes[static_cast<std::size_t>(n)].letter)] = settings.start[n];
@@ -224,6 +233,7 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
     reading.start = values_by_letter(settings.start, settings.axes);
     reading.modes = settings.modes;
     reading.mist = settings.mist;
+    reading.grbl_axes = letters_of(settings.axes);
     constexpr int most_errors = 100;
     reading.most_errors = most_errors;
     const std::filesystem::path folder = file.parent_path();

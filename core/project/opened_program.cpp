@@ -27,11 +27,19 @@ constexpr int most_errors = 1000;
 constexpr int steps_a_check = 4096;
 constexpr auto between_publications = std::chrono::milliseconds(40);
 
-gcode::ReaderSettings settings_for(const fs::path& file, const ReadingChoice& choice) {
+/// A Grbl is taken to have the axes of the machine.
+gcode::ReaderSettings
+settings_for(const fs::path& file, const ReadingChoice& choice, const kinematics::MachineModel* machine) {
     gcode::ReaderSettings settings;
     settings.dialect = choice.dialect;
     settings.any_tool = true;
     settings.most_errors = most_errors;
+    if (machine != nullptr) {
+        settings.grbl_axes.clear();
+        for (const kinematics::MachineAxis& axis : machine->axes()) {
+            settings.grbl_axes += axis.letter;
+        }
+    }
     settings.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
     return settings;
 }
@@ -140,7 +148,7 @@ private:
                                           now.path.chunks.push_back(std::move(chunk));
                                       });
         gcode::Interpreter program(
-            now.text->bytes.text(), now.file, settings_for(now.file, now.choice), builder);
+            now.text->bytes.text(), now.file, settings_for(now.file, now.choice, now.machine.get()), builder);
         auto execution = std::make_shared<gcode::Execution>();
         bool more = true;
         while (more) {
@@ -198,7 +206,7 @@ private:
         progress.report(0.0, "Planning " + now.file.filename().string());
         gcode::MachineProgramBuilder builder(*now.machine, now.file);
         gcode::Interpreter program(
-            now.text->bytes.text(), now.file, settings_for(now.file, now.choice), builder);
+            now.text->bytes.text(), now.file, settings_for(now.file, now.choice, now.machine.get()), builder);
         auto motion = std::make_shared<PlannedMotion>();
         gcode::Step step = 0;
         for (bool more = true; more; ++step) {

@@ -57,6 +57,17 @@ TEST_F(Posts, ConvertCutsFeedsUntilTheTipStaysOnTheProgramsWay) {
     EXPECT_LE(most(near.err), 0.012);
 }
 
+TEST_F(Posts, ConvertWritesRotaryAxesForGrblsThatHaveThem) {
+    write_content(part, "G21 G90 G94\nS8000 M3\nG0 Z50\nG0 X10 A5 C30\nG1 Z0 F600\nG1 X12 A7\nM2\n");
+    const Ended written = convert("ac-table", "grbl-rotary", {"--out", out});
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_THAT(content_of(out), HasSubstr("G93 G1"));
+    EXPECT_EQ(run({"gcode", "check", out, "--dialect", "grbl", "--axes", "XYZAC"}).exit_code, 0);
+    const Ended three = run({"gcode", "check", out, "--dialect", "grbl"});
+    EXPECT_EQ(three.exit_code, 1);
+    EXPECT_THAT(three.err, HasSubstr("this Grbl has the axes XYZ and does not know A words (error 20)"));
+}
+
 TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
     write_content(part, "G21 G90\nG0 X10 Y0 Z1\nG3 X-10 Y0 I-10 F600\nM2\n");
     const Ended ended = convert("router-xyz", "grbl", {"--arcs", "0.01", "--line-numbers"});
@@ -222,7 +233,7 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     ended = convert("ac-table", "siemens");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
-                HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl, heidenhain, linuxcnc-tcp, "
+                HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl-rotary, grbl, heidenhain, linuxcnc-tcp, "
                           "linuxcnc-xyz, linuxcnc, virtual; or "
                           "the path of one)"));
     write_content(part, "G21 G90\nG0 Y10 A5\nG1 Z0 F600\nM2\n");
@@ -282,9 +293,23 @@ TEST_F(Posts, RunTakesAThreeAxisProjectToAnEmulatedController) {
     EXPECT_EQ(emulator.stop().exit_code, 0);
 }
 
-TEST_F(Posts, RunRefusesAFiveAxisProgramForGrbl) {
+TEST_F(Posts, RunTakesAFiveAxisProjectToAControllerWithItsAxesAlone) {
+    const std::string port = (scratch / "grbl").string();
+    const std::string logs = (scratch / "logs").string();
     const auto project = small_project(scratch.path(), "dome");
-    Ended ended = run({"run", project, "--driver", "grbl", "--port", (scratch / "none").string()});
+    {
+        Emulator emulator(port, {"--firmware", "grblhal", "--axes", "XYZAB", "--speed", "100"});
+        const Ended ended = run({"run", project, "--driver", "grbl", "--port", port, "--log", logs});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_THAT(ended.out, HasSubstr("Connected to grblHAL 1.1f"));
+        EXPECT_THAT(ended.out, HasSubstr("blocks were executed"));
+        EXPECT_EQ(emulator.stop().exit_code, 0);
+    }
+    const Emulator emulator(port, {"--speed", "100"});
+    Ended ended = run({"run", project, "--driver", "grbl", "--port", port, "--log", logs});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("this Grbl has the axes XYZ and does not know A words"));
+    ended = run({"run", project, "--driver", "grbl", "--post", "grbl", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves X Y Z only"));
     ended = run({"run", project, "--driver", "grbl"});

@@ -8,6 +8,7 @@
 
 #include <csignal>
 #include <sstream>
+#include <utility>
 
 namespace millwright::test {
 namespace {
@@ -60,6 +61,23 @@ TEST_F(Send, SendsAFileToAnEmulatedController) {
     EXPECT_EQ(emulated.exit_code, 0);
     EXPECT_THAT(emulated.out, HasSubstr("Grbl 1.1h at " + port));
     EXPECT_FALSE(fs::is_symlink(port));
+}
+
+TEST_F(Send, SendsFiveAxesToOtherFirmwareAndNamesIt) {
+    write_content(file, "G21 G90 G94\nG1 X10 A90 B-45 F3000\nX0 A0 B0\nM30\n");
+    for (const auto& [firmware, name] :
+         {std::pair("grblhal", "grblHAL 1.1f"), std::pair("fluidnc", "FluidNC v3.7.12")}) {
+        Emulator emulator(port, {"--firmware", firmware, "--axes", "XYZAB", "--speed", "20"});
+        const Ended ended = run(words());
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_THAT(ended.out, HasSubstr(std::string("Connected to ") + name));
+        EXPECT_THAT(ended.out, HasSubstr("All 4 blocks were executed"));
+        EXPECT_THAT(emulator.stop().out, HasSubstr(std::string(name) + " at " + port));
+    }
+    Emulator three(port, {"--firmware", "grblhal", "--speed", "20"});
+    const Ended refused = run(words());
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("this Grbl has the axes XYZ and does not know A words"));
 }
 
 TEST_F(Send, ObeysKeysWhileItRuns) {

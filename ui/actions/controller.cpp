@@ -169,6 +169,8 @@ void Controller::try_connect(const machine::DriverChoice& choice, const machine:
         view_.status = driver_->status();
         view_.can = driver_->capabilities();
         view_.axes = axes_of(view_.can, axes.model.get());
+        view_.firmware = driver_->firmware();
+        view_.remarks = driver_->remarks();
     }
 }
 
@@ -239,16 +241,23 @@ void Controller::watch() {
     auto offsets = driver->stored_offsets();
     auto limits = driver->limits();
     machine::Capabilities can = driver->capabilities(); // a setting may change them
+    std::string firmware = driver->firmware();
+    std::vector<std::string> remarks = driver->remarks();
     bool changed = false;
     {
         const std::scoped_lock lock(mutex_);
         changed = !looks_same(status, view_.status) || settings.size() != view_.settings.size() ||
-                  can.home != view_.can.home;
+                  can.home != view_.can.home || firmware != view_.firmware || remarks != view_.remarks;
+        if (!can.axes.empty()) {
+            view_.axes = can.axes;
+        }
         view_.can = std::move(can);
         view_.status = std::move(status);
         view_.settings = std::move(settings);
         view_.offsets = std::move(offsets);
         view_.limits = std::move(limits);
+        view_.firmware = std::move(firmware);
+        view_.remarks = std::move(remarks);
     }
     if (changed) {
         wake_();

@@ -36,6 +36,8 @@ struct ControllerView {
     std::vector<machine::ControllerSetting> settings;
     std::vector<machine::StoredOffset> offsets;
     machine::MachineLimits limits;
+    std::string firmware{};             ///< Driver::firmware()
+    std::vector<std::string> remarks{}; ///< Driver::remarks()
 
     [[nodiscard]] bool connected() const { return link == LinkState::connected; }
 };

@@ -40,8 +40,9 @@ start_wish(machine::Job job, std::optional<machine::QueuedJobId> queued, const C
     StartWish wish;
     wish.job = std::make_shared<const machine::Job>(std::move(job));
     wish.queued = queued;
-    wish.machine = std::string(machine::to_text(machine.choice.kind)) +
-                   (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
+    wish.machine =
+        (machine.firmware.empty() ? std::string(machine::to_text(machine.choice.kind)) : machine.firmware) +
+        (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
     wish.survey.dialect = machine.can.dialect.value_or(gcode::Dialect::linuxcnc);
     wish.survey.axes = machine.axes;
     wish.survey.start = machine.status.position;

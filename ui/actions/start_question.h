@@ -20,7 +20,7 @@ struct ControllerView;
 struct StartWish {
     std::shared_ptr<const machine::Job> job;    ///< never null
     std::optional<machine::QueuedJobId> queued; ///< nothing: the program that is shown
-    std::string machine;                        ///< "grbl at /dev/ttyACM0"
+    std::string machine;                        ///< "grblHAL 1.1f at /dev/ttyACM0"
     machine::SurveySettings survey;             ///< from its present position, with its offsets
     machine::MachineLimits limits;
 };

@@ -1,7 +1,6 @@
 #include "ui/panels/connection_panel.h"
 
 #include "core/base/sentences.h"
-#include "core/machine/drivers/grbl/settings.h"
 #include "core/machine/links/serial_ports.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
@@ -27,7 +26,7 @@ using widgets::Rank;
 
 constexpr std::array<widgets::Option, 7> driver_kind_options{
     {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
-     {"grbl", "Grbl", {}, "A Grbl 1.1 controller at a serial port or TCP address"},
+     {"grbl", "Grbl", {}, "A Grbl 1.1, grblHAL or FluidNC controller at a serial port or TCP address"},
      {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
      {"stream", "Coordinate stream", {}, "A machine that is sent where its axes shall be, and says nothing"},
      {"cordic",
@@ -48,14 +47,6 @@ std::string kind_text(DriverKind kind) {
 /// Changes one thing of what was chosen.
 template <class Change> void change_hand_settings(ActionQueue& ask, Change&& change) {
     ask.show([change = std::forward<Change>(change)](actions::Session& session) { change(session.hand); });
-}
-
-/// Of a Grbl; empty if there is none.
-std::string_view reports_advice(const actions::ControllerView& machine) {
-    const auto reports = std::ranges::find(machine.settings, "$10", &machine::ControllerSetting::name);
-    return machine.choice.kind == DriverKind::grbl && reports != machine.settings.end()
-               ? machine::grbl_reports_advice(static_cast<int>(reports->value))
-               : std::string_view();
 }
 
 /// What a person should do about an alarm.
@@ -284,7 +275,7 @@ bool ConnectionPanel::warns(const actions::ControllerView& machine) {
 
 bool ConnectionPanel::has_messages(const actions::ControllerView& machine) {
     return machine.connected() && (warns(machine) || !machine.status.position_doubt.empty() ||
-                                   asks_where_it_stands(machine) || !reports_advice(machine).empty());
+                                   asks_where_it_stands(machine) || !machine.remarks.empty());
 }
 
 void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -307,8 +298,8 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
     if (asks_where_it_stands(machine)) {
         stands_fields(ui, now, ask);
     }
-    if (const auto advice = reports_advice(machine); !advice.empty()) {
-        ui.note(advice);
+    for (const std::string& remark : machine.remarks) {
+        ui.note(remark);
     }
 }
 
@@ -328,6 +319,9 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
     ui.value("state", capitalised(kind_text(machine.choice.kind)), driver_state_text(machine.status));
     ui.value("position_known", "Position", position_text(machine.status));
+    if (!machine.firmware.empty()) {
+        ui.value("firmware", "Firmware", machine.firmware);
+    }
     constexpr float address_label = 0.12F; // addresses are long
     const auto labels = ui.label_share(address_label);
     if (!machine.choice.address.empty()) {

@@ -205,6 +205,7 @@ private:
         rules.dialect = format_.reader == TextReader::grbl    ? Dialect::grbl
                         : format_.reader == TextReader::fanuc ? Dialect::fanuc
                                                               : Dialect::linuxcnc;
+        rules.grbl_axes = format_.axes;
         return read_written_rs274(listing.text, file_, rules);
     }
 

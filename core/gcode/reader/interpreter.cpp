@@ -295,7 +295,7 @@ void Interpreter::Parts::execute(std::string_view text) {
     }
     seen_text = true;
     if (is_grbl()) {
-        cursor = Cursor(internal::grbl_words(text, settings.mist, grbl_line));
+        cursor = Cursor(internal::grbl_words(text, settings.mist, settings.grbl_axes, grbl_line));
     }
     if (cursor.take('/') && settings.block_delete) {
         return;

@@ -200,6 +200,7 @@ std::vector<WrittenStep>
 read_written_rs274(std::string_view text, const std::filesystem::path& file, const WrittenTextRules& rules) {
     ReaderSettings settings;
     settings.dialect = rules.dialect;
+    settings.grbl_axes = rules.grbl_axes;
     settings.start = rules.start;
     settings.any_tool = true;
     if (rules.tool.number > 0) {

@@ -7,6 +7,7 @@
 #include "core/gcode/reader/tool_table.h"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,9 +41,10 @@ struct WrittenStep {
 
 struct WrittenTextRules {
     Dialect dialect = Dialect::linuxcnc;
-    AxisValues start;       ///< where the axes stand before, machine positions, mm and degrees
-    AxisValues work_offset; ///< mm; what leaves it out (G53, M91) is told apart by it
-    Tool tool;              ///< the one in the tool table, with its offset in mm; number 0: none
+    std::string grbl_axes = "XYZ"; ///< of a Grbl: letters of its axes
+    AxisValues start;              ///< where the axes stand before, machine positions, mm and degrees
+    AxisValues work_offset;        ///< mm; what leaves it out (G53, M91) is told apart by it
+    Tool tool;                     ///< the one in the tool table, with its offset in mm; number 0: none
     /// M codes that switch tip control on and off; 0: none, or those of the dialect.
     int tip_on = 0, tip_off = 0;
 };

@@ -13,14 +13,13 @@ namespace millwright::test {
 
 class GrblBench {
 public:
-    /// Accelerates by 500 mm/s^2 along each axis, goes 3000 mm/min at most.
-    GrblBench() {
+    /// Accelerates by 500 mm/s^2 along X, Y and Z, goes 3000 mm/min at most.
+    explicit GrblBench(machine::GrblEmulatorOptions options = {}) {
         auto terminal = std::make_unique<machine::PseudoTerminal>();
         terminal->open();
         port_ = terminal->path().string();
         std::vector<std::unique_ptr<machine::Link>> links;
         links.push_back(std::move(terminal));
-        machine::GrblEmulatorOptions options;
         options.surface = [](double, double) { return part_height; };
         server_ = std::make_unique<machine::GrblServer>(std::move(links), clock_, std::move(options));
         server_->with_controller([](machine::GrblEmulator& grbl) {
@@ -62,6 +61,10 @@ public:
     }
     [[nodiscard]] std::array<double, 3> position() {
         return server_->with_controller([](machine::GrblEmulator& grbl) { return grbl.position(); });
+    }
+    [[nodiscard]] double axis_position(char letter) {
+        return server_->with_controller(
+            [letter](machine::GrblEmulator& grbl) { return grbl.axis_position(letter); });
     }
     void raise_alarm() {
         server_->with_controller([](machine::GrblEmulator& grbl) { grbl.raise_alarm(); });

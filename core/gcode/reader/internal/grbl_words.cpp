@@ -63,8 +63,8 @@ constexpr int arc_distance_group = 4;
 
 class FirstPass {
 public:
-    FirstPass(std::string_view line, bool mist, std::string& buffer)
-        : line_(line), mist_(mist), buffer_(buffer) {}
+    FirstPass(std::string_view line, bool mist, std::string_view axes, std::string& buffer)
+        : line_(line), mist_(mist), axes_(axes), buffer_(buffer) {}
 
     std::string_view run() {
         keep_characters();
@@ -88,6 +88,7 @@ private:
 
     std::string_view line_;
     bool mist_;
+    std::string_view axes_;
     std::string& buffer_;
     bool changed_ = false;
     std::vector<Kept> kept_;
@@ -269,12 +270,20 @@ private:
     }
 
     void take_value(char letter, double value, const Word& word) {
-        constexpr std::string_view known = "FIJKLNPRSTXYZ";
+        constexpr std::string_view known = "FIJKLNPRST";
+        constexpr std::string_view all_axes = "XYZABCUVW";
         constexpr std::string_view not_negative = "FNPST";
         constexpr double last_tool = 255.0;
         constexpr double last_line_number = 10'000'000.0;
         const int place = column(word.first);
-        if (known.find(letter) == std::string_view::npos) {
+        const bool is_axis = all_axes.find(letter) != std::string_view::npos;
+        if (is_axis && axes_.find(letter) == std::string_view::npos) {
+            refuse(
+                place,
+                fmt::format("this Grbl has the axes {} and does not know {} words (error 20)", axes_, letter),
+                "make the program for these axes, or connect a controller that has all");
+        }
+        if (!is_axis && known.find(letter) == std::string_view::npos) {
             refuse(place,
                    fmt::format("Grbl does not know {} words (error 20)", letter),
                    letter == 'E' ? "in a number like 1e5? Numbers have no exponent here" : "");
@@ -319,8 +328,8 @@ private:
 
 } // namespace
 
-std::string_view grbl_words(std::string_view line, bool mist, std::string& buffer) {
-    return FirstPass(line, mist, buffer).run();
+std::string_view grbl_words(std::string_view line, bool mist, std::string_view axes, std::string& buffer) {
+    return FirstPass(line, mist, axes, buffer).run();
 }
 
 } // namespace millwright::gcode::internal

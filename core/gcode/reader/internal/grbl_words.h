@@ -8,8 +8,10 @@
 namespace millwright::gcode::internal {
 
 /// Throws Refusal for what Grbl 1.1 refuses of `line` before it looks at what the words mean together;
-/// `mist`: it was built with M7. Returns the line with blanks for what Grbl reads over (malformed comments, N
-/// words, fractions of T, L and the P of G10), in `buffer` if that changes anything; columns stay.
-[[nodiscard]] std::string_view grbl_words(std::string_view line, bool mist, std::string& buffer);
+/// `mist`: it was built with M7; `axes`: letters of its axes. Returns the line with blanks for what Grbl
+/// reads over (malformed comments, N words, fractions of T, L and the P of G10), in `buffer` if that changes
+/// anything; columns stay.
+[[nodiscard]] std::string_view
+grbl_words(std::string_view line, bool mist, std::string_view axes, std::string& buffer);
 
 } // namespace millwright::gcode::internal

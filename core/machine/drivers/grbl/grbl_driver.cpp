@@ -1,6 +1,8 @@
 #include "core/machine/drivers/grbl/grbl_driver.h"
 
 #include "core/base/error.h"
+#include "core/machine/drivers/grbl/internal/axis_limits.h"
+#include "core/machine/drivers/grbl/internal/axis_units.h"
 #include "core/machine/drivers/grbl/internal/console_words.h"
 #include "core/machine/drivers/grbl/internal/session.h"
 #include "core/machine/drivers/grbl/settings.h"
@@ -23,14 +25,15 @@ Session& GrblDriver::talk() const {
 }
 
 Capabilities GrblDriver::capabilities() const {
-    using kinematics::AxisKind;
     constexpr int homing_cycle = 22;
     const GrblReadout known = readout();
     const auto& settings = known.settings;
     const auto cycle = settings.find(homing_cycle);
-    const bool homes = cycle == settings.end() || cycle->second > 0.0;
+    const bool is_mask = facts_of(known.firmware).homing_mask;
+    const bool homes = cycle == settings.end() ||
+                       (is_mask ? (static_cast<unsigned>(cycle->second) & 1U) != 0 : cycle->second > 0.0);
     return {.plans = true,
-            .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
+            .axes = grbl::program_axes(known.axes),
             .overrides = true,
             .other_overrides = true,
             .jog = true,
@@ -48,7 +51,10 @@ Capabilities GrblDriver::capabilities() const {
 GrblReadout GrblDriver::readout() const {
     const std::scoped_lock lock(session_mutex());
     const grbl::Readout& known = talk().readout();
-    return {.version = known.version,
+    return {.firmware = known.firmware,
+            .version = known.version,
+            .build = known.build,
+            .axes = known.axes,
             .settings = known.settings,
             .planner_blocks = known.planner_blocks,
             .buffer_bytes = known.buffer_bytes,
@@ -80,36 +86,29 @@ void GrblDriver::set_single_block(bool on) {
 
 MachineLimits GrblDriver::limits() const {
     const std::scoped_lock lock(session_mutex());
-    const std::map<int, double>& settings = talk().readout().settings;
-    const auto setting = [&settings](int number) {
-        const auto found = settings.find(number);
-        return found == settings.end() ? std::nullopt : std::optional(found->second);
-    };
-    constexpr double seconds_per_minute = 60.0;
-    MachineLimits limits;
-    for (int n = 0; n < 3 && !settings.empty(); ++n) {
-        MachineLimits::Axis axis{.letter = "XYZ"[n], .min = {}, .max = {}, .speed = {}};
-        if (const auto rate = setting(110 + n)) {
-            axis.speed = *rate / seconds_per_minute;
-        }
-        const auto travel = setting(130 + n);
-        if (travel && setting(22).value_or(0.0) > 0.0) {
-            axis.min = -*travel;
-            axis.max = 0.0;
-        } else {
-            axis.travel = travel;
-        }
-        limits.axes.push_back(axis);
+    return grbl::machine_limits(talk().readout());
+}
+
+std::vector<std::string> GrblDriver::remarks() const {
+    const std::scoped_lock lock(session_mutex());
+    return grbl::setup_remarks(talk().readout());
+}
+
+std::string GrblDriver::firmware() const {
+    const std::scoped_lock lock(session_mutex());
+    const grbl::Readout& known = talk().readout();
+    if (known.version.empty()) {
+        return {};
     }
-    limits.spindle_rpm = setting(30);
-    return limits;
+    const std::string who = std::string(facts_of(known.firmware).name) + " " + known.version;
+    return known.build.empty() ? who : who + " (" + known.build + ")";
 }
 
 std::vector<ControllerSetting> GrblDriver::settings() const {
     const std::scoped_lock lock(session_mutex());
     std::vector<ControllerSetting> table;
     for (const auto& [number, value] : talk().readout().settings) {
-        const GrblSetting* known = find_grbl_setting(number);
+        const GrblSetting* known = find_grbl_setting(number, talk().readout().firmware);
         const GrblSetting words =
             known != nullptr ? *known
                              : GrblSetting{number, "Not of Grbl 1.1", "", "see the controller's makers"};
@@ -122,7 +121,7 @@ std::vector<StoredOffset> GrblDriver::stored_offsets() const {
     const std::scoped_lock lock(session_mutex());
     std::vector<StoredOffset> table;
     for (const auto& [name, axes] : talk().readout().offsets) {
-        table.push_back({name, kinematics::AxisPositions{Vec3(axes[0], axes[1], axes[2])}});
+        table.push_back({name, grbl::positions_of(axes, talk().readout().axes)});
     }
     return table;
 }

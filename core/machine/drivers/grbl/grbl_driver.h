@@ -1,7 +1,9 @@
-// Grbl 1.1 behind the Driver interface: three axes, G-code as text, over a serial port or TCP. What is
-// claimed as executed, and what happens when something goes wrong: docs/reference/grbl.md.
+// Grbl 1.1, grblHAL and FluidNC behind the Driver interface: three axes or more, G-code as text, over a
+// serial port or TCP. What is claimed as executed, and what happens when something goes wrong:
+// docs/reference/grbl.md.
 #pragma once
 
+#include "core/machine/drivers/grbl/firmware.h"
 #include "core/machine/drivers/session_driver.h"
 
 #include <filesystem>
@@ -20,7 +22,10 @@ struct GrblOptions {
 
 /// What is known of the controller beyond DriverStatus. mm.
 struct GrblReadout {
+    GrblFirmware firmware = GrblFirmware::grbl;
     std::string version;            ///< as 1.1h; empty before there was a link
+    std::string build;              ///< as 20190825; empty: not reported
+    std::string axes = "XYZ";       ///< letters, in the order of the positions
     std::map<int, double> settings; ///< $$
     int planner_blocks = 15, buffer_bytes = 128;
     bool mist = false; ///< built with M7
@@ -38,6 +43,8 @@ public:
     GrblDriver(std::unique_ptr<Link> link, const Clock& clock, GrblOptions options = {});
 
     [[nodiscard]] std::string name() const override { return "grbl"; }
+    /// "grblHAL 1.1f (20240817)".
+    [[nodiscard]] std::string firmware() const override;
     [[nodiscard]] Capabilities capabilities() const override;
     [[nodiscard]] GrblReadout readout() const;
     void check(const gcode::Listing& listing, const std::filesystem::path& file) const override;
@@ -52,10 +59,14 @@ public:
     int command(const std::string& lines) override;
     /// Lines that the controller has already, up to 20, are executed first.
     void set_single_block(bool on) override;
-    /// Travel is known of a machine that homes: machine coordinates go from -travel to 0.
+    /// Travel is known of a machine that homes: machine coordinates go from -travel to 0, or as its firmware
+    /// sets zero. An axis whose travel nobody reports has none here.
     [[nodiscard]] MachineLimits limits() const override;
     [[nodiscard]] std::vector<ControllerSetting> settings() const override;
     [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override;
+
+    /// What a person should know of the way the controller is set up, in sentences.
+    [[nodiscard]] std::vector<std::string> remarks() const override;
 
 private:
     [[nodiscard]] grbl::Session& talk() const;

@@ -44,24 +44,74 @@ constexpr std::array known_settings = {
     GrblSetting{132, "Z travel", "mm", "from the home switch to the other end, for soft limits and homing"},
 };
 
+// Axes beyond X, Y and Z, of any firmware; a Grbl for more axes has them, too.
+constexpr std::array further_axes = {
+    GrblSetting{103, "A steps", "step/deg", "steps of the A motor for one degree"},
+    GrblSetting{104, "B steps", "step/deg", "steps of the B motor for one degree"},
+    GrblSetting{105, "C steps", "step/deg", "steps of the C motor for one degree"},
+    GrblSetting{113, "A greatest speed", "deg/min", "no motion turns A faster; rapids use it"},
+    GrblSetting{114, "B greatest speed", "deg/min", "no motion turns B faster; rapids use it"},
+    GrblSetting{115, "C greatest speed", "deg/min", "no motion turns C faster; rapids use it"},
+    GrblSetting{123, "A acceleration", "deg/s2", "with which A speeds up and brakes"},
+    GrblSetting{124, "B acceleration", "deg/s2", "with which B speeds up and brakes"},
+    GrblSetting{125, "C acceleration", "deg/s2", "with which C speeds up and brakes"},
+    GrblSetting{133, "A travel", "deg", "for soft limits and homing; 0: without end"},
+    GrblSetting{134, "B travel", "deg", "for soft limits and homing; 0: without end"},
+    GrblSetting{135, "C travel", "deg", "for soft limits and homing; 0: without end"},
+};
+
+constexpr std::array grblhal_settings = {
+    GrblSetting{
+        22, "Homing cycle", "mask", "1: on, 4: needed at the start, 8: zero is at the switches, and more"},
+    GrblSetting{40, "Jog soft limits", "0/1", "jogs end at the travel instead of being refused"},
+    GrblSetting{43, "Homing passes", "", "how often a switch is approached slowly"},
+    GrblSetting{44, "Homing, first pass", "mask", "axes that home first; 1: X, 2: Y, 4: Z, 8: A, 16: B"},
+    GrblSetting{45, "Homing, second pass", "mask", "axes that home second"},
+    GrblSetting{46, "Homing, third pass", "mask", "axes that home third"},
+    GrblSetting{47, "Homing, fourth pass", "mask", "axes that home fourth"},
+    GrblSetting{48, "Homing, fifth pass", "mask", "axes that home fifth"},
+    GrblSetting{49, "Homing, sixth pass", "mask", "axes that home sixth"},
+    GrblSetting{341, "Tool change", "mode", "what M6 does; 0: waits for a person, 4: nothing"},
+    GrblSetting{376, "Rotary axes", "mask", "axes that count degrees; 1: A, 2: B, 4: C"},
+    GrblSetting{398, "Planner blocks", "", "motions that are planned ahead"},
+    GrblSetting{481, "Report interval", "ms", "between status reports that it sends unasked; 0: none"},
+};
+
 } // namespace
 
 std::span<const GrblSetting> grbl_settings() {
     return known_settings;
 }
 
-std::string_view grbl_reports_advice(int reports) {
+std::string_view grbl_reports_advice(int reports, GrblFirmware firmware) {
     constexpr unsigned int buffers = 2;
-    return (static_cast<unsigned int>(reports) & buffers) != 0
-               ? std::string_view()
-               : "Its reports do not tell of its planner: what is executed is known about 21 lines late. "
-                 "With "
-                 "$10=3 it is known at once.";
+    if ((static_cast<unsigned int>(reports) & buffers) != 0) {
+        return {};
+    }
+    switch (firmware) {
+    case GrblFirmware::grblhal: // whose other bits show feed, inputs and offsets
+        return "Its reports do not show its planner: what is executed is known late. With $10=511 it is "
+               "known at "
+               "once.";
+    case GrblFirmware::fluidnc:
+        return "Its reports do not show its planner: what is executed is known late. With $10=3 it is known "
+               "at "
+               "once.";
+    case GrblFirmware::grbl:
+        break;
+    }
+    return "Its reports do not tell of its planner: what is executed is known about 21 lines late. With "
+           "$10=3 it is known at once.";
 }
 
-const GrblSetting* find_grbl_setting(int number) {
-    const auto* found = std::ranges::find(known_settings, number, &GrblSetting::number);
-    return found == known_settings.end() ? nullptr : found;
+const GrblSetting* find_grbl_setting(int number, GrblFirmware firmware) {
+    const auto find = [number](std::span<const GrblSetting> settings) {
+        const auto found = std::ranges::find(settings, number, &GrblSetting::number);
+        return found == settings.end() ? nullptr : &*found;
+    };
+    const GrblSetting* own = firmware == GrblFirmware::grblhal ? find(grblhal_settings) : nullptr;
+    own = own == nullptr ? find(known_settings) : own;
+    return own == nullptr ? find(further_axes) : own;
 }
 
 } // namespace millwright::machine

@@ -1,38 +1,38 @@
 // Jogs as the short moves that a controller is sent. Nothing can call back what a controller already has when
-// its link breaks. So it never has more than it executes within `spare_time` and the time of braking from the
-// speed that it has.
+// its link breaks. So it never has more than it executes within JogLimits::spare_time and the time of braking
+// from the speed that it has.
 #pragma once
 
 #include "core/machine/driver.h"
 
-#include <array>
 #include <deque>
 #include <optional>
 
 namespace millwright::machine::internal {
 
-/// Of each axis, mm/s and mm/s^2.
 struct JogLimits {
-    std::array<double, 3> rate{}, acceleration{};
+    kinematics::AxisPositions rate, acceleration; ///< of each axis, in its units per s and per s^2
+    /// s; longer than what the controller prepares for its motors, at the end of which it brakes.
+    double spare_time = 0.08;
 };
 
-/// A straight move of X Y Z by `way`, mm, at `speed`, mm/s. Ways are rounded to what is printed, and add up
-/// exactly.
+/// A straight move by `way`, in the controller's units, at `speed` along it. Ways are rounded to what is
+/// printed, and add up exactly.
 struct JogSlice {
-    std::array<double, 3> way{};
+    kinematics::AxisPositions way;
     double speed = 0.0;
 };
 
 class JogFeed {
 public:
-    using Axes = std::array<double, 3>;
+    using Axes = kinematics::AxisPositions;
 
-    static constexpr double spare_time = 0.08; ///< s; with the time of a line on its way less than 0.1 s
-
-    /// From rest at `position`, machine coordinates.
+    /// From rest at `position`, machine coordinates in the controller's units: mm, and degrees where it has
+    /// rotary axes.
     void begin(const Axes& position);
     /// One with a dead man takes the place of what was not sent yet; others are done one after another.
-    /// Throws Defect unless it goes somewhere in X, Y and Z at a speed.
+    /// Its way and speed are in the controller's units. Throws Defect unless it goes somewhere, in the axes
+    /// of begin() alone, at a speed.
     void add(const Jog& jog);
     /// Forgets what was not sent yet.
     void cancel() { legs_.clear(); }
@@ -46,17 +46,17 @@ public:
 
 private:
     struct Leg {
-        Axes direction{}; ///< unit
+        Axes direction; ///< unit
         double length = 0.0, speed = 0.0;
         double sent = 0.0; ///< of `length`
-        Axes sent_to{};    ///< the same for each axis, as rounded
+        Axes sent_to;      ///< the same for each axis, as rounded
     };
 
     [[nodiscard]] JogSlice take(Leg& leg, double length);
 
     std::deque<Leg> legs_;
-    Axes target_{};
-    Axes direction_{}; ///< of what was sent last
+    Axes target_;
+    Axes direction_; ///< of what was sent last
 };
 
 } // namespace millwright::machine::internal

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/machine/emulators/grbl/internal/controller.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace millwright::machine {
@@ -12,7 +13,28 @@ public:
     using Controller::Controller;
 };
 
-GrblEmulator::GrblEmulator(GrblEmulatorOptions options) : body_(std::make_unique<Body>(std::move(options))) {}
+namespace {
+
+GrblEmulatorOptions checked(GrblEmulatorOptions options) {
+    constexpr std::size_t most_axes = 6;
+    const std::string& axes = options.axes;
+    std::string sorted = axes;
+    std::ranges::sort(sorted);
+    const bool known = axes.starts_with("XYZ") && axes.size() <= most_axes &&
+                       std::ranges::adjacent_find(sorted) == sorted.end() &&
+                       axes.find_first_not_of("XYZABCUVW") == std::string::npos;
+    if (!known) {
+        throw Error("a controller of this kind has no axes '" + axes + "'",
+                    {},
+                    "XYZ, and up to three of A B C U V W behind");
+    }
+    return options;
+}
+
+} // namespace
+
+GrblEmulator::GrblEmulator(GrblEmulatorOptions options)
+    : body_(std::make_unique<Body>(checked(std::move(options)))) {}
 
 GrblEmulator::~GrblEmulator() = default;
 
@@ -37,7 +59,14 @@ double GrblEmulator::time() const {
 }
 
 std::array<double, 3> GrblEmulator::position() const {
-    return body_->position();
+    const emulated::Axes& at = body_->position();
+    return {at[0], at[1], at[2]};
+}
+
+double GrblEmulator::axis_position(char letter) const {
+    const std::size_t axis = body_->build().axes.find(letter);
+    expects(axis != std::string::npos, "the machine has the axis");
+    return body_->position()[axis];
 }
 
 bool GrblEmulator::moving() const {

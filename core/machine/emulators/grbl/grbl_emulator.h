@@ -1,6 +1,6 @@
-// A Grbl 1.1 controller with its machine, in this program: takes the bytes of a serial port and answers as
-// the real one does, and remembers what it really executed. What is emulated, and what is not:
-// docs/reference/grbl.md. mm, s.
+// A Grbl 1.1, grblHAL or FluidNC controller with its machine, in this program: takes the bytes of a serial
+// port and answers as the real one does, and remembers what it really executed. What is emulated, and what is
+// not: docs/reference/grbl.md. mm, of rotary axes degrees, s.
 #pragma once
 
 #include "core/machine/emulators/emulator.h"
@@ -16,12 +16,18 @@
 
 namespace millwright::machine {
 
+enum class EmulatedFirmware { grbl, grblhal, fluidnc };
+
 struct GrblEmulatorOptions {
+    EmulatedFirmware firmware = EmulatedFirmware::grbl;
+    std::string axes = "XYZ";            ///< three to six letters: XYZ, and any of ABCUVW behind
     std::filesystem::path eeprom_file{}; ///< read now, written with each change; empty: neither
     bool line_numbers = false;           ///< built with USE_LINE_NUMBERS
     bool echo = false;                   ///< built with REPORT_ECHO_LINE_RECEIVED
     bool mist = false;                   ///< built with ENABLE_M7
     bool keep_truth = true;              ///< remembers every line
+    /// Of a grblHAL: ? ! ~ act in $ lines, too; without it they are text there.
+    bool printable_realtime = true;
     /// Height of what a probe touches, in machine coordinates; none: nothing is there.
     std::function<double(double x, double y)> surface{};
 };
@@ -42,7 +48,8 @@ struct Truth {
 
 class GrblEmulator final : public Emulator {
 public:
-    /// Switched on; the greeting is in the first output. Throws Error for an EEPROM file that cannot be read.
+    /// Switched on; the greeting is in the first output. Throws Error for an EEPROM file that cannot be read,
+    /// and for axes that no such controller has.
     explicit GrblEmulator(GrblEmulatorOptions options = {});
     GrblEmulator(const GrblEmulator&) = delete;
     GrblEmulator& operator=(const GrblEmulator&) = delete;
@@ -54,7 +61,8 @@ public:
     [[nodiscard]] std::string take_output() override;
 
     [[nodiscard]] double time() const;
-    [[nodiscard]] std::array<double, 3> position() const; ///< machine coordinates
+    [[nodiscard]] std::array<double, 3> position() const;  ///< of X, Y and Z, machine coordinates
+    [[nodiscard]] double axis_position(char letter) const; ///< of one axis that it has
     [[nodiscard]] bool moving() const override;
     [[nodiscard]] int planned_blocks() const;
     [[nodiscard]] Truth truth() const;

@@ -23,6 +23,12 @@ std::optional<ConsoleWords::Named> realtime(unsigned char byte) {
         return ConsoleWords::Named{ConsoleKind::realtime, "~ (resume)"};
     case 0x18:
         return ConsoleWords::Named{ConsoleKind::realtime, "Ctrl-X (reset)"};
+    case 0x80:
+        return ConsoleWords::Named{ConsoleKind::query, "0x80 (status)"};
+    case 0x81:
+        return ConsoleWords::Named{ConsoleKind::realtime, "0x81 (resume)"};
+    case 0x82:
+        return ConsoleWords::Named{ConsoleKind::realtime, "0x82 (feed hold)"};
     case 0x84:
         return ConsoleWords::Named{ConsoleKind::realtime, "0x84 (door)"};
     case 0x85:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <utility>
 #include <vector>
 
 namespace millwright::machine::grbl {
@@ -59,7 +59,8 @@ bool read_state(std::string_view text, StatusMessage& status) {
                                   Name{"Door", MachineState::door},
                                   Name{"Check", MachineState::check},
                                   Name{"Home", MachineState::home},
-                                  Name{"Sleep", MachineState::sleep}};
+                                  Name{"Sleep", MachineState::sleep},
+                                  Name{"Tool", MachineState::tool}};
     const std::size_t colon = std::min(text.find(':'), text.size());
     const auto* found = std::ranges::find(names, text.substr(0, colon), &Name::text);
     if (found == names.end()) {
@@ -81,14 +82,17 @@ bool read_speeds(std::string_view text, StatusMessage& status) {
     return status.feed && (parts.size() == 1 || status.spindle_rpm);
 }
 
-/// False if the field is known and wrong; unknown fields are those of other versions.
+bool is_field_name(std::string_view name) {
+    return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    });
+}
+
+/// False if the field is known and wrong.
 bool read_field(std::string_view field, StatusMessage& status) {
-    const std::size_t colon = field.find(':');
-    if (colon == std::string_view::npos) {
-        return false;
-    }
+    const std::size_t colon = std::min(field.find(':'), field.size());
     const std::string_view name = field.substr(0, colon);
-    const std::string_view value = field.substr(colon + 1);
+    const std::string_view value = field.substr(std::min(colon + 1, field.size()));
     if (name == "MPos") {
         return (status.machine_position = read_axes(value)).has_value();
     }
@@ -125,7 +129,8 @@ bool read_field(std::string_view field, StatusMessage& status) {
         status.accessories = value;
         return true;
     }
-    return false;
+    status.foreign_fields = true;
+    return is_field_name(name);
 }
 
 Message read_status(std::string_view line) {
@@ -156,12 +161,16 @@ Message read_setting(std::string_view line) {
     if (line.starts_with("$N")) {
         return Feedback{"N", std::string(line.substr(2))};
     }
-    const auto which = whole_number<int>(line.substr(1, equals - 1));
+    const std::string_view name = line.substr(1, equals - 1);
+    const auto which = whole_number<int>(name);
     const auto value = read_number(line.substr(equals + 1));
-    if (!which || !value) {
-        return Garbage{};
+    if (which && value) {
+        return SettingMessage{*which, *value};
     }
-    return SettingMessage{*which, *value};
+    if (which || name.starts_with('/')) {
+        return NamedSetting{std::string(name), std::string(line.substr(equals + 1))};
+    }
+    return Garbage{};
 }
 
 Message read_feedback(std::string_view line) {
@@ -188,19 +197,19 @@ std::optional<double> read_number(std::string_view text) {
 }
 
 std::optional<Axes> read_axes(std::string_view text) {
+    constexpr std::size_t least_axes = 3;
+    constexpr std::size_t most_axes = 9;
     const auto parts = split(text, ',');
-    Axes result{};
-    if (parts.size() < result.size()) {
+    if (parts.size() < least_axes || parts.size() > most_axes) {
         return std::nullopt;
     }
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        const auto value = read_number(parts[n]);
+    Axes result;
+    for (const std::string_view part : parts) {
+        const auto value = read_number(part);
         if (!value) {
             return std::nullopt;
         }
-        if (n < result.size()) {
-            result[n] = *value;
-        }
+        result.push_back(*value);
     }
     return result;
 }
@@ -214,8 +223,6 @@ bool StatusMessage::moving() const {
 Message read_message(std::string_view line) {
     constexpr std::string_view error = "error:";
     constexpr std::string_view alarm = "ALARM:";
-    constexpr std::string_view welcome = "Grbl ";
-    constexpr std::string_view welcome_end = " ['$' for help]";
     if (line.empty()) {
         return Blank{};
     }
@@ -229,10 +236,8 @@ Message read_message(std::string_view line) {
         }
         return line.starts_with(error) ? Message(ErrorAnswer{*code}) : Message(AlarmMessage{*code});
     }
-    if (line.starts_with(welcome) && line.ends_with(welcome_end) &&
-        line.size() > welcome.size() + welcome_end.size()) {
-        return Welcome{
-            std::string(line.substr(welcome.size(), line.size() - welcome.size() - welcome_end.size()))};
+    if (auto who = read_greeting(line)) {
+        return Welcome{std::move(*who)};
     }
     const bool pair = line.size() >= 2;
     if (pair && line.front() == '<' && line.back() == '>') {

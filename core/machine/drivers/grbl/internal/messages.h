@@ -1,17 +1,21 @@
-// The lines that Grbl 1.1 sends, taken apart. Lengths as they come: mm, or inches if $13 is on.
+// The lines that Grbl 1.1, grblHAL and FluidNC send, taken apart. Lengths as they come: mm, or inches if $13
+// is on; rotary axes in degrees.
 #pragma once
+
+#include "core/machine/drivers/grbl/firmware.h"
 
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace millwright::machine::grbl {
 
-using Axes = std::array<double, 3>;
+using Axes = std::vector<double>; ///< 3 to 9: X Y Z and what follows
 
-enum class MachineState { idle, run, hold, jog, alarm, door, check, home, sleep };
+enum class MachineState { idle, run, hold, jog, alarm, door, check, home, sleep, tool };
 
 struct Ack {};
 struct ErrorAnswer {
@@ -21,7 +25,7 @@ struct AlarmMessage {
     int number = 0;
 };
 struct Welcome {
-    std::string version; ///< as 1.1h
+    GrblIdentity who;
 };
 struct StatusMessage {
     MachineState state = MachineState::idle;
@@ -31,10 +35,15 @@ struct StatusMessage {
     std::optional<double> feed{}, spindle_rpm{};
     std::optional<std::array<int, 3>> overrides{};
     std::string pins{};
-    std::optional<std::string> accessories{}; ///< spindle and coolant; told together with overrides
+    std::optional<std::string> accessories{}; ///< spindle and coolant; reported together with overrides
+    bool foreign_fields = false;              ///< it has fields that Grbl 1.1 does not send
 
     /// Whether its axes may be moving now.
     [[nodiscard]] bool moving() const;
+    /// Held or on its way into a hold: it goes on when it is resumed.
+    [[nodiscard]] bool held() const {
+        return state == MachineState::hold || state == MachineState::door || state == MachineState::tool;
+    }
 };
 struct SettingMessage {
     int number = 0;
@@ -44,11 +53,16 @@ struct SettingMessage {
 struct Feedback {
     std::string tag, text;
 };
+/// $/axes/x/max_rate_mm_per_min=5000.000 of a FluidNC, $300=router of a grblHAL: what has no number, or a
+/// value that is none.
+struct NamedSetting {
+    std::string name, value;
+};
 struct StartupLine {
     bool executed = false;
 };
 struct Blank {};
-/// Nothing that Grbl sends: bytes were lost or changed on the way.
+/// Nothing that such a controller sends: bytes were lost or changed on the way.
 struct Garbage {};
 
 using Message = std::variant<Ack,
@@ -57,6 +71,7 @@ using Message = std::variant<Ack,
                              Welcome,
                              StatusMessage,
                              SettingMessage,
+                             NamedSetting,
                              Feedback,
                              StartupLine,
                              Blank,
@@ -67,7 +82,7 @@ using Message = std::variant<Ack,
 
 /// A finite number as Grbl prints it: no exponent, no words.
 [[nodiscard]] std::optional<double> read_number(std::string_view text);
-/// "1.000,2.000,-3.000"; what other axes follow is left out.
+/// "1.000,2.000,-3.000", and up to six further axes.
 [[nodiscard]] std::optional<Axes> read_axes(std::string_view text);
 
 /// "1.000,2.000,-3.000:1" of a PRB feedback; nothing if it is not that.

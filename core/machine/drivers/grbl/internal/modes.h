@@ -20,7 +20,11 @@ struct Modes {
 
 /// "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0"; its F is in units of `report_unit` mm ($13).
 [[nodiscard]] Modes read_modes(std::string_view text, double report_unit);
-/// "1.000,2.000,-3.000" of a stored offset; one number (TLO) is along Z. Nothing if it is none.
+/// "1.000,2.000,-3.000" of a stored offset; one number (TLO) is along Z, the first of three. Nothing if it is
+/// none.
 [[nodiscard]] std::optional<Axes> read_offset(std::string_view text);
+/// What is in force there that bends the path in a way that no check here follows: "G51", scaling, or "G7",
+/// diameters for X. Empty: nothing.
+[[nodiscard]] std::string_view unfollowed_mode(std::string_view modes);
 
 } // namespace millwright::machine::grbl

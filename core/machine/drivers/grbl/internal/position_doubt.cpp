@@ -8,12 +8,6 @@
 
 namespace millwright::machine::grbl {
 
-namespace {
-
-constexpr std::string_view all_axes = "XYZ";
-
-} // namespace
-
 void PositionDoubt::arise(std::string why, bool lost) {
     why_ = std::move(why);
     lost_ = lost;
@@ -27,15 +21,15 @@ void PositionDoubt::confirm() {
     confirmed_ = std::move(why);
 }
 
-void PositionDoubt::zeroed(std::string_view axes) {
+void PositionDoubt::zeroed(std::string_view axes, std::string_view machine_axes) {
     zeroed_ += axes;
     const auto has_zero = [this](char axis) { return zeroed_.find(axis) != std::string::npos; };
-    if (std::ranges::all_of(all_axes, has_zero)) {
+    if (std::ranges::all_of(machine_axes, has_zero)) {
         end();
     }
 }
 
-std::string axes_zeroed_by(std::string_view line) {
+std::string axes_zeroed_by(std::string_view line, std::string_view machine_axes) {
     const auto words = words_of(line);
     if (!words) {
         return {};
@@ -51,7 +45,7 @@ std::string axes_zeroed_by(std::string_view line) {
     std::string axes;
     if (says('G', set_offset) || (says('G', set_data) && says('L', from_here))) {
         for (const Word& word : *words) {
-            axes.append(all_axes.find(word.letter) == std::string_view::npos ? 0 : 1, word.letter);
+            axes.append(machine_axes.find(word.letter) == std::string_view::npos ? 0 : 1, word.letter);
         }
     }
     return axes;

@@ -12,8 +12,8 @@ public:
     /// `why`: a part of a sentence, as "the controller was reset". The last reason is the one that is shown.
     /// `lost`: something has happened that costs the position; false: nobody has confirmed it so far.
     void arise(std::string why, bool lost = true);
-    /// A person has given these axes a zero where the tool stands. All three end the doubt.
-    void zeroed(std::string_view axes);
+    /// A person has given these axes a zero where the tool stands. All of `machine_axes` end the doubt.
+    void zeroed(std::string_view axes, std::string_view machine_axes);
     /// A person says that the machine is where the controller says.
     void confirm();
     /// The machine was homed.
@@ -30,8 +30,8 @@ private:
     bool lost_ = false;
 };
 
-/// Letters of the axes that get their zero by this line, which is without blanks and in capitals: the axes
-/// of a G92 or G10 L20.
-[[nodiscard]] std::string axes_zeroed_by(std::string_view line);
+/// Letters of the axes that get their zero by this line, which is without blanks and in capitals: those of
+/// `machine_axes` in a G92 or G10 L20.
+[[nodiscard]] std::string axes_zeroed_by(std::string_view line, std::string_view machine_axes);
 
 } // namespace millwright::machine::grbl

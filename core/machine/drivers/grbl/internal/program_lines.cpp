@@ -73,15 +73,15 @@ public:
         }
         bool moves = false;
         for (const Word& word : words) {
-            moves = (word.letter >= 'X' && word.letter <= 'Z' && take_axis(word)) || moves;
+            moves = take_axis(word) || moves;
         }
         return moves && motion_;
     }
 
 private:
     bool absolute_ = true;
-    bool motion_ = false; ///< G0 to G3 is in force, for all that is known
-    std::array<std::optional<double>, 3> at_;
+    bool motion_ = false;                     ///< G0 to G3 is in force, for all that is known
+    std::array<std::optional<double>, 6> at_; ///< X Y Z A B C
 
     bool take_mode(double code) {
         const int tenths = static_cast<int>(std::lround(std::clamp(code, 0.0, 1000.0) * 10.0));
@@ -98,8 +98,13 @@ private:
     }
 
     bool take_axis(const Word& word) {
-        constexpr double enough = 0.1; // mm or inch: more than a step of any machine
-        auto& at = at_[static_cast<std::size_t>(word.letter - 'X')];
+        constexpr double enough = 0.1; // mm, inch or degree: more than a step of any machine
+        constexpr std::string_view letters = "XYZABC";
+        const std::size_t axis = letters.find(word.letter);
+        if (axis == std::string_view::npos) {
+            return false;
+        }
+        auto& at = at_[axis];
         if (!absolute_) {
             return std::abs(word.value) > enough;
         }
@@ -132,10 +137,14 @@ bool writes_eeprom(const std::vector<Word>& words) {
     return has_code(words, 'G', {100, 281, 301});
 }
 
-/// What Grbl brings to rest before it: G54 to G59, G92, G43.1 and G49, G10, and the end of a program.
+/// What Grbl brings to rest before it: G54 to G59.3, G92, tool lengths (G43 and its kin, G49, M6), G10, and
+/// the end of a program.
 bool moves_zero(const std::vector<Word>& words) {
-    return has_code(words, 'G', {100, 431, 490, 540, 550, 560, 570, 580, 590, 920, 921}) ||
-           has_code(words, 'M', {20, 300});
+    return has_code(
+               words,
+               'G',
+               {100, 430, 431, 432, 490, 540, 550, 560, 570, 580, 590, 591, 592, 593, 920, 921, 922, 923}) ||
+           has_code(words, 'M', {20, 60, 300});
 }
 
 void classify(ProgramLine& line) {
@@ -150,8 +159,9 @@ void classify(ProgramLine& line) {
 
 /// Why a $ command is not taken as a line; empty if it is.
 std::string_view why_not(std::string_view text) {
-    const bool asks =
-        text == "$$" || text == "$#" || text == "$G" || text == "$N" || text == "$I" || text == "$";
+    const bool asks = text == "$$" || text == "$#" || text == "$G" || text == "$N" || text == "$I" ||
+                      text == "$I+" || text == "$" ||
+                      (text.starts_with("$/") && text.find('=') == std::string_view::npos);
     const bool sets = text.size() > 2 && text.find('=') != std::string_view::npos &&
                       (text[1] == 'N' || (text[1] >= '0' && text[1] <= '9'));
     if (asks || sets) {

@@ -8,14 +8,12 @@ namespace millwright::machine::grbl {
 
 namespace {
 
-constexpr int segment_blocks =
-    6;                     // that may have left the planner and still be under way: Grbl's segment buffer
 constexpr int at_rest = 0; // of Hold: nothing is on its way from the planner to the motors any more
 
 } // namespace
 
-Proof::Proof(const ProgramLines& program, int planner_blocks)
-    : program_(&program), planner_blocks_(planner_blocks) {}
+Proof::Proof(const ProgramLines& program, int planner_blocks, int segment_blocks)
+    : program_(&program), planner_blocks_(planner_blocks), segment_blocks_(segment_blocks) {}
 
 void Proof::acknowledged() {
     ++acknowledged_;
@@ -66,11 +64,11 @@ int Proof::bound(const StatusMessage& report) const {
     if (report.state == MachineState::hold && report.sub_state == at_rest && used == 0 && pauses_next()) {
         return acknowledged_; // a hold in the middle of a block would leave that in the planner
     }
-    int result = before(acknowledged_, used.value_or(planner_blocks_) + segment_blocks);
+    int result = before(acknowledged_, used.value_or(planner_blocks_) + segment_blocks_);
     if (report.line) {
         const int at = reported_line(*report.line);
         // A line that is being planned may be in motion before it is acknowledged; none after it can be.
-        const int by_line = at <= acknowledged_ ? before(at, segment_blocks) : 0;
+        const int by_line = at <= acknowledged_ ? before(at, segment_blocks_) : 0;
         result = report.free_blocks ? std::min(result, by_line) : std::max(result, by_line);
     }
     return result;

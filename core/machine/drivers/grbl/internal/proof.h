@@ -14,8 +14,9 @@ namespace millwright::machine::grbl {
 class Proof {
 public:
     Proof() = default;
-    /// `planner_blocks`: that the controller's planner holds at most.
-    Proof(const ProgramLines& program, int planner_blocks);
+    /// `planner_blocks`: that the controller's planner holds at most; `segment_blocks`: that may have left it
+    /// and still be under way.
+    Proof(const ProgramLines& program, int planner_blocks, int segment_blocks);
 
     /// One more line was acknowledged.
     void acknowledged();
@@ -44,6 +45,7 @@ private:
 
     const ProgramLines* program_ = nullptr;
     int planner_blocks_ = 0;
+    int segment_blocks_ = 0;
     int acknowledged_ = 0;
     int executed_ = 0;
     int at_hand_ = 0;

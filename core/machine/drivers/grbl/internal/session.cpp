@@ -121,7 +121,7 @@ void Session::poll(double now) {
     if (now < next_poll_ || stage_ == Stage::flushing) {
         return;
     }
-    output_ += '?';
+    output_ += status_byte();
     constexpr double quick = 0.25; // a jog and overrides go by what the reports tell
     const bool hurry =
         stage_ == Stage::braking || stage_ == Stage::jogging || (active() && overrides_.under_way());
@@ -137,6 +137,7 @@ void Session::watch_silence(double now) {
         if (silence > settings_.greeting_time) {
             stage_ = Stage::alarm;
             message_ = "no Grbl answers at this port";
+            message_ += stray_line_.empty() ? "" : fmt::format("; somebody says '{}'", stray_line_);
         } else if (stage_ == Stage::greeting && silence > settings_.greeting_time / 2.0) {
             // After a limit switch Grbl is deaf to all but a reset, and a board that begins anew waits for a
             // boot loader. Both stand still.
@@ -181,8 +182,8 @@ void Session::end(bool fault, std::string message, double now) {
     ending_message_ = std::move(message);
     ending_since_ = last_brake_ = now;
     rest_reports_ = 0;
-    message_.clear(); // why it paused, or was found moving, is not why it stops
-    output_ = "!";    // whatever was to be sent is not sent any more
+    message_.clear();      // why it paused, or was found moving, is not why it stops
+    output_ = hold_byte(); // whatever was to be sent is not sent any more
     next_poll_ = now;
 }
 
@@ -201,7 +202,7 @@ void Session::watch_ending(double now) {
             ending_since_ = now;
             send_reset(now);
         } else if (now - last_brake_ > repeat_time) {
-            output_ += '!';
+            output_ += hold_byte();
             last_brake_ = now;
         }
     } else if (stage_ == Stage::flushing) {
@@ -260,7 +261,7 @@ void Session::settle_answer(const std::string& why_not) {
 void Session::watch_hold(double now) {
     if ((stage_ == Stage::running || stage_ == Stage::foreign) && hold_wanted_ && !held_ &&
         now - hold_sent_ > repeat_time) {
-        output_ += '!';
+        output_ += hold_byte();
         hold_sent_ = now;
     }
 }

@@ -1,5 +1,5 @@
-// The host's side of a conversation with Grbl 1.1. One rule stands above all: once something is wrong, no
-// byte leaves that could begin motion, until a person has asked for it.
+// The host's side of a conversation with Grbl 1.1, grblHAL or FluidNC. One rule stands above all: once
+// something is wrong, no byte leaves that could begin motion, until a person has asked for it.
 #pragma once
 
 #include "core/machine/drivers/grbl/internal/messages.h"
@@ -32,19 +32,23 @@ struct SessionSettings {
 
 /// What is known of the controller beyond DriverStatus.
 struct Readout {
-    std::string version;
+    GrblFirmware firmware = GrblFirmware::grbl;
+    std::string version, build; ///< as 1.1h and 20190825
+    std::string axes = "XYZ";   ///< letters, in the order of the positions
     std::map<int, double> settings;
-    Axes machine_position{}, offset{};
+    std::map<std::string, std::string> named;          ///< settings without a number, or whose value is none
+    Axes machine_position = Axes(3), offset = Axes(3); ///< mm, of rotary axes degrees
     std::string pins;
-    double spindle_rpm = 0.0; ///< as last told
+    double spindle_rpm = 0.0; ///< as last reported
     std::optional<ProbeResult> probe;
     int probings = 0;                    ///< of programs and commands
     Modes modes;                         ///< at rest; of a running program only spindle and coolant
     std::map<std::string, Axes> offsets; ///< $#: G54 to G59, G28, G30, G92, TLO
-    int planner_blocks = 15, buffer_bytes = 128;
+    int planner_blocks = 15, segment_blocks = 6, buffer_bytes = 128;
     bool line_numbers = false;
-    bool mist = false;       ///< built with M7
-    bool began_anew = false; ///< greeted, or was silent until it was reset, when the link was made
+    bool printable_realtime = true; ///< ? ! ~ act at once; false: 0x80, 0x82 and 0x81 alone do
+    bool mist = false;              ///< built with M7
+    bool began_anew = false;        ///< greeted, or was silent until it was reset, when the link was made
 };
 
 class Session final : public internal::ControllerSession {
@@ -106,6 +110,11 @@ private:
 
     // session.cpp: commands and time
     void require_rest(std::string_view what) const;
+    [[nodiscard]] const GrblFacts& facts() const { return facts_of(readout_.firmware); }
+    [[nodiscard]] std::string name() const { return std::string(facts().name); }
+    [[nodiscard]] char status_byte() const { return readout_.printable_realtime ? '?' : '\x80'; }
+    [[nodiscard]] char resume_byte() const { return readout_.printable_realtime ? '~' : '\x81'; }
+    [[nodiscard]] char hold_byte() const { return readout_.printable_realtime ? '!' : '\x82'; }
     void begin_asking(double now, bool unlock);
     void ask_first();
     void ask_next();
@@ -148,6 +157,7 @@ private:
     void handle(const Welcome& welcome, double now);
     void handle(const StatusMessage& report, double now);
     void handle(const SettingMessage& setting, double now);
+    void handle(const NamedSetting& setting, double now);
     void handle(const Feedback& feedback, double now);
     void handle(const StartupLine& line, double now);
     void handle(const Blank& blank, double now);
@@ -156,14 +166,22 @@ private:
     void watch_state(const StatusMessage& report, double now);
     void watch_motion(const StatusMessage& report, double now);
     void watch_foreign(const StatusMessage& report, double now);
-    void read_options(std::string_view text);
     void check_echo(std::string_view text, double now);
     void answered(const SentLine& line);
     void refused(const SentLine& line, const std::string& why, double now);
-    void take_feedback(const Feedback& feedback);
+    [[nodiscard]] bool is_well_formed(const StatusMessage& report) const;
     [[nodiscard]] double report_unit() const;
     [[nodiscard]] Axes scaled(Axes axes) const;
     [[nodiscard]] double feed() const; ///< mm/s, as reported
+
+    // session_identity.cpp: who answers, and what it has
+    void identify(const GrblIdentity& who);
+    [[nodiscard]] bool ask_more(double now);
+    void take_axis_count(std::size_t count);
+    void take_feedback(const Feedback& feedback);
+    void read_options(std::string_view text);
+    void read_new_options(std::string_view text);
+    void read_axis_letters(std::string_view text);
 
     SessionSettings settings_;
     Stage stage_ = Stage::closed;
@@ -185,6 +203,12 @@ private:
     bool zero_moves_ = false;
     internal::Ahead ahead_;
     std::vector<std::string> questions_; ///< to be asked, the next comes last
+    bool asked_more_ = false;            ///< what only some firmwares are asked
+    bool told_sizes_ = false;            ///< [OPT:] named planner blocks and bytes
+    std::string axis_letters_;           ///< of [AXS:]
+    std::string found_alarm_;            ///< that it reports of itself when it is met
+    std::string kept_lock_;              ///< why it did not unlock
+    std::string stray_line_;             ///< what somebody said here who may be no Grbl
     std::string message_;
 
     bool ending_in_fault_ = false; ///< while braking and flushing
@@ -199,6 +223,7 @@ private:
     bool hold_wanted_ = false, held_ = false;
     double hold_sent_ = 0.0, resume_sent_ = -1.0;
     bool jog_stopping_ = false;
+    bool jog_refused_ = false;
     std::optional<double> jog_until_; ///< dead-man's time
     internal::JogFeed jog_feed_;
     Activity at_ = Activity::none; ///< program or command, the current or last

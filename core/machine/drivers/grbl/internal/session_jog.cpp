@@ -1,5 +1,6 @@
 // Jogs: fed in short lines, ended by whoever lets go.
 #include "core/base/text.h"
+#include "core/machine/drivers/grbl/internal/axis_units.h"
 #include "core/machine/drivers/grbl/internal/session.h"
 
 #include <algorithm>
@@ -12,12 +13,12 @@ namespace {
 constexpr char jog_cancel_byte = '\x85';
 constexpr double cancel_repeat_time = 0.125; // s after which a cancel that had no effect is sent again
 
-std::string jog_line(const internal::JogSlice& slice) {
+std::string jog_line(const internal::JogSlice& slice, std::string_view letters) {
     constexpr double seconds_per_minute = 60.0;
-    constexpr std::string_view letters = "XYZ";
     std::string text = "$J=G91G21";
-    for (std::size_t n = 0; n < letters.size(); ++n) {
-        text += std::abs(slice.way[n]) > 0.0 ? letters[n] + fixed(slice.way[n], 4) : std::string();
+    for (Eigen::Index n = 0; n < slice.way.size(); ++n) {
+        const bool goes = std::abs(slice.way[n]) > 0.0;
+        text += goes ? letters[static_cast<std::size_t>(n)] + fixed(slice.way[n], 4) : std::string();
     }
     return text + "F" + fixed(std::max(0.001, slice.speed * seconds_per_minute), 3) + "\n";
 }
@@ -29,9 +30,10 @@ void Session::jog(const Jog& jog, double now) {
         require_rest("jog");
     }
     if (stage_ != Stage::jogging) {
-        jog_feed_.begin(readout_.machine_position);
+        jog_feed_.begin(eigen_of(readout_.machine_position));
         proof_closed_ = true;
-        jog_feed_.add(jog);
+        jog_refused_ = false;
+        jog_feed_.add(in_axis_units(jog, readout_.axes));
         window_ = Window(readout_.buffer_bytes, true);
         message_.clear();
         last_answer_ = last_heard_ = next_poll_ = now;
@@ -40,7 +42,7 @@ void Session::jog(const Jog& jog, double now) {
         rest_reports_ = 0;
         jog_stopping_ = false;
     } else {
-        jog_feed_.add(jog);
+        jog_feed_.add(in_axis_units(jog, readout_.axes));
     }
     jog_until_ = jog.dead_man > 0.0 ? std::optional(now + jog.dead_man) : std::nullopt;
     pump_jog();
@@ -51,6 +53,7 @@ void Session::stop_jog(double now) {
         jog_stopping_ = true;
         jog_until_.reset();
         jog_feed_.cancel();
+        rest_reports_ = 0;
         cancel_jog(now);
         next_poll_ = now;
     }
@@ -66,8 +69,8 @@ void Session::pump_jog() {
     if (stage_ != Stage::jogging || jog_stopping_ || !window_.empty()) {
         return;
     }
-    if (const auto slice = jog_feed_.next(readout_.machine_position, feed(), jog_limits())) {
-        std::string text = jog_line(*slice);
+    if (const auto slice = jog_feed_.next(eigen_of(readout_.machine_position), feed(), jog_limits())) {
+        std::string text = jog_line(*slice, readout_.axes);
         output_ += text;
         window_.push({LineKind::jog, std::move(text), -1, 0.0});
         rest_reports_ = 0;
@@ -83,9 +86,12 @@ internal::JogLimits Session::jog_limits() const {
         return found != readout_.settings.end() && found->second > 0.0 ? found->second : otherwise;
     };
     internal::JogLimits limits;
-    for (std::size_t n = 0; n < limits.rate.size(); ++n) {
+    limits.spare_time = facts().jog_time;
+    const Eigen::Index axes = std::ssize(readout_.axes);
+    limits.rate = limits.acceleration = kinematics::AxisPositions::Zero(axes);
+    for (Eigen::Index n = 0; n < axes; ++n) {
         const int axis = static_cast<int>(n);
-        constexpr double slow = 600.0; // mm/min and mm/s^2, for a controller that does not tell
+        constexpr double slow = 600.0; // mm/min and mm/s^2, or degrees, for a controller that reports none
         constexpr double weak = 10.0;
         limits.rate[n] = setting(first_rate + axis, slow) / seconds_per_minute;
         limits.acceleration[n] = setting(first_acceleration + axis, weak);

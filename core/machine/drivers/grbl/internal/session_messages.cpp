@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 
 namespace millwright::machine::grbl {
 
@@ -16,6 +14,16 @@ namespace {
 std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') {
         text.pop_back();
+    }
+    return text;
+}
+
+/// What of a line can be shown.
+std::string printable(std::string_view line) {
+    constexpr std::size_t enough = 40;
+    std::string text;
+    for (const char c : line.substr(0, enough)) {
+        text += c >= ' ' && c <= '~' ? c : '.';
     }
     return text;
 }
@@ -32,6 +40,9 @@ void Session::begin_asking(double now, bool unlock) {
     unlock_ = unlock;
     ending_since_ = now;
     message_.clear();
+    asked_more_ = false;
+    found_alarm_.clear();
+    kept_lock_.clear();
     window_ = Window(readout_.buffer_bytes, true);
     send_reset(now);
 }
@@ -78,7 +89,7 @@ void Session::finish(double now) {
 /// A refused command is no longer pending when it comes to its end.
 void Session::take_zeros() {
     for (const ProgramLine& line : program_.lines) {
-        doubt_.zeroed(axes_zeroed_by(line.text));
+        doubt_.zeroed(axes_zeroed_by(line.text, readout_.axes), readout_.axes);
     }
 }
 
@@ -91,19 +102,24 @@ void Session::finish_asking(const StatusMessage& report) {
         return;
     }
     stage_ = Stage::alarm;
-    message_ = report.state == MachineState::alarm
-                   ? "Grbl is locked: home the machine, or reset to unlock it where it stands"
-                   : "Grbl is neither idle nor locked after its reset: the door is open, or it sleeps";
+    if (report.state != MachineState::alarm) {
+        message_ = name() + " is neither idle nor locked after its reset: the door is open, or it sleeps";
+        return;
+    }
+    message_ = !kept_lock_.empty() ? fmt::format("{} stays locked, {}", name(), kept_lock_)
+               : !found_alarm_.empty()
+                   ? fmt::format("{} is locked, {}", name(), found_alarm_)
+                   : name() + " is locked: home the machine, or reset to unlock it where it stands";
 }
 
 /// After the link was made: nobody knows what happened before.
 void Session::doubt_what_was_found(const StatusMessage& report) {
     if (report.state == MachineState::alarm) {
-        doubt_.arise("Grbl was locked when it was found: after an alarm, or since it was switched on");
+        doubt_.arise(name() + " was locked when it was found: after an alarm, or since it was switched on");
     } else if (std::ranges::all_of(readout_.machine_position,
                                    [](double axis) { return exactly_equal(axis, 0.0); })) {
         constexpr bool known_loss = false; // where its zero was set since, all is well
-        doubt_.arise("Grbl is at zero in all axes, as it is after it was switched on and not homed",
+        doubt_.arise(name() + " is at zero in all axes, as it is after it was switched on and not homed",
                      known_loss);
     }
 }
@@ -113,6 +129,10 @@ void Session::handle_line(std::string_view line, double now) {
         return;
     }
     const Message message = read_message(line);
+    const bool meets = stage_ == Stage::greeting || stage_ == Stage::asking;
+    if (meets && std::holds_alternative<Garbage>(message) && stray_line_.empty()) {
+        stray_line_ = printable(line);
+    }
     if (!std::holds_alternative<Garbage>(message) && !std::holds_alternative<Blank>(message)) { // not noise
         last_heard_ = now;
     }
@@ -155,9 +175,11 @@ void Session::refused(const SentLine& line, const std::string& why, double now) 
         const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
         fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);
     } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
-        ask_next(); // an older Grbl that does not know the question
+        kept_lock_ = line.text == "$X\n" ? why : kept_lock_;
+        ask_next(); // one that does not know the question
     } else {
         jog_feed_.cancel();
+        jog_refused_ = line.kind == LineKind::jog;
         message_ = why;
         stage_ = line.kind == LineKind::home && stage_ == Stage::homing ? Stage::alarm : stage_;
     }
@@ -194,17 +216,31 @@ void Session::handle(const ErrorAnswer& error, double now) {
     idle_unanswered_ = 0;
     proof_.disturbed();
     const SentLine line = window_.pop();
-    refused(line, explain_grbl_error(error.number), now);
+    if (line.kind == LineKind::jog && jog_stopping_ && error.number == facts().cancelled_jog_error) {
+        return;
+    }
+    refused(line, explain_grbl_error(error.number, readout_.firmware), now);
 }
 
 void Session::handle(const AlarmMessage& alarm, double now) {
     proof_.disturbed();
-    const std::string why = explain_grbl_alarm(alarm.number);
-    if (grbl_alarm_loses_position(alarm.number)) {
+    const std::string why = explain_grbl_alarm(alarm.number, readout_.firmware);
+    if (grbl_alarm_loses_position(alarm.number, readout_.firmware)) {
         doubt_.arise(fmt::format("after alarm {}", alarm.number));
     }
     if (stage_ == Stage::asking && resets_due_ == 0) {
-        begin_asking(now, false); // it hears nothing else from here on
+        if (grbl_alarm_needs_reset(alarm.number)) {
+            begin_asking(now, false); // it hears nothing else from here on
+        } else {
+            found_alarm_ = why;
+        }
+        return;
+    }
+    if (stage_ == Stage::asking_again && resets_due_ == 0 && !grbl_alarm_needs_reset(alarm.number)) {
+        questions_.clear(); // the reset of a stop has brought it up: another would bring it again
+        window_.clear();
+        stage_ = Stage::alarm;
+        message_ = why;
         return;
     }
     if (stage_ == Stage::flushing || stage_ == Stage::asking || resets_due_ > 0) {
@@ -213,6 +249,10 @@ void Session::handle(const AlarmMessage& alarm, double now) {
         return; // the greeting of the reset follows
     }
     if (stage_ == Stage::greeting) {
+        return;
+    }
+    if (stage_ == Stage::alarm && !grbl_alarm_loses_position(alarm.number, readout_.firmware)) {
+        append(message_, why); // of a reset that has another reason
         return;
     }
     const bool was_active = active() || stage_ == Stage::braking;
@@ -233,7 +273,9 @@ void Session::handle(const AlarmMessage& alarm, double now) {
 }
 
 void Session::handle(const Welcome& welcome, double now) {
-    readout_.version = welcome.version;
+    if (stage_ == Stage::greeting || stage_ == Stage::asking || stage_ == Stage::foreign) {
+        identify(welcome.who); // it is asked for the rest of it next
+    }
     proof_.disturbed();
     input_.clear();
     const bool expected = resets_due_ > 0 || spare_welcomes_ > 0;
@@ -243,7 +285,8 @@ void Session::handle(const Welcome& welcome, double now) {
     switch (stage_) {
     case Stage::greeting:
         readout_.began_anew = true;
-        doubt_.arise("Grbl began anew when the link was made, and counts from where the machine stood then");
+        doubt_.arise(name() +
+                     " began anew when the link was made, and counts from where the machine stood then");
         begin_asking(now, false);
         break;
     case Stage::asking:
@@ -284,33 +327,6 @@ void Session::handle(const Welcome& welcome, double now) {
     }
 }
 
-void Session::handle(const SettingMessage& setting, double) {
-    readout_.settings[setting.number] = setting.value;
-}
-
-/// V,15,128: options, planner blocks, bytes of the receive buffer.
-void Session::read_options(std::string_view text) {
-    const std::size_t comma = text.find(',');
-    readout_.line_numbers = text.substr(0, comma).find('N') != std::string_view::npos;
-    readout_.mist = text.substr(0, comma).find('M') != std::string_view::npos;
-    if (comma == std::string_view::npos) {
-        return;
-    }
-    text.remove_prefix(comma + 1);
-    int blocks = 0;
-    int bytes = 0;
-    const auto first = std::from_chars(text.data(), text.data() + text.size(), blocks);
-    if (first.ec != std::errc{} || first.ptr == text.data() + text.size()) {
-        return;
-    }
-    const auto second = std::from_chars(first.ptr + 1, text.data() + text.size(), bytes);
-    constexpr int most = 10'000;
-    if (second.ec == std::errc{} && blocks > 0 && blocks < most && bytes >= 80 && bytes < most) {
-        readout_.planner_blocks = blocks;
-        readout_.buffer_bytes = bytes;
-    }
-}
-
 /// A controller that repeats what it reads lets changed bytes be noticed; others do not.
 void Session::check_echo(std::string_view text, double now) {
     if (stage_ != Stage::running) {
@@ -330,25 +346,6 @@ void Session::handle(const Feedback& feedback, double now) {
     constexpr std::size_t longest = 2000;
     if (stage_ == Stage::running && at_ == Activity::command && answer_.text.size() < longest) {
         append(answer_.text, fmt::format("[{}:{}]", feedback.tag, feedback.text));
-    }
-}
-
-void Session::take_feedback(const Feedback& feedback) {
-    constexpr std::array<std::string_view, 10> offsets = {
-        "G54", "G55", "G56", "G57", "G58", "G59", "G28", "G30", "G92", "TLO"};
-    if (feedback.tag == "OPT") {
-        read_options(feedback.text);
-    } else if (feedback.tag == "GC") {
-        readout_.modes = read_modes(feedback.text, report_unit());
-    } else if (feedback.tag == "PRB" && stage_ == Stage::running) { // else it was asked for
-        if (const auto result = read_probe_result(feedback.text)) {
-            readout_.probe = ProbeResult{scaled(result->position), result->touched};
-            ++readout_.probings;
-        }
-    } else if (std::ranges::find(offsets, feedback.tag) != offsets.end()) {
-        if (const auto offset = read_offset(feedback.text)) {
-            readout_.offsets[feedback.tag] = scaled(*offset);
-        }
     }
 }
 

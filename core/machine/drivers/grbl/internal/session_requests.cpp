@@ -13,17 +13,24 @@ void Session::require_rest(std::string_view what) const {
         return;
     }
     if (stage_ == Stage::foreign) {
-        throw Error(fmt::format("Grbl takes no {}: {}", what, message_),
+        throw Error(fmt::format("{} takes no {}: {}", name(), what, message_),
                     {},
                     "wait until it stands; the window can hold and stop it meanwhile");
     }
-    throw Error(fmt::format("Grbl is {} and takes no {}", in_words(status().state), what),
+    throw Error(fmt::format("{} is {} and takes no {}", name(), in_words(status().state), what),
                 {},
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
 }
 
 void Session::start(ProgramLines program, double now, std::function<int(int)> ahead) {
     require_rest("program");
+    if (const std::string_view mode = unfollowed_mode(readout_.modes.text); !mode.empty()) {
+        throw Error(
+            fmt::format(
+                "{} has {} in force, which bends every path in a way that is not checked here", name(), mode),
+            {},
+            mode == "G51" ? "cancel it with G50" : "cancel it with G8");
+    }
     ahead_.begin(std::move(ahead), program.blocks);
     begin(std::move(program), Activity::program, now);
 }
@@ -39,7 +46,7 @@ int Session::command(ProgramLines lines, double now) {
 void Session::begin(ProgramLines program, Activity activity, double now) {
     program_ = std::move(program);
     at_ = activity;
-    proof_ = Proof(program_, readout_.planner_blocks);
+    proof_ = Proof(program_, readout_.planner_blocks, readout_.segment_blocks);
     window_ = Window(readout_.buffer_bytes, settings_.one_by_one || activity == Activity::command);
     proof_closed_ = false;
     next_line_ = 0;
@@ -73,7 +80,7 @@ void Session::hold(double now) {
         hold_wanted_ = true;
         held_ = false;
         hold_sent_ = now;
-        output_ += '!';
+        output_ += hold_byte();
     } else if (stage_ == Stage::jogging) {
         stop_jog(now);
     }
@@ -91,7 +98,7 @@ void Session::resume(double now) {
         hold_wanted_ = held_ = false;
         resume_sent_ = now;
         message_.clear();
-        output_ += '~';
+        output_ += resume_byte();
         pump();
     }
 }
@@ -166,7 +173,7 @@ void Session::home(double now) {
 
 void Session::set_overrides(const Overrides& wanted) {
     if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
-        throw Error(fmt::format("Grbl is {} and takes no overrides", in_words(status().state)));
+        throw Error(fmt::format("{} is {} and takes no overrides", name(), in_words(status().state)));
     }
     overrides_.want(wanted);
 }

@@ -1,4 +1,5 @@
 // What a session knows, in the words of the Driver interface.
+#include "core/machine/drivers/grbl/internal/axis_units.h"
 #include "core/machine/drivers/grbl/internal/session.h"
 
 #include <fmt/format.h>
@@ -78,11 +79,9 @@ DriverStatus Session::status() const {
 }
 
 void Session::show_machine(DriverStatus& status) const {
-    const auto vector = [](const Axes& axes) {
-        return kinematics::AxisPositions{Vec3(axes[0], axes[1], axes[2])};
-    };
+    const auto vector = [this](const Axes& axes) { return positions_of(axes, readout_.axes); };
     status.position = vector(readout_.machine_position);
-    status.velocity = kinematics::AxisPositions::Zero(3);
+    status.velocity = kinematics::AxisPositions::Zero(std::ssize(readout_.axes));
     status.work_offset = vector(readout_.offset);
     status.feed = feed();
     status.spindle_rpm = readout_.spindle_rpm;
@@ -95,7 +94,7 @@ void Session::show_machine(DriverStatus& status) const {
     status.flood = modes.flood;
     status.tool = modes.tool;
     const auto pin = [this](char letter) { return readout_.pins.find(letter) != std::string::npos; };
-    for (const char axis : {'X', 'Y', 'Z'}) {
+    for (const char axis : readout_.axes) {
         status.inputs.limits.append(pin(axis) ? 1 : 0, axis);
     }
     status.inputs.probe = pin('P');

@@ -143,7 +143,7 @@ void ShellSession::jog(const Jog& jog, double now) {
     linear.way = jog.way.head(std::min<Eigen::Index>(3, jog.way.size()));
     if (stage_ != Stage::jogging) {
         finish(Stage::jogging);
-        jog_feed_.begin({position_[0], position_[1], position_[2]});
+        jog_feed_.begin(position_.head(3));
         quiet_rounds_ = 0;
         set("mode manual");
         set("teleop_enable on");

@@ -198,10 +198,7 @@ bool ShellSession::jog_is_over(double now) const {
     constexpr double same_place = 0.002; // mm: more than the last digit of an inch that is told
     constexpr double long_enough = 0.5;  // s
     const internal::JogFeed::Axes& target = jog_feed_.target();
-    double away = 0.0;
-    for (std::size_t n = 0; n < target.size(); ++n) {
-        away = std::hypot(away, position_[static_cast<Eigen::Index>(n)] - target[n]);
-    }
+    const double away = (position_.head(target.size()) - target).norm();
     return quiet_rounds_ >= 2 && (away < same_place || now - last_noise_ > long_enough);
 }
 
@@ -225,17 +222,18 @@ void ShellSession::pump_jog() {
         return;
     }
     internal::JogLimits limits;
-    limits.rate.fill(std::numeric_limits<double>::max());
-    limits.acceleration.fill(settings_.jog_acceleration);
+    constexpr Eigen::Index jogged_axes = 3;
+    limits.rate.setConstant(jogged_axes, std::numeric_limits<double>::max());
+    limits.acceleration.setConstant(jogged_axes, settings_.jog_acceleration);
     constexpr double seconds_per_minute = 60.0;
-    while (const auto slice = jog_feed_.next({position_[0], position_[1], position_[2]}, speed_, limits)) {
-        const double length = std::hypot(slice->way[0], slice->way[1], slice->way[2]);
-        for (std::size_t n = 0; n < slice->way.size(); ++n) {
+    while (const auto slice = jog_feed_.next(position_.head(jogged_axes), speed_, limits)) {
+        const double length = slice->way.norm();
+        for (Eigen::Index n = 0; n < slice->way.size(); ++n) {
             const double way = slice->way[n];
             if (std::abs(way) > 0.0) {
                 const double speed = slice->speed * std::abs(way) / length * seconds_per_minute / unit();
                 set(fmt::format("jog_incr {} {} {}",
-                                all_letters[n],
+                                all_letters[static_cast<std::size_t>(n)],
                                 fixed(std::copysign(std::max(1e-3, speed), way), 4),
                                 fixed(std::abs(way) / unit(), 5)));
             }

@@ -93,7 +93,11 @@ ArcPoints arc_points(const ArcWords& arc) {
         Axes point{};
         point[axes.first] = arc.from[axes.first] + center.first + center.radius * std::cos(angle);
         point[axes.second] = arc.from[axes.second] + center.second + center.radius * std::sin(angle);
-        point[axes.normal] = arc.from[axes.normal] + (arc.to[axes.normal] - arc.from[axes.normal]) * part;
+        for (std::size_t axis = 0; axis < point.size(); ++axis) {
+            if (axis != axes.first && axis != axes.second) {
+                point[axis] = arc.from[axis] + (arc.to[axis] - arc.from[axis]) * part;
+            }
+        }
         result.points.push_back(point);
     }
     result.points.push_back(arc.to);

@@ -1,5 +1,7 @@
 #include "core/machine/emulators/grbl/internal/controller.h"
 
+#include "core/machine/emulators/grbl/internal/error_codes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +18,14 @@ constexpr double never = std::numeric_limits<double>::max();
 } // namespace
 
 Controller::Controller(GrblEmulatorOptions options)
-    : options_(std::move(options)), eeprom_(read_eeprom(options_.eeprom_file)), planner_(eeprom_),
-      stepper_(planner_, [this](std::int64_t owner) { block_done(owner); }) {
+    : options_(std::move(options)), build_{options_.firmware, options_.axes, options_.mist},
+      eeprom_(read_eeprom(options_.eeprom_file, build_)),
+      planner_(eeprom_, sizes_of(build_.firmware).planner_blocks),
+      stepper_(
+          planner_, sizes_of(build_.firmware).segments, [this](std::int64_t owner) { block_done(owner); }),
+      input_(sizes_of(build_.firmware).receive_bytes,
+             sizes_of(build_.firmware).longest_line,
+             build_.is(EmulatedFirmware::fluidnc)) {
     power_on();
 }
 
@@ -96,6 +104,7 @@ void Controller::after_motion() {
             reset(); // as the real one does, which greets then
         } else {
             state_ = State::idle;
+            homed_ = true;
             report_.show_offset_next();
             run_startup_lines(); // the answer to $H follows when these are done
         }
@@ -107,6 +116,9 @@ void Controller::after_motion() {
     }
     if (jog_cancel_ && stepper_.at_rest()) {
         jog_cancel_ = false;
+        if (build_.is(EmulatedFirmware::fluidnc) && !tasks_.empty()) {
+            acknowledge(error_code::jog_cancelled);
+        }
         tasks_.clear();
         stepper_.halt();
         modes_.position = stepper_.position();
@@ -134,7 +146,8 @@ void Controller::work() {
         if (override_flags_.any() && !homing_ && !critical_) {
             take_overrides();
         }
-        const bool suspended = state_ == State::hold || state_ == State::door || jog_cancel_ || trip_;
+        const bool suspended =
+            state_ == State::hold || state_ == State::door || state_ == State::tool || jog_cancel_ || trip_;
         if (critical_ || suspended || homing_ || state_ == State::sleep) {
             return;
         }
@@ -162,6 +175,7 @@ void Controller::execute(const InputLine& line) {
     constexpr int too_long = 11;
     constexpr int locked = 9;
     if (line.too_long) {
+        last_error_ = build_.is(EmulatedFirmware::grblhal) ? too_long : 0;
         acknowledge(too_long);
         return;
     }
@@ -174,8 +188,11 @@ void Controller::execute(const InputLine& line) {
     if (line.text.starts_with('$')) {
         error = system_command(line.text);
     } else if (!line.text.empty()) {
-        error = state_ == State::alarm || state_ == State::jog ? locked : execute_gcode(line.text);
+        error = state_ == State::alarm || state_ == State::jog ? locked
+                : last_error_ != 0                             ? last_error_
+                                                               : execute_gcode(line.text);
     }
+    last_error_ = build_.is(EmulatedFirmware::grblhal) ? error : 0;
     if (error != 0) {
         answer_due_ = false;
         tasks_.clear();
@@ -184,7 +201,7 @@ void Controller::execute(const InputLine& line) {
 }
 
 int Controller::execute_gcode(const std::string& text) {
-    const Parsed parsed = parse_line(text, modes_, eeprom_, options_.mist);
+    const Parsed parsed = parse_line(text, modes_, eeprom_, build_);
     if (parsed.error != 0) {
         return parsed.error;
     }
@@ -220,8 +237,8 @@ void Controller::watch_limits() {
     if (!eeprom_.is_on(hard_limits)) {
         return;
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        const double at = stepper_.position()[static_cast<std::size_t>(axis)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double at = stepper_.position()[axis];
         constexpr double switch_travel = 0.001;
         if (at > switch_travel || at < -eeprom_.axis_setting(travel, axis) - switch_travel) {
             alarm(hit);
@@ -244,7 +261,10 @@ void Controller::watch_probe(const Axes& before) {
     }
     constexpr int halvings = 40;
     for (int n = 0; n < halvings; ++n) {
-        const Axes middle = {0.5 * (near[0] + far[0]), 0.5 * (near[1] + far[1]), 0.5 * (near[2] + far[2])};
+        Axes middle = near;
+        for (std::size_t axis = 0; axis < middle.size(); ++axis) {
+            middle[axis] = 0.5 * (near[axis] + far[axis]);
+        }
         (triggered(middle) ? far : near) = middle;
     }
     probe_.touched = true;

@@ -23,7 +23,7 @@ namespace millwright::machine::emulated {
 /// From 0x90, all feeds to their standard, to 0xA1, the mist.
 constexpr std::size_t override_bytes = 0xA2 - 0x90;
 
-enum class State { idle, run, hold, jog, alarm, door, check, home, sleep };
+enum class State { idle, run, hold, jog, alarm, door, check, home, sleep, tool };
 
 class Controller {
 public:
@@ -36,7 +36,8 @@ public:
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] const Axes& position() const { return stepper_.position(); }
     [[nodiscard]] bool moving() const { return !stepper_.at_rest() || state_ == State::home; }
-    [[nodiscard]] int planned_blocks() const { return Planner::capacity - planner_.free_blocks(); }
+    [[nodiscard]] int planned_blocks() const { return planner_.capacity() - planner_.free_blocks(); }
+    [[nodiscard]] const Build& build() const { return build_; }
     [[nodiscard]] Truth truth() const;
 
     void hit_limit_switch();
@@ -55,6 +56,8 @@ private:
     void take_overrides();
     void change_accessory(unsigned char byte);
     void report_status();
+    [[nodiscard]] bool take_realtime(unsigned char byte);
+    [[nodiscard]] bool needs_homing() const;
     [[nodiscard]] std::string_view state_text() const;
     void greet();
     void run_startup_lines();
@@ -73,6 +76,7 @@ private:
     [[nodiscard]] int startup_line(std::string_view line);
     [[nodiscard]] int store_setting(std::string_view line);
     [[nodiscard]] int build_info(std::string_view line);
+    [[nodiscard]] int named_setting(std::string_view line);
     void store(const Eeprom& eeprom);
     [[nodiscard]] const Eeprom& eeprom_to_be() const { return pending_eeprom_ ? *pending_eeprom_ : eeprom_; }
 
@@ -104,6 +108,7 @@ private:
     void say(std::string_view text) { output_ += text; }
 
     GrblEmulatorOptions options_;
+    Build build_;
     Eeprom eeprom_;
     std::optional<Eeprom> pending_eeprom_; ///< what a task will store
     Modes modes_;
@@ -131,6 +136,10 @@ private:
     bool paused_ = false; ///< by M0
     std::optional<Homing> homing_;
     bool status_asked_ = false;
+    bool all_asked_ = false; ///< of a grblHAL: every field
+    int last_error_ = 0;     ///< of a grblHAL, which refuses G-code with it until a $ line was right
+    int last_alarm_ = 0;
+    bool homed_ = false;
     bool critical_ = false; ///< only a reset helps
     bool jog_cancel_ = false;
     std::optional<int> trip_; ///< alarm to raise as soon as it is at rest

@@ -36,10 +36,10 @@ Record settings_record(const Eeprom& eeprom) {
     return record;
 }
 
-Record offset_record(const Axes& axes) {
+Record offset_record(const Axes& axes, std::size_t count) {
     Record record;
-    for (const double axis : axes) {
-        append(record, axis);
+    for (std::size_t n = 0; n < count; ++n) {
+        append(record, axes[n]);
     }
     return record;
 }
@@ -54,10 +54,10 @@ Record line_record(const std::string& text) {
 std::vector<Record> records_of(const Eeprom& eeprom) {
     std::vector<Record> records{settings_record(eeprom)};
     for (const Axes& offset : eeprom.work_offsets) {
-        records.push_back(offset_record(offset));
+        records.push_back(offset_record(offset, eeprom.axis_count));
     }
-    records.push_back(offset_record(eeprom.g28));
-    records.push_back(offset_record(eeprom.g30));
+    records.push_back(offset_record(eeprom.g28, eeprom.axis_count));
+    records.push_back(offset_record(eeprom.g30, eeprom.axis_count));
     for (const std::string& line : eeprom.startup_lines) {
         records.push_back(line_record(line));
     }

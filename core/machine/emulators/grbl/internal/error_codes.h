@@ -1,4 +1,4 @@
-// The error numbers that Grbl 1.1 answers, as in `error:22`.
+// The error numbers that Grbl 1.1 answers, as in `error:22`, and some of its kin.
 #pragma once
 
 namespace millwright::machine::emulated::error_code {
@@ -34,5 +34,9 @@ constexpr int no_offset_in_plane = 35;
 constexpr int unused_words = 36;
 constexpr int wrong_length_axis = 37;
 constexpr int no_such_tool = 38;
+constexpr int homing_required = 46; ///< of a grblHAL
+constexpr int jog_cancelled = 130;  ///< of a FluidNC, as the next two
+constexpr int no_such_setting = 151;
+constexpr int read_only_setting = 162;
 
 } // namespace millwright::machine::emulated::error_code

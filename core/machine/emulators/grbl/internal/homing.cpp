@@ -26,7 +26,7 @@ Homing::Homing(const Eeprom& eeprom, const Axes& begin, bool switches_broken)
         Axes clear = planned_;
         for (const unsigned axis : axes) {
             const bool negative = ((mask >> axis) & 1U) != 0;
-            const double length = eeprom.axis_setting(travel, static_cast<int>(axis));
+            const double length = eeprom.axis_setting(travel, axis);
             on[axis] = negative ? -length : 0.0;
             clear[axis] = on[axis] + (negative ? off : -off);
         }

@@ -1,5 +1,6 @@
 #include "core/machine/emulators/grbl/internal/input.h"
 
+#include <algorithm>
 #include <cctype>
 #include <utility>
 
@@ -40,14 +41,24 @@ void Input::add(char byte) {
         comment_ = byte == '(' ? Comment::parentheses : Comment::to_end;
         return;
     }
-    if (byte <= ' ' || byte == '/') {
+    const bool read_over = byte == '/' && !(slashes_ && line_.text.starts_with('$'));
+    if (byte <= ' ' || read_over) {
         return;
     }
-    if (line_.text.size() >= longest_line) {
+    if (line_.text.size() >= longest_line_) {
         line_.too_long = true;
         return;
     }
     line_.text += static_cast<char>(std::toupper(static_cast<unsigned char>(byte)));
+}
+
+bool Input::in_system_line() const {
+    const auto end_of_line = [](const Byte& byte) { return byte.value == '\n' || byte.value == '\r'; };
+    const auto last = std::find_if(bytes_.rbegin(), bytes_.rend(), end_of_line);
+    const bool whole = last == bytes_.rend(); // what was taken already belongs to it
+    const std::string& begun = line_.text;
+    return whole && !begun.empty() ? begun.front() == '$'
+                                   : last.base() != bytes_.end() && last.base()->value == '$';
 }
 
 void Input::clear() {

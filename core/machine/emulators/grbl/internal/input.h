@@ -16,10 +16,14 @@ struct InputLine {
 
 class Input {
 public:
-    static constexpr int capacity = 128;
-    static constexpr std::size_t longest_line = 79;
+    /// `slashes`: they are a part of $ lines; elsewhere they are read over.
+    Input(int capacity, std::size_t longest_line, bool slashes)
+        : capacity_(capacity), longest_line_(longest_line), slashes_(slashes) {}
 
-    [[nodiscard]] int free_bytes() const { return capacity - static_cast<int>(bytes_.size()); }
+    [[nodiscard]] int capacity() const { return capacity_; }
+    [[nodiscard]] int free_bytes() const { return capacity_ - static_cast<int>(bytes_.size()); }
+    /// The line that comes in now begins with $.
+    [[nodiscard]] bool in_system_line() const;
     [[nodiscard]] bool empty() const { return bytes_.empty(); }
     /// `arrived`: when, s. False if there is no room: the byte is lost.
     bool push(char byte, double arrived);
@@ -37,6 +41,9 @@ private:
     };
     void add(char byte);
 
+    int capacity_;
+    std::size_t longest_line_;
+    bool slashes_;
     std::deque<Byte> bytes_;
     InputLine line_;
     Comment comment_ = Comment::none;

@@ -13,11 +13,10 @@ namespace millwright::machine::emulated {
 
 namespace {
 
-constexpr std::string_view axis_letters = "XYZ";
-
 class Parser {
 public:
-    Parser(const Words& words, const Modes& modes, const Eeprom& eeprom) : words_(words), before_(modes) {
+    Parser(const Words& words, const Modes& modes, const Eeprom& eeprom, const Build& build)
+        : words_(words), before_(modes), build_(build) {
         result_.modes = modes;
         result_.eeprom = eeprom;
     }
@@ -50,7 +49,7 @@ public:
                             (words_.non_modal >= 0 && words_.non_modal != 530);
         const Modes before = result_.modes;
         result_.error = others                                  ? error_code::bad_jog
-                        : !words_.has_axes()                    ? error_code::no_axes
+                        : !has_axes()                           ? error_code::no_axes
                         : words_.value('F').value_or(0.0) > 0.0 ? error_code::none
                                                                 : error_code::no_feed;
         if (result_.error != error_code::none) {
@@ -70,6 +69,7 @@ public:
 private:
     const Words words_;
     const Modes before_;
+    const Build& build_;
     Parsed result_;
     std::string used_;
     Axes target_{};
@@ -78,6 +78,10 @@ private:
     Modes& modes() { return result_.modes; }
     Eeprom& eeprom() { return result_.eeprom; }
     void use(std::string_view letters) { used_ += letters; }
+    [[nodiscard]] bool has_axes() const { return words_.has_axes(build_.axes); }
+    [[nodiscard]] double unit_of(std::size_t axis) const {
+        return axis_unit(axis, result_.modes.inches, result_.eeprom, build_);
+    }
     [[nodiscard]] double unit() const { return result_.modes.inches ? mm_per_inch : 1.0; }
     void add(Action action) { result_.tasks.push_back({.action = action}); }
 
@@ -109,7 +113,7 @@ private:
         if (words_.coordinates >= 0) {
             modes().coordinates = (words_.coordinates - 540) / 10;
         }
-        if (words_.has_axes() && axis_use_ == AxisUse::none) {
+        if (has_axes() && axis_use_ == AxisUse::none) {
             axis_use_ = AxisUse::motion;
         }
         return error_code::none;
@@ -169,7 +173,8 @@ private:
             modes().tool_length = false;
             modes().tool_length_offset = 0.0;
         } else if (words_.tool_length == 431) {
-            if (words_.has('X') || words_.has('Y') || !words_.has('Z')) {
+            const auto others = std::ranges::count_if(build_.axes, [this](char c) { return words_.has(c); });
+            if (others != 1 || !words_.has('Z')) {
                 return error_code::wrong_length_axis;
             }
             use("Z");
@@ -186,13 +191,13 @@ private:
             return error_code::none;
         }
         const Axes offset = work_offset(modes(), eeprom());
-        for (std::size_t n = 0; n < target_.size(); ++n) {
-            const auto& word = words_.value(axis_letters[n]);
+        for (std::size_t n = 0; n < build_.axis_count(); ++n) {
+            const auto& word = words_.value(build_.axes[n]);
             if (!word) {
                 continue;
             }
-            use(axis_letters.substr(n, 1));
-            const double way = *word * unit();
+            use(build_.axes.substr(n, 1));
+            const double way = *word * unit_of(n);
             const bool in_machine = words_.non_modal == 530; // in incremental mode too
             target_[n] = in_machine ? way : way + (modes().absolute ? offset[n] : target_[n]);
         }
@@ -233,9 +238,9 @@ private:
     /// By way of the axis words' point, if there are any; then only these axes go home.
     void go_home(const Axes& home) {
         Axes end = modes().position;
-        const bool all = !words_.has_axes();
-        for (std::size_t n = 0; n < end.size(); ++n) {
-            end[n] = all || words_.has(axis_letters[n]) ? home[n] : end[n];
+        const bool all = !has_axes();
+        for (std::size_t n = 0; n < build_.axis_count(); ++n) {
+            end[n] = all || words_.has(build_.axes[n]) ? home[n] : end[n];
         }
         Task task{.action = Action::move, .points = {end}, .rapid = true};
         if (!all) {
@@ -246,7 +251,7 @@ private:
     }
 
     int set_offset() {
-        if (!words_.has_axes()) {
+        if (!has_axes()) {
             return error_code::no_axes;
         }
         if (!words_.has('P') && !words_.has('L')) { // one of them is enough for the real one, too
@@ -265,9 +270,9 @@ private:
         use("PL");
         const int slot = which < 1 ? modes().coordinates : which - 1;
         Axes& offset = eeprom().work_offsets[static_cast<std::size_t>(slot)];
-        for (std::size_t n = 0; n < offset.size(); ++n) {
-            if (const auto& word = words_.value(axis_letters[n])) {
-                const double value = *word * unit();
+        for (std::size_t n = 0; n < build_.axis_count(); ++n) {
+            if (const auto& word = words_.value(build_.axes[n])) {
+                const double value = *word * unit_of(n);
                 const double other = modes().g92[n] + (n == 2 ? modes().tool_length_offset : 0.0);
                 offset[n] = how > 2 ? modes().position[n] - other - value : value;
             }
@@ -280,13 +285,13 @@ private:
     }
 
     int shift_coordinates() {
-        if (!words_.has_axes()) {
+        if (!has_axes()) {
             return error_code::no_axes;
         }
         const Axes offset = work_offset(modes(), eeprom());
-        for (std::size_t n = 0; n < offset.size(); ++n) {
-            if (const auto& word = words_.value(axis_letters[n])) {
-                modes().g92[n] += modes().position[n] - offset[n] - *word * unit();
+        for (std::size_t n = 0; n < build_.axis_count(); ++n) {
+            if (const auto& word = words_.value(build_.axes[n])) {
+                modes().g92[n] += modes().position[n] - offset[n] - *word * unit_of(n);
             }
         }
         add(Action::offset);
@@ -294,7 +299,7 @@ private:
     }
 
     int take_motion() {
-        if (modes().motion == 800 && words_.has_axes()) { // also beside G10, G92 and G43.1
+        if (modes().motion == 800 && has_axes()) { // also beside G10, G92 and G43.1
             return error_code::axes_without_motion;
         }
         if (axis_use_ != AxisUse::motion || modes().motion == 800) {
@@ -305,7 +310,7 @@ private:
         if (modes().motion != 0 && !(modes().feed > 0.0)) {
             return error_code::no_feed;
         }
-        if (!words_.has_axes()) {
+        if (!has_axes()) {
             return arc || probe ? error_code::no_axes : error_code::none;
         }
         Task task{.action = probe ? Action::probe : Action::move,
@@ -337,9 +342,9 @@ private:
         arc.plane = result_.modes.plane;
         arc.clockwise = result_.modes.motion == 20;
         arc.tolerance = result_.eeprom.setting(12);
-        for (std::size_t n = 0; n < axis_letters.size(); ++n) {
-            constexpr std::string_view offset_letters = "IJK";
-            arc.has_axis[n] = words_.has(axis_letters[n]);
+        constexpr std::string_view offset_letters = "IJK";
+        for (std::size_t n = 0; n < offset_letters.size(); ++n) {
+            arc.has_axis[n] = words_.has(build_.axes[n]);
             if (const auto& offset = words_.value(offset_letters[n])) {
                 arc.offset[n] = *offset * unit();
             }
@@ -351,6 +356,9 @@ private:
     }
 
     int take_flow() {
+        if (words_.changes_tool) {
+            add(Action::tool);
+        }
         if (words_.flow == 0) {
             add(Action::pause);
         } else if (words_.flow == 20 || words_.flow == 300) {
@@ -388,6 +396,11 @@ std::string command_text(char letter, int tenths) {
                             : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
 }
 
+/// What a grblHAL shows of tool length, retract mode and scaling, between G94 and the spindle.
+std::string modes_of_grblhal(const Modes& modes) {
+    return modes.tool_length ? " G43.1 G98 G50" : " G49 G98 G50";
+}
+
 } // namespace
 
 Axes work_offset(const Modes& modes, const Eeprom& eeprom) {
@@ -399,29 +412,37 @@ Axes work_offset(const Modes& modes, const Eeprom& eeprom) {
     return offset;
 }
 
-Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist) {
-    const ReadWords read = read_words(line, mist);
+Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom, const Build& build) {
+    const ReadWords read = read_words(line, build);
     return read.error != error_code::none ? failed(read.error, modes, eeprom)
-                                          : Parser(read.words, modes, eeprom).line();
+                                          : Parser(read.words, modes, eeprom, build).line();
 }
 
-Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist) {
-    const ReadWords read = read_words(line, mist);
+Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom, const Build& build) {
+    const ReadWords read = read_words(line, build);
     return read.error != error_code::none ? failed(read.error, modes, eeprom)
-                                          : Parser(read.words, modes, eeprom).jog();
+                                          : Parser(read.words, modes, eeprom, build).jog();
 }
 
-std::string modes_report(const Modes& modes, bool report_inches) {
+double axis_unit(std::size_t n, bool inches, const Eeprom& eeprom, const Build& build) {
+    constexpr std::size_t first = 3;
+    const bool degrees = build.is_rotary(n) && (!build.is(EmulatedFirmware::grblhal) ||
+                                                eeprom.has_bit(rotary_mask_setting, n - first));
+    return inches && !degrees ? mm_per_inch : 1.0;
+}
+
+std::string modes_report(const Modes& modes, bool report_inches, const Build& build) {
     std::string coolant = modes.mist ? " M7" : "";
     coolant += modes.flood ? " M8" : "";
     coolant += coolant.empty() ? " M9" : "";
-    return fmt::format("[GC:{} G{} {} G{} G{} G{} {}{} T{} F{:.{}f} S{:.0f}]",
+    return fmt::format("[GC:{} G{} {} G{} G{} G{}{} {}{} T{} F{:.{}f} S{:.0f}]",
                        command_text('G', modes.motion),
                        54 + modes.coordinates,
                        command_text('G', modes.plane),
                        modes.inches ? 20 : 21,
                        modes.absolute ? 90 : 91,
                        modes.inverse_time ? 93 : 94,
+                       build.is(EmulatedFirmware::grblhal) ? modes_of_grblhal(modes) : std::string(),
                        command_text('M', modes.spindle),
                        coolant,
                        modes.tool,

@@ -35,6 +35,7 @@ enum class Action {
     store,   ///< writes the EEPROM
     offset,  ///< the work offset has changed; waits for rest
     pause,   ///< M0
+    tool,    ///< M6
     restart, ///< after $RST
     end      ///< M2, M30
 };
@@ -61,14 +62,18 @@ struct Parsed {
 /// What is added to work coordinates to get machine coordinates.
 [[nodiscard]] Axes work_offset(const Modes& modes, const Eeprom& eeprom);
 
-/// `line` without blanks and comments, in capitals; `mist`: as in read_words.
+/// `line` without blanks and comments, in capitals.
 [[nodiscard]] Parsed
-parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist = false);
+parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom, const Build& build);
 /// What follows `$J=`: one straight move, which changes no mode but the position.
 [[nodiscard]] Parsed
-parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist = false);
+parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom, const Build& build);
+
+/// Millimetres of a programmed unit of axis number `n`: 1 for degrees, unless a grblHAL takes the axis for a
+/// length.
+[[nodiscard]] double axis_unit(std::size_t n, bool inches, const Eeprom& eeprom, const Build& build);
 
 /// `[GC:...]` without the brackets' line end.
-[[nodiscard]] std::string modes_report(const Modes& modes, bool report_inches);
+[[nodiscard]] std::string modes_report(const Modes& modes, bool report_inches, const Build& build);
 
 } // namespace millwright::machine::emulated

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace millwright::machine::emulated {
 
@@ -18,7 +19,7 @@ constexpr double percent = 0.01;
 constexpr double straight = 0.999999; // cosine beyond which a corner is none, or a full turn
 
 double length_of(const Axes& v) {
-    return std::hypot(v[0], v[1], v[2]);
+    return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
 }
 
 } // namespace
@@ -26,8 +27,8 @@ double length_of(const Axes& v) {
 /// The greatest amount along `unit` that keeps each axis within its own.
 double Planner::limit_along(int first_setting, const Axes& unit) const {
     double limit = std::numeric_limits<double>::max();
-    for (int axis = 0; axis < 3; ++axis) {
-        const double part = std::abs(unit[static_cast<std::size_t>(axis)]);
+    for (std::size_t axis = 0; axis < eeprom_->axis_count; ++axis) {
+        const double part = std::abs(unit[axis]);
         if (part > 0.0) {
             limit = std::min(limit, eeprom_->axis_setting(first_setting, axis) / part);
         }
@@ -79,8 +80,8 @@ bool Planner::add(const Move& move) {
     block.move = move;
     block.from = position_;
     bool moves = false;
-    for (std::size_t n = 0; n < position_.size(); ++n) {
-        const double steps = eeprom_->axis_setting(steps_per_mm, static_cast<int>(n));
+    for (std::size_t n = 0; n < eeprom_->axis_count; ++n) {
+        const double steps = eeprom_->axis_setting(steps_per_mm, n);
         const double whole = std::round(move.target[n] * steps) / steps;
         block.move.target[n] = whole;
         block.unit[n] = whole - position_[n];

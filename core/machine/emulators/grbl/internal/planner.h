@@ -1,5 +1,5 @@
-// The look-ahead of an emulated Grbl: 15 blocks, straight lines in X, Y, Z, speeds in the corners by junction
-// deviation. mm, s.
+// The look-ahead of an emulated Grbl: 15 blocks (or more), straight lines in all axes, speeds in the corners
+// by junction deviation. mm, of rotary axes degrees, s.
 #pragma once
 
 #include "core/machine/emulators/grbl/internal/settings.h"
@@ -37,11 +37,10 @@ struct PlannerOverrides {
 
 class Planner {
 public:
-    static constexpr int capacity = 15;
+    Planner(const Eeprom& eeprom, int capacity) : eeprom_(&eeprom), capacity_(capacity) {}
 
-    explicit Planner(const Eeprom& eeprom) : eeprom_(&eeprom) {}
-
-    [[nodiscard]] int free_blocks() const { return capacity - static_cast<int>(blocks_.size()); }
+    [[nodiscard]] int capacity() const { return capacity_; }
+    [[nodiscard]] int free_blocks() const { return capacity_ - static_cast<int>(blocks_.size()); }
     [[nodiscard]] bool empty() const { return blocks_.empty(); }
     [[nodiscard]] const PlannedBlock& first() const { return blocks_.front(); }
     /// Where the last planned block ends.
@@ -68,6 +67,7 @@ private:
     void plan_speeds();
 
     const Eeprom* eeprom_;
+    int capacity_;
     PlannerOverrides overrides_;
     std::deque<PlannedBlock> blocks_;
     Axes position_{};

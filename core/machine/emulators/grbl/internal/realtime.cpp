@@ -42,29 +42,8 @@ void Controller::receive(unsigned char byte) {
         ++lost_bytes_;
         return;
     }
-    switch (byte) {
-    case reset_byte:
-        reset();
+    if (take_realtime(byte)) {
         return;
-    case '?':
-        status_asked_ = true;
-        return;
-    case '!':
-        hold();
-        return;
-    case '~':
-        resume();
-        return;
-    case door_byte:
-        open_door();
-        return;
-    case jog_cancel_byte:
-        if (state_ == State::jog) {
-            cancel_jog();
-        }
-        return;
-    default:
-        break;
     }
     if (byte >= first_override && byte <= toggle_mist) {
         override_flags_.set(static_cast<std::size_t>(byte - first_override));
@@ -73,6 +52,66 @@ void Controller::receive(unsigned char byte) {
     } else if (!input_.push(static_cast<char>(byte), arrived)) {
         ++lost_bytes_;
     }
+}
+
+/// False: it is none, or text where it stands.
+bool Controller::take_realtime(unsigned char byte) {
+    const bool hal = build_.is(EmulatedFirmware::grblhal);
+    const bool printable = !hal || options_.printable_realtime || !input_.in_system_line();
+    switch (byte) {
+    case reset_byte:
+        reset();
+        return true;
+    case door_byte:
+        open_door();
+        return true;
+    case jog_cancel_byte:
+        if (hal) { // what waits there is never answered
+            input_.clear();
+        }
+        if (state_ == State::jog) {
+            cancel_jog();
+        }
+        return true;
+    case '?':
+        status_asked_ = status_asked_ || printable;
+        return printable;
+    case '!':
+        if (printable) {
+            hold();
+        }
+        return printable;
+    case '~':
+        if (printable) {
+            resume();
+        }
+        return printable;
+    default:
+        break;
+    }
+    constexpr unsigned char status_byte = 0x80;
+    constexpr unsigned char resume_byte = 0x81;
+    constexpr unsigned char hold_byte = 0x82;
+    constexpr unsigned char all_byte = 0x87;
+    if (!hal || byte < status_byte || byte > all_byte) {
+        return false;
+    }
+    if (byte == status_byte || byte == all_byte) {
+        status_asked_ = true;
+        all_asked_ = all_asked_ || byte == all_byte;
+    } else if (byte == resume_byte) {
+        resume();
+    } else if (byte == hold_byte) {
+        hold();
+    }
+    return true;
+}
+
+/// A grblHAL whose $22 says so takes no G-code, and no $X, before it was homed.
+bool Controller::needs_homing() const {
+    constexpr std::size_t at_start = 2;
+    return build_.is(EmulatedFirmware::grblhal) && eeprom_.has_bit(homing_setting, 0) &&
+           eeprom_.has_bit(homing_setting, at_start) && !homed_;
 }
 
 void Controller::stop_everything() {
@@ -105,14 +144,17 @@ void Controller::alarm(int code) {
     stop_everything();
     say(fmt::format("ALARM:{}\r\n", code));
     state_ = State::alarm;
+    last_alarm_ = code;
+    homed_ = homed_ && code == soft_limit;
     if (code == hard_limit || code == soft_limit) {
-        say("[MSG:Reset to continue]\r\n");
+        say(message("Reset to continue", build_));
         critical_ = true;
     }
 }
 
 /// A probe that fails stops nothing but the motion.
 void Controller::probe_alarm(int code) {
+    last_alarm_ = code;
     say(fmt::format("ALARM:{}\r\n", code));
     state_ = State::alarm;
 }
@@ -134,7 +176,8 @@ void Controller::reset() {
     override_flags_.reset();
     planner_.set_overrides({});
     report_ = {};
-    status_asked_ = false;
+    status_asked_ = all_asked_ = false;
+    last_error_ = 0;
     critical_ = false;
     if (state_ != State::alarm && state_ != State::sleep) {
         state_ = State::idle;
@@ -146,18 +189,42 @@ void Controller::power_on() {
     state_ = eeprom_.is_on(homing_setting) ? State::alarm : State::idle;
     stepper_.stand_at({});
     modes_ = {};
+    homed_ = false;
+    last_alarm_ = 0;
+    if (build_.is(EmulatedFirmware::fluidnc)) { // its processor's boot loader speaks first
+        say("ets Jul 29 2019 12:21:46\r\n\r\nrst:0x1 (POWERON_RESET),boot:0x13 (SPI_FAST_FLASH_BOOT)\r\n");
+        say(message("FluidNC v3.7.12", build_));
+    }
     reset();
 }
 
 void Controller::greet() {
-    say("\r\nGrbl 1.1h ['$' for help]\r\n");
+    switch (build_.firmware) {
+    case EmulatedFirmware::grblhal:
+        say("\r\nGrblHAL 1.1f ['$' or '$HELP' for help]\r\n");
+        break;
+    case EmulatedFirmware::fluidnc:
+        say("\r\nGrbl 3.7 [FluidNC v3.7.12 (noradio) '$' for help]\r\n");
+        break;
+    case EmulatedFirmware::grbl:
+        say("\r\nGrbl 1.1h ['$' for help]\r\n");
+        break;
+    }
+    if (needs_homing()) {
+        constexpr int homing_required = 11;
+        state_ = State::alarm;
+        last_alarm_ = homing_required;
+        say(fmt::format("ALARM:{}\r\n", homing_required));
+        say(message("Homing cycle required, $H to continue", build_));
+        return;
+    }
     if (state_ == State::alarm || state_ == State::sleep) {
         state_ = State::alarm;
-        say("[MSG:'$H'|'$X' to unlock]\r\n");
+        say(message("'$H'|'$X' to unlock", build_));
         return;
     }
     if (door_open_) {
-        say("[MSG:Check Door]\r\n");
+        say(message("Check Door", build_));
         state_ = State::door;
         return;
     }
@@ -169,7 +236,7 @@ void Controller::run_startup_lines() {
         if (line.empty()) {
             continue;
         }
-        const Parsed parsed = parse_line(line, modes_, eeprom_to_be(), options_.mist);
+        const Parsed parsed = parse_line(line, modes_, eeprom_to_be(), build_);
         if (parsed.error == 0) {
             line_owner_ = -1;
             take_over(parsed);
@@ -199,7 +266,7 @@ void Controller::resume() {
     if (!ready) {
         return;
     }
-    if (state_ == State::hold) {
+    if (state_ == State::hold || state_ == State::tool) {
         spindle_stopped_ = false;
         stepper_.resume();
         state_ = planner_.empty() ? State::idle : State::run;
@@ -226,7 +293,7 @@ void Controller::open_door() {
         state_ = State::door;
         stepper_.hold();
         if (door_open_) {
-            say("[MSG:Check Door]\r\n");
+            say(message("Check Door", build_));
         }
         after_motion();
     }
@@ -312,6 +379,8 @@ std::string_view Controller::state_text() const {
         return "Home";
     case State::sleep:
         return "Sleep";
+    case State::tool:
+        return "Tool";
     }
     return "Idle";
 }
@@ -323,7 +392,9 @@ void Controller::report_status() {
     now.offset = work_offset(modes_, eeprom_);
     now.free_blocks = planner_.free_blocks();
     now.free_bytes = input_.free_bytes();
-    now.line_number = options_.line_numbers && !planner_.empty() ? planner_.first().move.line_number : 0;
+    now.line_number = (options_.line_numbers || build_.is(EmulatedFirmware::grblhal)) && !planner_.empty()
+                          ? planner_.first().move.line_number
+                          : 0;
     now.feed = stepper_.speed() * seconds_per_minute;
     const bool turning = modes_.spindle != 50 && !spindle_stopped_ && state_ != State::door;
     constexpr double percent = 0.01;
@@ -339,7 +410,12 @@ void Controller::report_status() {
     now.accessories.append(turning ? 1 : 0, modes_.spindle == 30 ? 'S' : 'C');
     now.accessories.append(modes_.flood ? 1 : 0, 'F');
     now.accessories.append(modes_.mist ? 1 : 0, 'M');
-    say(report_.text(now, eeprom_, state_ != State::idle && state_ != State::alarm));
+    now.alarm = last_alarm_;
+    now.all = std::exchange(all_asked_, false);
+    now.homed = homed_;
+    now.tool = modes_.tool;
+    now.work_system += modes_.coordinates;
+    say(report_.text(now, eeprom_, build_, state_ != State::idle && state_ != State::alarm));
 }
 
 } // namespace millwright::machine::emulated

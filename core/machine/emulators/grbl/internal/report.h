@@ -30,12 +30,17 @@ struct Snapshot {
     std::string pins;
     Overrides overrides;
     std::string accessories;
+    int alarm = 0;        ///< of a grblHAL, in state Alarm
+    bool all = false;     ///< a grblHAL was asked for everything
+    bool homed = false;   ///<
+    int tool = 0;         ///<
+    int work_system = 54; ///<
 };
 
 /// Decides which fields are shown now and then only.
 class StatusReport {
 public:
-    [[nodiscard]] std::string text(const Snapshot& now, const Eeprom& eeprom, bool busy);
+    [[nodiscard]] std::string text(const Snapshot& now, const Eeprom& eeprom, const Build& build, bool busy);
     void show_offset_next() { offset_wait_ = 0; }
     void show_overrides_next() { override_wait_ = 0; }
 
@@ -44,11 +49,16 @@ private:
     int override_wait_ = 0;
 };
 
-/// Three coordinates with their decimals, in inches if $13 says so.
-[[nodiscard]] std::string coordinates(const Axes& axes, const Eeprom& eeprom);
+/// A coordinate of each axis with its decimals, in inches if $13 says so.
+[[nodiscard]] std::string coordinates(const Axes& axes, const Eeprom& eeprom, const Build& build);
 /// The answers to `$$` and `$#`, line ends included.
-[[nodiscard]] std::string settings_report(const Eeprom& eeprom);
-[[nodiscard]] std::string parameters_report(const Modes& modes, const Probe& probe, const Eeprom& eeprom);
-[[nodiscard]] std::string probe_report(const Probe& probe, const Eeprom& eeprom);
+[[nodiscard]] std::string settings_report(const Eeprom& eeprom, const Build& build);
+[[nodiscard]] std::string
+parameters_report(const Modes& modes, const Probe& probe, const Eeprom& eeprom, const Build& build);
+[[nodiscard]] std::string probe_report(const Probe& probe, const Eeprom& eeprom, const Build& build);
+/// "[MSG:text]" as the firmware says it, line end included.
+[[nodiscard]] std::string message(std::string_view text, const Build& build);
+/// The answer to `$I`, line ends included.
+[[nodiscard]] std::string build_report(const Eeprom& eeprom, const Build& build, bool line_numbers, bool rt);
 
 } // namespace millwright::machine::emulated

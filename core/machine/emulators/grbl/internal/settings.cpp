@@ -34,14 +34,14 @@ std::optional<double> number(std::string_view text) {
     return whole ? std::optional(value) : std::nullopt;
 }
 
-bool read_offset(std::string_view text, Axes& axes) {
-    for (double& axis : axes) {
+bool read_offset(std::string_view text, std::size_t count, Axes& axes) {
+    for (std::size_t n = 0; n < count; ++n) {
         const std::size_t comma = std::min(text.find(','), text.size());
         const auto value = number(text.substr(0, comma));
         if (!value) {
             return false;
         }
-        axis = *value;
+        axes[n] = *value;
         text.remove_prefix(std::min(comma + 1, text.size()));
     }
     return text.empty();
@@ -73,23 +73,44 @@ bool read_line(std::string_view line, Eeprom& eeprom) {
     }
     const auto* found = std::ranges::find(offset_names, name);
     return found != offset_names.end() &&
-           read_offset(value, offset(eeprom, static_cast<std::size_t>(found - offset_names.begin())));
+           read_offset(value,
+                       eeprom.axis_count,
+                       offset(eeprom, static_cast<std::size_t>(found - offset_names.begin())));
 }
 
 } // namespace
 
-std::vector<Setting> default_settings() {
-    return {{0, 10, 0},    {1, 25, 0},     {2, 0, 0},      {3, 0, 0},      {4, 0, 0},     {5, 0, 0},
-            {6, 0, 0},     {10, 1, 0},     {11, 0.01, 3},  {12, 0.002, 3}, {13, 0, 0},    {20, 0, 0},
-            {21, 0, 0},    {22, 0, 0},     {23, 0, 0},     {24, 25, 3},    {25, 500, 3},  {26, 250, 0},
-            {27, 1, 3},    {30, 1000, 0},  {31, 0, 0},     {32, 0, 0},     {100, 250, 3}, {101, 250, 3},
-            {102, 250, 3}, {110, 3000, 3}, {111, 3000, 3}, {112, 3000, 3}, {120, 200, 3}, {121, 200, 3},
-            {122, 200, 3}, {130, 200, 3},  {131, 200, 3},  {132, 200, 3}};
+std::vector<Setting> default_settings(const Build& build) {
+    std::vector<Setting> settings = {
+        {0, 10, 0},    {1, 25, 0},     {2, 0, 0},      {3, 0, 0},      {4, 0, 0},     {5, 0, 0},
+        {6, 0, 0},     {10, 1, 0},     {11, 0.01, 3},  {12, 0.002, 3}, {13, 0, 0},    {20, 0, 0},
+        {21, 0, 0},    {22, 0, 0},     {23, 0, 0},     {24, 25, 3},    {25, 500, 3},  {26, 250, 0},
+        {27, 1, 3},    {30, 1000, 0},  {31, 0, 0},     {32, 0, 0},     {100, 250, 3}, {101, 250, 3},
+        {102, 250, 3}, {110, 3000, 3}, {111, 3000, 3}, {112, 3000, 3}, {120, 200, 3}, {121, 200, 3},
+        {122, 200, 3}, {130, 200, 3},  {131, 200, 3},  {132, 200, 3}};
+    for (std::size_t axis = 3; axis < build.axis_count(); ++axis) {
+        const int n = static_cast<int>(axis);
+        settings.insert(settings.end(), {{100 + n, 100, 3}, {110 + n, 3600, 3}, {120 + n, 360, 3}});
+        settings.push_back({130 + n, build.is(EmulatedFirmware::grbl) ? 360.0 : 0.0, 3});
+    }
+    if (build.is(EmulatedFirmware::grblhal)) {
+        constexpr double all_reports = 511.0;
+        std::ranges::find(settings, 10, &Setting::number)->value = all_reports;
+        settings.insert(settings.end(),
+                        {{44, 4, 0}, // Z homes first, then X and Y; no other axis does
+                         {45, 3, 0},
+                         {341, 0, 0},
+                         {rotary_mask_setting, 0, 0},
+                         {planner_blocks_setting, 35, 0}});
+    }
+    std::ranges::sort(settings, {}, &Setting::number);
+    return settings;
 }
 
-Eeprom default_eeprom() {
+Eeprom default_eeprom(const Build& build) {
     Eeprom eeprom;
-    eeprom.settings = default_settings();
+    eeprom.settings = default_settings(build);
+    eeprom.axis_count = build.axis_count();
     return eeprom;
 }
 
@@ -120,8 +141,8 @@ int Eeprom::set(int number, double value) {
     return 0;
 }
 
-Eeprom read_eeprom(const std::filesystem::path& file) {
-    Eeprom eeprom = default_eeprom();
+Eeprom read_eeprom(const std::filesystem::path& file, const Build& build) {
+    Eeprom eeprom = default_eeprom(build);
     if (file.empty() || !std::filesystem::exists(file)) {
         return eeprom;
     }
@@ -155,8 +176,10 @@ void write_eeprom(const std::filesystem::path& file, const Eeprom& eeprom) {
     Eeprom copy = eeprom;
     for (std::size_t n = 0; n < offset_names.size(); ++n) {
         const Axes& axes = offset(copy, n);
-        text += fmt::format(
-            "{}={},{},{}\n", offset_names[n], shortest(axes[0]), shortest(axes[1]), shortest(axes[2]));
+        text += fmt::format("{}=", offset_names[n]);
+        for (std::size_t axis = 0; axis < eeprom.axis_count; ++axis) {
+            text += shortest(axes[axis]) + (axis + 1 < eeprom.axis_count ? "," : "\n");
+        }
     }
     text += fmt::format(
         "$N0={}\n$N1={}\n$I={}\n", eeprom.startup_lines[0], eeprom.startup_lines[1], eeprom.build_text);

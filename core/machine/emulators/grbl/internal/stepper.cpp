@@ -8,7 +8,6 @@ namespace millwright::machine::emulated {
 
 namespace {
 
-constexpr std::size_t most_segments = 5;
 constexpr double segment_time = 0.01;
 constexpr double nothing_mm = 1e-9;
 constexpr double nothing_s = 1e-12;
@@ -103,7 +102,7 @@ void Stepper::prepare_segment() {
 }
 
 void Stepper::prepare() {
-    while (segments_.size() < most_segments && !planner_.empty() && !(holding_ && !(speed_ > 0.0))) {
+    while (segments_.size() < most_segments_ && !planner_.empty() && !(holding_ && !(speed_ > 0.0))) {
         prepare_segment();
     }
 }

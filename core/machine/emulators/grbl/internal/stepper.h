@@ -1,4 +1,4 @@
-// What an emulated Grbl does with its planned blocks: cuts them into segments of 10 ms, keeps five of them
+// What an emulated Grbl does with its planned blocks: cuts them into segments of 10 ms, keeps some of them
 // ready, and moves along them. So the planner is always a little ahead of the machine, as in the real one.
 // mm, s.
 #pragma once
@@ -16,7 +16,9 @@ public:
     /// Called with the owner of a block that has been executed to its end.
     using BlockDone = std::function<void(std::int64_t owner)>;
 
-    Stepper(Planner& planner, BlockDone done) : planner_(planner), done_(std::move(done)) {}
+    /// `most_segments`: that are kept ready.
+    Stepper(Planner& planner, std::size_t most_segments, BlockDone done)
+        : planner_(planner), most_segments_(most_segments), done_(std::move(done)) {}
 
     [[nodiscard]] const Axes& position() const { return position_; }
     /// Of the motion being prepared, mm/s.
@@ -52,6 +54,7 @@ private:
     [[nodiscard]] double go(const PlannedBlock& block, double time);
 
     Planner& planner_;
+    std::size_t most_segments_;
     BlockDone done_;
     std::deque<Segment> segments_;
     double passed_ = 0.0; ///< of the first segment

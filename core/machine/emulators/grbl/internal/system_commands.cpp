@@ -1,4 +1,5 @@
 // Lines that begin with $.
+#include "core/base/text.h"
 #include "core/machine/emulators/grbl/internal/controller.h"
 #include "core/machine/emulators/grbl/internal/eeprom_image.h"
 #include "core/machine/emulators/grbl/internal/error_codes.h"
@@ -6,8 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <numeric>
+#include <string>
 
 namespace millwright::machine::emulated {
 
@@ -26,11 +29,11 @@ int Controller::system_command(std::string_view line) {
         if (at_work) {
             return error_code::not_idle;
         }
-        say(settings_report(eeprom_));
+        say(settings_report(eeprom_, build_));
         return error_code::none;
     }
     if (line == "$G") {
-        say(modes_report(modes_, eeprom_.is_on(report_inches_setting)) + "\r\n");
+        say(modes_report(modes_, eeprom_.is_on(report_inches_setting), build_) + "\r\n");
         return error_code::none;
     }
     if (line == "$C") {
@@ -44,7 +47,7 @@ int Controller::system_command(std::string_view line) {
 
 int Controller::named_command(std::string_view line) {
     if (line == "$#") {
-        say(parameters_report(modes_, probe_, eeprom_));
+        say(parameters_report(modes_, probe_, eeprom_, build_));
         return error_code::none;
     }
     if (line.starts_with("$H")) {
@@ -52,7 +55,7 @@ int Controller::named_command(std::string_view line) {
     }
     if (line == "$SLP") {
         stop_everything();
-        say("[MSG:Sleeping]\r\n");
+        say(message("Sleeping", build_));
         state_ = State::sleep;
         answer_due_ = true;
         acknowledge(error_code::none);
@@ -67,11 +70,11 @@ int Controller::named_command(std::string_view line) {
     if (line.starts_with("$N")) {
         return startup_line(line);
     }
-    return store_setting(line);
+    return line.starts_with("$/") ? named_setting(line) : store_setting(line);
 }
 
 int Controller::jog(std::string_view line) {
-    const Parsed parsed = parse_jog(line, modes_, eeprom_, options_.mist);
+    const Parsed parsed = parse_jog(line, modes_, eeprom_, build_);
     if (parsed.error != error_code::none) {
         return parsed.error;
     }
@@ -87,7 +90,7 @@ int Controller::jog(std::string_view line) {
 
 int Controller::check_mode() {
     if (state_ == State::check) {
-        say("[MSG:Disabled]\r\n");
+        say(message("Disabled", build_));
         acknowledge(error_code::none);
         reset();
         return error_code::none;
@@ -96,7 +99,7 @@ int Controller::check_mode() {
         return error_code::not_idle;
     }
     state_ = State::check;
-    say("[MSG:Enabled]\r\n");
+    say(message("Enabled", build_));
     return error_code::none;
 }
 
@@ -105,7 +108,11 @@ int Controller::unlock() {
         if (door_open_) {
             return error_code::door_open;
         }
-        say("[MSG:Caution: Unlocked]\r\n");
+        if (needs_homing()) {
+            return error_code::homing_required;
+        }
+        last_alarm_ = 0;
+        say(message("Caution: Unlocked", build_));
         state_ = State::idle;
     }
     return error_code::none;
@@ -127,13 +134,9 @@ int Controller::home(std::string_view line) {
 }
 
 int Controller::build_info(std::string_view line) {
-    if (line == "$I") {
-        say(fmt::format("[VER:1.1h.20190825:{}]\r\n[OPT:V{}{},{},{}]\r\n",
-                        eeprom_.build_text,
-                        options_.line_numbers ? "N" : "",
-                        options_.mist ? "M" : "",
-                        Planner::capacity,
-                        Input::capacity));
+    const bool more = line == "$I+" && build_.is(EmulatedFirmware::grblhal);
+    if (line == "$I" || more) {
+        say(build_report(eeprom_, build_, options_.line_numbers, options_.printable_realtime));
         return error_code::none;
     }
     if (!line.starts_with("$I=")) {
@@ -146,7 +149,7 @@ int Controller::build_info(std::string_view line) {
 }
 
 int Controller::restore(std::string_view what) {
-    const Eeprom fresh = default_eeprom();
+    const Eeprom fresh = default_eeprom(build_);
     Eeprom next = eeprom_;
     if (what == "$") {
         next.settings = fresh.settings;
@@ -177,7 +180,7 @@ int Controller::startup_line(std::string_view line) {
         return error_code::not_idle;
     }
     const std::string_view code = line.substr(4);
-    const Parsed parsed = parse_line(code, modes_, eeprom_, options_.mist);
+    const Parsed parsed = parse_line(code, modes_, eeprom_, build_);
     if (parsed.error != error_code::none) {
         return parsed.error;
     }
@@ -208,12 +211,79 @@ int Controller::store_setting(std::string_view line) {
     if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || !(value > -most && value < most)) {
         return error_code::bad_number;
     }
+    if (build_.is(EmulatedFirmware::fluidnc) && number != 10 && number != report_inches_setting) {
+        return error_code::read_only_setting;
+    }
     Eeprom next = eeprom_;
     const int error = next.set(number, value);
     if (error == error_code::none) {
         store(next);
     }
     return error;
+}
+
+/// $/axes/x/max_travel_mm of a FluidNC: a question, or with = a value that is in force at once.
+int Controller::named_setting(std::string_view line) {
+    if (!build_.is(EmulatedFirmware::fluidnc)) {
+        return error_code::unknown_command;
+    }
+    std::string name;
+    for (const char c : line.substr(1, std::min(line.find('='), line.size()) - 1)) { // read in capitals
+        name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    const auto answer = [&](std::string_view value) {
+        say(fmt::format("${}={}\r\n", name, value));
+        return error_code::none;
+    };
+    if (name == "/planner_blocks") {
+        return answer(std::to_string(planner_.capacity() + 1));
+    }
+    if (name == "/stepping/segments") {
+        return answer(std::to_string(sizes_of(build_.firmware).segments + 1));
+    }
+    constexpr std::string_view axes = "/axes/";
+    const char letter = name.starts_with(axes) && name.size() > axes.size() + 2 ? name[axes.size()] : ' ';
+    const std::size_t axis =
+        build_.axes.find(static_cast<char>(std::toupper(static_cast<unsigned char>(letter))));
+    if (axis == std::string::npos || name[axes.size() + 1] != '/') {
+        return error_code::unknown_command;
+    }
+    const std::string item = name.substr(axes.size() + 2);
+    const int n = static_cast<int>(axis);
+    const int number = item == "steps_per_mm"               ? 100 + n
+                       : item == "max_rate_mm_per_min"      ? 110 + n
+                       : item == "acceleration_mm_per_sec2" ? 120 + n
+                       : item == "max_travel_mm"            ? 130 + n
+                       : item == "homing/cycle"             ? homing_setting
+                                                            : 0;
+    const bool homes = axis < 3;
+    if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
+        const std::string text(line.substr(equals + 1));
+        double value = 0.0;
+        const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (number == 0 || read.ec != std::errc{} || (number == homing_setting && !homes)) {
+            return error_code::no_such_setting;
+        }
+        Eeprom next = eeprom_;
+        const int error = next.set(number, value);
+        if (error == error_code::none) {
+            store(next);
+        }
+        return error;
+    }
+    if (item == "homing/cycle") {
+        return answer(homes && eeprom_.is_on(homing_setting) ? "1" : "0");
+    }
+    if (item == "homing/mpos_mm") {
+        constexpr int direction_mask = 23;
+        return answer(eeprom_.has_bit(direction_mask, axis) ? fixed(-eeprom_.axis_setting(130, axis), 3)
+                                                            : std::string("0.000"));
+    }
+    if (item == "homing/positive_direction") {
+        constexpr int direction_mask = 23;
+        return answer(eeprom_.has_bit(direction_mask, axis) ? "false" : "true");
+    }
+    return number == 0 ? error_code::unknown_command : answer(fixed(eeprom_.setting(number), 3));
 }
 
 /// An AVR does nothing else meanwhile, and loses most of what comes over its serial line.
@@ -223,7 +293,7 @@ void Controller::store(const Eeprom& eeprom) {
     if (!options_.eeprom_file.empty()) {
         write_eeprom(options_.eeprom_file, eeprom_);
     }
-    if (pauses.empty()) {
+    if (pauses.empty() || !build_.is(EmulatedFirmware::grbl)) {
         return;
     }
     const double begin = std::max(time_, line_arrived_);

@@ -76,8 +76,15 @@ bool Controller::do_task(Task& task) {
         paused_ = !paused_;
         state_ = paused_ ? State::hold : state_;
         return !paused_;
+    case Action::tool:
+        if (!at_rest()) {
+            return false;
+        }
+        paused_ = !paused_;
+        state_ = paused_ ? State::tool : state_;
+        return !paused_;
     case Action::restart:
-        say("[MSG:Restoring defaults]\r\n");
+        say(message("Restoring defaults", build_));
         acknowledge(0);
         reset();
         return true;
@@ -109,9 +116,13 @@ bool Controller::at_rest() {
 
 bool Controller::inside_travel(const Axes& target) const {
     constexpr int travel = 130;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double at = target[static_cast<std::size_t>(axis)];
-        if (!(at <= 0.0 && at >= -eeprom_.axis_setting(travel, axis))) {
+    for (std::size_t axis = 0; axis < build_.axis_count(); ++axis) {
+        const double at = target[axis];
+        const double length = eeprom_.axis_setting(travel, axis);
+        if (axis >= 3 && !build_.is(EmulatedFirmware::grbl) && !(length > 0.0)) {
+            continue; // without end
+        }
+        if (!(at <= 0.0 && at >= -length)) {
             return false;
         }
     }
@@ -200,7 +211,7 @@ void Controller::finish_probe(bool touched) {
             probe_.position = stepper_.position();
         }
     }
-    say(probe_report(probe_, eeprom_));
+    say(probe_report(probe_, eeprom_, build_));
     if (!tasks_.empty()) {
         tasks_.pop_front();
     }
@@ -220,7 +231,7 @@ void Controller::end_program() {
     planner_.set_overrides({});
     report_.show_overrides_next();
     report_.show_offset_next();
-    say("[MSG:Pgm End]\r\n");
+    say(message(build_.is(EmulatedFirmware::fluidnc) ? "Program End" : "Pgm End", build_));
 }
 
 void Controller::block_done(std::int64_t owner) {

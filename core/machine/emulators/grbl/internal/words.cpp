@@ -54,7 +54,7 @@ Code code_of(double value) {
 
 class Reader {
 public:
-    Reader(std::string_view line, bool mist) : rest_(line), mist_(mist) {}
+    Reader(std::string_view line, const Build& build) : rest_(line), build_(build) {}
 
     ReadWords read() {
         while (!rest_.empty() && result_.error == error_code::none) {
@@ -65,7 +65,7 @@ public:
 
 private:
     std::string_view rest_;
-    bool mist_;
+    const Build& build_;
     ReadWords result_;
 
     Words& words() { return result_.words; }
@@ -231,19 +231,22 @@ private:
         case 5:
             return set_whole(words().spindle, code);
         case 7:
-            return mist_ ? set_whole(words().coolant, code) : error_code::unsupported_command;
+            return build_.mist ? set_whole(words().coolant, code) : error_code::unsupported_command;
         case 8:
         case 9:
             return set_whole(words().coolant, code);
+        case 6:
+            return build_.is(EmulatedFirmware::grblhal) ? set(words().changes_tool)
+                                                        : error_code::unsupported_command;
         default:
             return error_code::unsupported_command;
         }
     }
 
     int read_value(char letter, double value) {
-        constexpr std::string_view known = "FIJKLNPRSTXYZ";
+        constexpr std::string_view known = "FIJKLNPRST";
         constexpr std::string_view positive = "FNPST";
-        if (known.find(letter) == std::string_view::npos) {
+        if (known.find(letter) == std::string_view::npos && build_.axes.find(letter) == std::string::npos) {
             return error_code::unsupported_command;
         }
         constexpr double last_tool = 255.0;
@@ -264,8 +267,8 @@ private:
 
 } // namespace
 
-ReadWords read_words(std::string_view line, bool mist) {
-    return Reader(line, mist).read();
+ReadWords read_words(std::string_view line, const Build& build) {
+    return Reader(line, build).read();
 }
 
 } // namespace millwright::machine::emulated

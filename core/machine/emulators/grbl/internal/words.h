@@ -1,6 +1,9 @@
 // One line of G-code as an emulated Grbl reads it: which commands it holds, and the values of its words.
 #pragma once
 
+#include "core/machine/emulators/grbl/internal/build.h"
+
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <optional>
@@ -16,6 +19,7 @@ struct Words {
     int motion = -1, plane = -1, distance = -1, feed_mode = -1, units = -1, tool_length = -1,
         coordinates = -1;
     int non_modal = -1, flow = -1, spindle = -1, coolant = -1;
+    bool changes_tool = false;                                         ///< M6
     bool arc_distance = false, cutter_off = false, exact_path = false; ///< G91.1, G40, G61
     AxisUse axis_use = AxisUse::none;
     std::array<std::optional<double>, 26> values; ///< by letter
@@ -24,7 +28,9 @@ struct Words {
         return values[static_cast<std::size_t>(letter - 'A')];
     }
     [[nodiscard]] bool has(char letter) const { return value(letter).has_value(); }
-    [[nodiscard]] bool has_axes() const { return has('X') || has('Y') || has('Z'); }
+    [[nodiscard]] bool has_axes(std::string_view axes) const {
+        return std::ranges::any_of(axes, [this](char letter) { return has(letter); });
+    }
 };
 
 struct ReadWords {
@@ -32,7 +38,7 @@ struct ReadWords {
     Words words;
 };
 
-/// `line` without blanks and comments, in capitals; `mist`: this Grbl was built with M7.
-[[nodiscard]] ReadWords read_words(std::string_view line, bool mist = false);
+/// `line` without blanks and comments, in capitals.
+[[nodiscard]] ReadWords read_words(std::string_view line, const Build& build);
 
 } // namespace millwright::machine::emulated

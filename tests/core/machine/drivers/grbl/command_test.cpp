@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace millwright::machine::grbl {
 namespace {
 
@@ -32,7 +34,7 @@ TEST(GrblCommand, IsExecutedAndAnswered) {
     const DriverStatus status = execute(wire, "G0 X3\nG0 Y4");
     EXPECT_EQ(status.answer.state, CommandAnswer::State::done);
     EXPECT_EQ(status.state, DriverState::idle);
-    EXPECT_EQ(wire.grbl.position(), (Axes{3.0, 4.0, 0.0}));
+    EXPECT_EQ(wire.grbl.position(), (std::array<double, 3>{3.0, 4.0, 0.0}));
     EXPECT_EQ(status.position[1], 4.0);
 }
 

@@ -181,8 +181,8 @@ struct Verdict {
 
 class Run {
 public:
-    Run(std::uint64_t seed, const std::filesystem::path& logs)
-        : seed_(seed), logs_(logs), random_(seed), kind_(static_cast<GrblFault>(seed % grbl_fault_count)),
+    Run(std::uint64_t seed, const std::filesystem::path& logs, EmulatedFirmware firmware)
+        : firmware_(firmware), seed_(seed), logs_(logs), random_(seed), kind_(static_cast<GrblFault>(seed % grbl_fault_count)),
           program_(random_grbl_program(random_)),
           lines_(program_lines(test::listing_of(program_), "campaign.ngc")),
           // half of the controllers tell what is in their buffers
@@ -215,6 +215,7 @@ public:
     }
 
 private:
+    EmulatedFirmware firmware_;
     std::uint64_t seed_;
     std::filesystem::path logs_;
     Random random_;
@@ -227,7 +228,7 @@ private:
     GrblEmulatorOptions options() {
         const bool changed = kind_ == GrblFault::drop_to_grbl || kind_ == GrblFault::garble_to_grbl ||
                              kind_ == GrblFault::duplicate_to_grbl;
-        return {.line_numbers = pick(random_, 2) == 0, .echo = changed || pick(random_, 4) == 0};
+        return {.firmware = firmware_, .line_numbers = pick(random_, 2) == 0, .echo = changed || pick(random_, 4) == 0};
     }
 
     void wrong(const std::string& what) {
@@ -346,13 +347,13 @@ private:
     }
 };
 
-void run_campaign(std::uint64_t first, int runs) {
+void run_campaign(std::uint64_t first, int runs, EmulatedFirmware firmware = EmulatedFirmware::grbl) {
     std::array<int, grbl_fault_count> done{};
     std::array<int, grbl_fault_count> faults{};
     const test::ScratchFolder logs;
     for (int n = 0; n < runs; ++n) {
         const std::uint64_t seed = first + static_cast<std::uint64_t>(n);
-        const Verdict verdict = Run(seed, logs.path()).run();
+        const Verdict verdict = Run(seed, logs.path(), firmware).run();
         EXPECT_EQ(verdict.wrong, "") << "seed " << seed;
         ++(verdict.end == DriverState::idle ? done : faults)[seed % grbl_fault_count];
     }
@@ -365,6 +366,11 @@ void run_campaign(std::uint64_t first, int runs) {
 
 TEST(GrblFaultCampaign, NeverMovesAfterAFaultNorLiesAboutALine) {
     run_campaign(1, 1000);
+}
+
+TEST(GrblFaultCampaign, HoldsForOtherFirmware) {
+    run_campaign(1, 300, EmulatedFirmware::grblhal);
+    run_campaign(1, 300, EmulatedFirmware::fluidnc);
 }
 
 TEST(GrblFaultCampaignInFull, NeverMovesAfterAFaultNorLiesAboutALineInTenThousandRuns) {

@@ -40,7 +40,8 @@ public:
     explicit GrblDriverBench(const FaultSpec& faults = {},
                              bool tcp = false,
                              double speed = 20.0,
-                             const GrblOptions& options = {}) {
+                             const GrblOptions& options = {},
+                             GrblEmulatorOptions emulated = {.line_numbers = true}) {
         std::unique_ptr<Link> far_end;
         std::unique_ptr<Link> near_end;
         if (tcp) {
@@ -56,7 +57,7 @@ public:
         }
         std::vector<std::unique_ptr<Link>> links;
         links.push_back(std::move(far_end));
-        server.emplace(std::move(links), clock, GrblEmulatorOptions{.line_numbers = true}, speed);
+        server.emplace(std::move(links), clock, std::move(emulated), speed);
         driver.emplace(
             std::make_unique<FaultLink>(std::move(near_end), faults, WireEnd::host, clock), clock, options);
     }
@@ -281,6 +282,34 @@ TEST(GrblDriver, GoesIntoAlarmWhenALimitSwitchIsHit) {
     bench.driver->reset();
     bench.wait_for(DriverState::idle);
     EXPECT_FALSE(bench.moving());
+}
+
+/// Over a pseudo-terminal: met, driven with its rotary axes, refused beyond them, and named in the log.
+TEST(GrblDriver, RunsJobsOfFiveAxesOnOtherFirmware) {
+    const std::string program = "G21 G90 G94\nG1 X10 A90 B-45 F3000\nX0 A-90 B45\nG0 A0 B0\nM30\n";
+    for (const EmulatedFirmware firmware : {EmulatedFirmware::grblhal, EmulatedFirmware::fluidnc}) {
+        const test::ScratchFolder scratch;
+        GrblDriverBench bench({}, false, 5.0, {}, {.firmware = firmware, .axes = "XYZAB"});
+        Dispatcher dispatcher(*bench.driver, bench.clock, scratch / "logs");
+        const JobOutcome outcome = dispatcher.run(text_job(program, "five.ngc"), {});
+        EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+        const ReadLog log = read_job_log(outcome.log_file);
+        EXPECT_EQ(log.start.firmware,
+                  firmware == EmulatedFirmware::grblhal ? "grblHAL 1.1f (20240817)" : "FluidNC v3.7.12");
+        EXPECT_EQ(log.start.axes.size(), 5U);
+        EXPECT_EQ(log.executed_blocks(), log.start.blocks);
+
+        const Capabilities can = bench.driver->capabilities();
+        ASSERT_EQ(can.axes.size(), 5U);
+        EXPECT_EQ(can.axes[4].letter, 'B');
+        EXPECT_EQ(can.axes[4].kind, kinematics::AxisKind::rotary);
+        try {
+            (void)dispatcher.run(text_job("G21 G90\nG0 C10\nM30\n", "six.ngc"), {});
+            FAIL();
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("this Grbl has the axes XYZAB and does not know C words"));
+        }
+    }
 }
 
 TEST(GrblDriver, JogsWhileTheButtonIsHeld) {

@@ -155,8 +155,8 @@ TEST(GrblStop, TellsWhatTheResetHasForgotten) {
     ASSERT_TRUE(wire.run_to_end());
     EXPECT_EQ(wire.state(), DriverState::stopped);
     EXPECT_THAT(wire.session.status().modes, HasSubstr("G54 G17 G21 G90"));
-    EXPECT_EQ(wire.session.readout().offsets.at("G92"), Axes{});
-    EXPECT_EQ(wire.session.readout().offsets.at("TLO"), Axes{});
+    EXPECT_EQ(wire.session.readout().offsets.at("G92"), Axes(3));
+    EXPECT_EQ(wire.session.readout().offsets.at("TLO"), Axes(3));
     EXPECT_LT(wire.session.status().executed_blocks, acknowledged);
 }
 

@@ -17,7 +17,7 @@ TEST(GrblMessages, AreTakenApart) {
     EXPECT_TRUE(is<Blank>(""));
     EXPECT_EQ(std::get<ErrorAnswer>(read_message("error:22")).number, 22);
     EXPECT_EQ(std::get<AlarmMessage>(read_message("ALARM:9")).number, 9);
-    EXPECT_EQ(std::get<Welcome>(read_message("Grbl 1.1f ['$' for help]")).version, "1.1f");
+    EXPECT_EQ(std::get<Welcome>(read_message("Grbl 1.1f ['$' for help]")).who.version, "1.1f");
     EXPECT_EQ(std::get<SettingMessage>(read_message("$110=500.000")).value, 500.0);
     EXPECT_EQ(std::get<Feedback>(read_message("[MSG:Pgm End]")).text, "Pgm End");
     EXPECT_TRUE(std::get<StartupLine>(read_message(">G54G20:ok")).executed);
@@ -59,13 +59,29 @@ TEST(GrblMessages, AreGarbageWhenAByteIsWrong) {
                              "<Idle|MPos:0,0,inf>",
                              "<Idle|MPos:0,0,0|Ln:-5>",
                              "<Idle|MPos:0,0,0|Bf:15>",
-                             "<Idle|MPos:0,0,0|Xy:1>",
+                             "<Idle|MPos:0,0,0|X-y:1>",
+                             "<Idle|MPos:0,0,0,0,0,0,0,0,0,0>",
                              "$1",
                              "$x=1",
                              "[MSG]",
                              "hello"}) {
         EXPECT_TRUE(is<Garbage>(line)) << line;
     }
+}
+
+TEST(GrblMessages, ReadReportsOfFurtherAxesAndWithFurtherFields) {
+    const auto report = std::get<StatusMessage>(read_message(
+        "<Alarm:11|MPos:1.000,2.000,3.000,90.000,-45.000|FS:0,0,0|WCO:0,0,0,1,2|A:|Sc:|H:1,7|AR>"));
+    EXPECT_EQ(report.state, MachineState::alarm);
+    EXPECT_EQ(report.sub_state, 11);
+    EXPECT_EQ(*report.machine_position, (Axes{1.0, 2.0, 3.0, 90.0, -45.0}));
+    EXPECT_EQ((*report.offset)[4], 2.0);
+    EXPECT_TRUE(report.foreign_fields);
+    EXPECT_FALSE(std::get<StatusMessage>(read_message("<Idle|MPos:0,0,0|A:SF>")).foreign_fields);
+    EXPECT_EQ(std::get<StatusMessage>(read_message("<Tool|MPos:0,0,0>")).state, MachineState::tool);
+    EXPECT_EQ(std::get<NamedSetting>(read_message("$/axes/x/max_travel_mm=300.000")).name,
+              "/axes/x/max_travel_mm");
+    EXPECT_EQ(std::get<NamedSetting>(read_message("$302=192.168.5.1")).value, "192.168.5.1");
 }
 
 TEST(GrblMessages, ReadTheResultOfAProbe) {

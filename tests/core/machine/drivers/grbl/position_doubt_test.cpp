@@ -160,10 +160,10 @@ TEST(GrblPositionDoubt, OutlastsALinkThatIsMadeAgain) {
 }
 
 TEST(GrblPositionDoubt, KnowsWhichAxesALineZeroes) {
-    EXPECT_EQ(axes_zeroed_by("G10L20P1X0Y0"), "XY");
-    EXPECT_EQ(axes_zeroed_by("G92Z+1.5"), "Z");
+    EXPECT_EQ(axes_zeroed_by("G10L20P1X0Y0A0", "XYZ"), "XY");
+    EXPECT_EQ(axes_zeroed_by("G92Z+1.5A0", "XYZA"), "ZA");
     for (const char* none : {"G92.1", "G10L2P1X0Y0Z0", "G0X0Y0Z0", "G10L20P1", "$X", "M92X1", ""}) {
-        EXPECT_EQ(axes_zeroed_by(none), "") << none;
+        EXPECT_EQ(axes_zeroed_by(none, "XYZ"), "") << none;
     }
 }
 
