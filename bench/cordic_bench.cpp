@@ -74,9 +74,13 @@ void kernel_q3_29(benchmark::State& state) {
 }
 BENCHMARK(kernel_q3_29);
 
-void batches(benchmark::State& state, const Sequence& sequence) {
+void batches(benchmark::State& state, const Sequence& sequence, BatchCode code = BatchCode::fastest) {
+    if (code == BatchCode::fastest && !has_fast_batches()) {
+        state.SkipWithError("this processor has only the portable instructions");
+        return;
+    }
     const FixedArithmetic arithmetic(fixed_format(3, 29));
-    const BatchRotator rotator(fixed_format(3, 29), sequence);
+    const BatchRotator rotator(fixed_format(3, 29), sequence, code);
     std::vector<std::int32_t> z;
     bool overflow = false;
     for (const double angle : angles()) {
@@ -103,6 +107,11 @@ void batch_q3_29_32_steps(benchmark::State& state) {
     batches(state, classic_sequence(CoordinateSystem::circular, 32));
 }
 BENCHMARK(batch_q3_29_32_steps);
+
+void batch_q3_29_32_steps_portable(benchmark::State& state) {
+    batches(state, classic_sequence(CoordinateSystem::circular, 32), BatchCode::portable);
+}
+BENCHMARK(batch_q3_29_32_steps_portable);
 
 /// Clocks of the whole processor a second: an arc of 10,000 chords.
 void processor_clocks(benchmark::State& state, const NumberFormat& format) {

@@ -31,11 +31,12 @@ struct CordicAccuracyOptions {
     std::string out;
     std::int64_t random = 10'000'000;
     std::uint64_t seed = 2002;
-    std::optional<std::string> format; // any of these three: the case that they name alone
+    std::optional<std::string> format; // any of these four: the case that they name alone
     std::optional<std::string> rounding;
+    std::optional<std::string> system;
     std::optional<int> iterations; ///< not given: the thesis's 29 steps
 
-    [[nodiscard]] bool name_a_case() const { return format || rounding || iterations; }
+    [[nodiscard]] bool name_a_case() const { return format || rounding || system || iterations; }
 };
 
 using Case = std::pair<cordic::NumberFormat, cordic::Sequence>;
@@ -48,27 +49,39 @@ struct Row {
     cordic::Accuracy measured;
 };
 
-cordic::Sequence classic(int steps) {
-    return cordic::classic_sequence(cordic::CoordinateSystem::circular, steps);
+using cordic::CoordinateSystem;
+
+CoordinateSystem system_of(const CordicAccuracyOptions& options) {
+    return options.system ? cordic::parse_coordinate_system(*options.system) : CoordinateSystem::circular;
 }
 
 Case case_of(const CordicAccuracyOptions& options) {
-    constexpr int least_integer_bits = 2; // for 1 itself
+    const CoordinateSystem m = system_of(options);
+    const int least_integer_bits = cordic::measured_integer_bits(m);
     cordic::NumberFormat format = cordic::parse_number_format(options.format.value_or("f64"));
     const bool fixed = format.kind == cordic::NumberKind::fixed;
     if (fixed && format.integer_bits < least_integer_bits) {
-        throw Error(fmt::format("vectors of length 1 do not fit into {}", cordic::to_text(format)));
+        throw Error(fmt::format("vectors of length 1 do not fit into {}", cordic::to_text(format)),
+                    {},
+                    fmt::format("{} rotations of them need {} bits before the point",
+                                cordic::to_text(m),
+                                least_integer_bits));
     }
     if (options.rounding && !fixed) {
         throw Error("--rounding is for fixed point", {}, "--format qI.F");
     }
     format.rounding = options.rounding ? cordic::parse_rounding(*options.rounding) : format.rounding;
-    return {format, options.iterations ? classic(*options.iterations) : cordic::thesis_sequence()};
+    return {format,
+            options.iterations ? cordic::classic_sequence(m, *options.iterations)
+                               : cordic::thesis_sequence(m)};
 }
 
 std::vector<Case> cases() {
     std::vector<Case> made;
     const auto thesis = cordic::thesis_sequence();
+    const auto classic = [](int steps) {
+        return cordic::classic_sequence(CoordinateSystem::circular, steps);
+    };
     for (const Rounding rounding :
          {Rounding::truncate, Rounding::toward_zero, Rounding::nearest, Rounding::nearest_even}) {
         made.emplace_back(cordic::fixed_format(2, 14, rounding), thesis);
@@ -83,6 +96,16 @@ std::vector<Case> cases() {
     }
     made.emplace_back(cordic::binary32, thesis);
     made.emplace_back(cordic::binary64, thesis);
+    for (const CoordinateSystem m : {CoordinateSystem::linear, CoordinateSystem::hyperbolic}) {
+        const int integer_bits = cordic::measured_integer_bits(m);
+        for (const int word : {exhaustive_bits, 32}) {
+            const auto format = cordic::fixed_format(integer_bits, word - integer_bits);
+            made.emplace_back(format, cordic::thesis_sequence(m));
+            made.emplace_back(format, cordic::classic_sequence(m, format.fraction_bits));
+        }
+        made.emplace_back(cordic::binary32, cordic::thesis_sequence(m));
+        made.emplace_back(cordic::binary64, cordic::thesis_sequence(m));
+    }
     return made;
 }
 
@@ -108,8 +131,14 @@ std::vector<Row> measured_rows(const CordicAccuracyOptions& options, const Progr
     return rows;
 }
 
+/// "thesis 29", "classic 24 hyperbolic".
 std::string sequence_name(const cordic::Sequence& sequence) {
-    return fmt::format("{} {}", sequence.multiplies ? "classic" : "thesis", sequence.step_count);
+    const bool thesis = sequence == cordic::thesis_sequence(sequence.m);
+    return fmt::format("{} {}{}{}",
+                       thesis ? "thesis" : "classic",
+                       sequence.step_count,
+                       sequence.m == CoordinateSystem::circular ? "" : " ",
+                       sequence.m == CoordinateSystem::circular ? "" : cordic::to_text(sequence.m));
 }
 
 std::string table(const std::vector<Row>& rows) {
@@ -134,18 +163,18 @@ std::string table(const std::vector<Row>& rows) {
 }
 
 void print_accuracy(const std::vector<Row>& rows, const std::vector<cordic::Finding>& findings) {
-    fmt::print("{:<7} {:<13} {:<11} {:>9} {:>10} {:>10} {:>10} {:>10}\n",
+    fmt::print("{:<7} {:<13} {:<21} {:>9} {:>10} {:>10} {:>10} {:>10}\n",
                "format",
                "rounding",
                "sequence",
                "inputs",
                "rotation",
                "bound",
-               "angle rad",
+               "angle",
                "bound");
     for (const Row& row : rows) {
         const bool fixed = row.format.kind == cordic::NumberKind::fixed;
-        fmt::print("{:<7} {:<13} {:<11} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}\n",
+        fmt::print("{:<7} {:<13} {:<21} {:>9} {:>10.2e} {:>10.2e} {:>10.2e} {:>10.2e}\n",
                    cordic::to_text(row.format),
                    fixed ? cordic::to_text(row.format.rounding) : "ieee",
                    sequence_name(row.sequence),
@@ -161,7 +190,7 @@ void print_accuracy(const std::vector<Row>& rows, const std::vector<cordic::Find
 }
 
 /// The proven bound against the number of steps, one line a format: when more steps stop to help.
-std::string bounds_picture(const std::vector<cordic::NumberFormat>& formats) {
+std::string bounds_picture(const std::vector<cordic::NumberFormat>& formats, CoordinateSystem m) {
     cordic::Chart chart{.title = "Proven bound of a rotation against the number of steps 0, 1, 2 ...",
                         .x_label = "steps",
                         .y_label = "largest error of a unit vector",
@@ -170,7 +199,7 @@ std::string bounds_picture(const std::vector<cordic::NumberFormat>& formats) {
         cordic::Series series{.label = std::string(cordic::to_text(format))};
         for (int steps = 2; steps <= 40; ++steps) {
             series.x.push_back(steps);
-            series.y.push_back(cordic::rotation_bound(format, classic(steps), 1.0).total);
+            series.y.push_back(cordic::rotation_bound(format, cordic::classic_sequence(m, steps), 1.0).total);
         }
         chart.series.push_back(std::move(series));
     }
@@ -196,8 +225,9 @@ int accuracy(const CordicAccuracyOptions& options) {
     const auto rows = measured_rows(options, progress);
     const auto experiments = options.name_a_case() ? cordic::Experiments() : cordic::run_experiments();
     printer.finish();
-    std::vector<OutputFile> files = {{"accuracy.csv", table(rows)},
-                                     {"bounds.svg", bounds_picture(formats_of_bounds(options))}};
+    std::vector<OutputFile> files = {
+        {"accuracy.csv", table(rows)},
+        {"bounds.svg", bounds_picture(formats_of_bounds(options), system_of(options))}};
     for (const cordic::Picture& picture : experiments.pictures) {
         files.push_back({picture.name, picture.svg});
     }
@@ -223,6 +253,8 @@ void add_cordic_accuracy(CLI::App& group, Command& chosen) {
     command
         .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")
         ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}));
+    command.add_option("--system", options->system, "circular (default), linear or hyperbolic")
+        ->check(CLI::IsMember({"circular", "linear", "hyperbolic"}));
     command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
     command.add_option("--seed", options->seed, "Of the random inputs")->capture_default_str();

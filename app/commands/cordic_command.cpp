@@ -2,6 +2,7 @@
 
 #include "app/commands/cordic_accuracy.h"
 #include "app/commands/cordic_compare.h"
+#include "app/commands/cordic_pass.h"
 #include "app/commands/cordic_programs.h"
 #include "app/commands/cordic_run.h"
 #include "app/commands/cordic_sew.h"
@@ -17,7 +18,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -41,6 +41,7 @@ struct NumberOptions {
     std::int64_t vectors = 1000;
     std::uint64_t seed = 2002;
     bool json = false;
+    CordicPassOptions pass;
 };
 
 cordic::NumberFormat number_format(const NumberOptions& options) {
@@ -50,20 +51,30 @@ cordic::NumberFormat number_format(const NumberOptions& options) {
 }
 
 cordic::Sequence sequence_of(const NumberOptions& options) {
-    return options.iterations == 0
-               ? cordic::thesis_sequence()
-               : cordic::classic_sequence(cordic::CoordinateSystem::circular, options.iterations);
+    const cordic::CoordinateSystem m = cordic::parse_coordinate_system(options.pass.system);
+    return options.iterations == 0 ? cordic::thesis_sequence(m)
+                                   : cordic::classic_sequence(m, options.iterations);
 }
 
-nlohmann::ordered_json words_json(const std::array<cordic::Word, 3>& words) {
-    auto hexadecimal = nlohmann::ordered_json::array();
-    for (const cordic::Word word : words) {
-        hexadecimal.push_back(fmt::format("{:#x}", word));
-    }
-    return hexadecimal;
+/// `z`: as written.
+int raw_pass(const NumberOptions& options, cordic::Mode mode, const std::string& z) {
+    return print_cordic_pass(
+        number_format(options),
+        sequence_of(options),
+        {.mode = mode,
+         .x = cordic::Decimal::parse(options.x),
+         .y = cordic::Decimal::parse(options.y),
+         .z = z.empty() ? cordic::Decimal(0.0) : cordic::Decimal::parse(z),
+         .folds = options.pass.folds,
+         .zero = options.pass.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive},
+        options.json);
 }
 
 int rotate(const NumberOptions& options) {
+    refuse_pass_options(options.pass);
+    if (options.pass.is_raw()) {
+        return raw_pass(options, cordic::Mode::rotation, options.angle_deg);
+    }
     const cordic::Rotated found = cordic::rotate(number_format(options),
                                                  sequence_of(options),
                                                  cordic::Decimal::parse(options.x),
@@ -76,7 +87,7 @@ int rotate(const NumberOptions& options) {
         answer["z"] = found.z;
         answer["error"] = found.error;
         answer["clocks"] = found.clocks;
-        answer["words"] = words_json(found.words);
+        answer["words"] = hexadecimal_words(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("x {}\ny {}\nz {} rad left\nerror {}\n{} clocks\n",
@@ -90,6 +101,10 @@ int rotate(const NumberOptions& options) {
 }
 
 int vector(const NumberOptions& options) {
+    refuse_pass_options(options.pass);
+    if (options.pass.is_raw()) {
+        return raw_pass(options, cordic::Mode::vectoring, options.pass.z);
+    }
     const cordic::Polar found = cordic::polar(number_format(options),
                                               sequence_of(options),
                                               cordic::Decimal::parse(options.x),
@@ -102,7 +117,7 @@ int vector(const NumberOptions& options) {
         answer["error_degrees"] = found.angle_error_deg;
         answer["clocks"] = found.clocks;
         answer["shift"] = found.shift;
-        answer["words"] = words_json(found.words);
+        answer["words"] = hexadecimal_words(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("magnitude {}, error {}\n{} degrees, error {}\n{} clocks\n",
@@ -145,7 +160,7 @@ CLI::App& add_command(CLI::App& group,
     return command;
 }
 
-void add_number(CLI::App& command, const char* name, std::string& number, const char* text) {
+CLI::Option& add_number(CLI::App& command, const char* name, std::string& number, const char* text) {
     const auto fault_of = [](std::string& written) {
         try {
             (void)cordic::Decimal::parse(written);
@@ -154,10 +169,7 @@ void add_number(CLI::App& command, const char* name, std::string& number, const 
             return error.diagnostic().message;
         }
     };
-    command.add_option(name, number, text)
-        ->required()
-        ->check(CLI::Validator(fault_of, ""))
-        ->type_name("NUMBER");
+    return *command.add_option(name, number, text)->check(CLI::Validator(fault_of, ""))->type_name("NUMBER");
 }
 
 CLI::App& add_numbers(CLI::App& group,
@@ -165,8 +177,9 @@ CLI::App& add_numbers(CLI::App& group,
                       const char* text,
                       const std::shared_ptr<NumberOptions>& options) {
     CLI::App& command = add_command(group, name, text, options);
-    add_number(command, "X", options->x, "First coordinate");
-    add_number(command, "Y", options->y, "Second coordinate");
+    add_number(command, "X", options->x, "First coordinate").required();
+    add_number(command, "Y", options->y, "Second coordinate").required();
+    add_cordic_pass(command, options->pass);
     command.add_flag("--json", options->json, "Print the answer as JSON");
     return command;
 }
@@ -176,6 +189,7 @@ void add_rtl(CLI::App& group, Command& chosen) {
     options->format = "q2.22";
     CLI::App& command =
         add_command(group, "rtl", "Write the iteration as Verilog, with test benches", options);
+    add_cordic_system(command, options->pass.system);
     command.add_option("--out", options->out, "Folder for the Verilog files and their test vectors")
         ->required()
         ->type_name("DIR");
@@ -194,9 +208,11 @@ void add_cordic_command(CLI::App& app, Command& chosen) {
     group.require_subcommand(1);
     const auto options = std::make_shared<NumberOptions>();
     CLI::App& rotating = add_numbers(group, "rotate", "Turn a vector by any angle", options);
-    add_number(rotating, "DEGREES", options->angle_deg, "Counter-clockwise");
+    add_number(rotating, "DEGREES", options->angle_deg, "Counter-clockwise; of a raw pass z itself")
+        .required();
     rotating.callback([&chosen, options] { chosen = [options] { return rotate(*options); }; });
     CLI::App& measuring = add_numbers(group, "vector", "Length and direction of a vector", options);
+    add_number(measuring, "--z", options->pass.z, "With --raw: the z that the pass begins with, default 0");
     measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });
     add_cordic_accuracy(group, chosen);
     add_cordic_run(group, chosen);

@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -79,6 +80,15 @@ bool is_in_space(const cordic::Published& record) {
            record.opcode == Opcode::g03z;
 }
 
+/// Tmin = 2 Vmax/Amax (eq. 4.1), in s, of the speed and the acceleration as they were handed over.
+double shortest_time(const cordic::Processor& processor, const cordic::Published& record) {
+    const auto set = processor.set_point(record);
+    const auto height = is_in_space(record) ? processor.height_point(record) : cordic::HeightPoint();
+    const double speed = std::hypot(set.vx, set.vy, height.vz);
+    const double acceleration = std::hypot(set.ax, set.ay, height.az);
+    return (processor.settings().halves_acceleration ? 1.0 : 2.0) * speed / acceleration;
+}
+
 nlohmann::ordered_json
 json_of_point(const cordic::Processor& processor, const cordic::Published& record, bool with_height) {
     const auto set = processor.set_point(record);
@@ -88,7 +98,8 @@ json_of_point(const cordic::Processor& processor, const cordic::Published& recor
                                  {"vx", set.vx},
                                  {"vy", set.vy},
                                  {"ax", set.ax},
-                                 {"ay", set.ay}};
+                                 {"ay", set.ay},
+                                 {"t_min", shortest_time(processor, record)}};
     if (with_height) {
         const auto height = processor.height_point(record);
         point["z"] = height.z;

@@ -1,5 +1,5 @@
 // How wrong a result can be: a bound that is proven for every input, and what is measured against exact
-// arithmetic. The proof is in docs/reference/cordic.md#accuracy; the sequences are circular.
+// arithmetic. The proof is in docs/reference/cordic.md#accuracy.
 #pragma once
 
 #include "core/base/progress.h"
@@ -14,7 +14,7 @@ namespace millwright::cordic {
 /// Parts of the largest distance between the computed and the exactly rotated vector. Lengths in units of the
 /// vector.
 struct RotationBound {
-    double angle = 0.0;    ///< by which it is turned wrongly, rad
+    double angle = 0.0;    ///< by which it is turned wrongly, in the unit of z
     double gain = 0.0;     ///< |k P - 1|: of the length, as a fraction
     double rounding = 0.0; ///< of x and y
     double total = 0.0;
@@ -25,13 +25,16 @@ struct RotationBound {
 rotation_bound(const NumberFormat& format, const Sequence& sequence, double length);
 
 struct VectoringBound {
-    double angle = 0.0;  ///< rad; pi if the vector is too short for the format to have a direction
-    double length = 0.0; ///< in units of the vector
+    /// In the unit of z. If the vector is too short for the format to have a direction: pi (circular),
+    /// infinite (hyperbolic).
+    double angle = 0.0;
+    double length = 0.0; ///< of the resulting x, in units of the vector
 };
 
-/// For vectors of `length` within the convergence range, as the format holds them.
+/// For vectors within the convergence range, as the format holds them; `size` is their length (circular), or
+/// their x with every y that converges (linear, hyperbolic).
 [[nodiscard]] VectoringBound
-vectoring_bound(const NumberFormat& format, const Sequence& sequence, double length);
+vectoring_bound(const NumberFormat& format, const Sequence& sequence, double size);
 
 /// Which inputs a measurement tries.
 struct Sampling {
@@ -44,12 +47,18 @@ struct Sampling {
 struct Accuracy {
     std::int64_t count = 0;
     double rotation = 0.0; ///< largest distance from the exactly rotated vector
-    double angle = 0.0;    ///< largest error of the direction, rad
-    double length = 0.0;   ///< largest error of the length
+    double angle = 0.0;    ///< largest error of z behind vectoring
+    double length = 0.0;   ///< largest error of x behind vectoring
 };
 
-/// Rotations of a vector of length 1 and polar forms of it, after folding; exact are the inputs as the format
-/// holds them. Fixed point needs 2 bits before the point. The same result on any number of threads. Throws
+/// Bits before the point that unit vectors, their rotations by every z that converges, and all on the way
+/// need.
+[[nodiscard]] int measured_integer_bits(CoordinateSystem m);
+
+/// Rotations of a vector of length 1 and, circular, polar forms of it, after folding and reducing; linear and
+/// hyperbolic, vectorings of (x, y) with x = 1.2345678 and 1. Inputs are tried up to 0.999 of the convergence
+/// range there, and words beyond it are not counted. Exact are the inputs as the format holds them. Fixed
+/// point needs measured_integer_bits() before the point. The same result on any number of threads. Throws
 /// Cancelled.
 [[nodiscard]] Accuracy measure_accuracy(const NumberFormat& format,
                                         const Sequence& sequence,

@@ -4,11 +4,11 @@
 #include "core/base/units.h"
 #include "core/cordic/angles.h"
 #include "core/cordic/fold.h"
+#include "core/cordic/internal/entered_numbers.h"
 #include "core/cordic/kernel.h"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -19,50 +19,10 @@ namespace {
 
 constexpr double right_angle_deg = 90.0;
 
+constexpr const char* room_for_turning = "the iteration needs room for the vector times its gain, up to 1.65";
+
 void refuse(bool overflow, const NumberFormat& format) {
-    if (overflow) {
-        throw Error(
-            fmt::format("the result or a number on the way to it does not fit into {}", to_text(format)),
-            {},
-            "the iteration needs room for the vector times its gain, up to 1.65");
-    }
-}
-
-template <class Arithmetic>
-typename Arithmetic::Number
-entered(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal& value) {
-    bool overflow = false;
-    typename Arithmetic::Number number{};
-    if constexpr (std::is_same_v<Arithmetic, FixedArithmetic>) {
-        number = value.to_fixed(format, overflow);
-    } else {
-        number = arithmetic.from_double(value.nearest_double(), overflow);
-    }
-    if (overflow) {
-        throw Error(fmt::format("{} does not fit into {}", value.nearest_double(), to_text(format)));
-    }
-    return number;
-}
-
-/// A vector that the format takes for nothing is not turned in silence; one part of it may vanish.
-void refuse_vanished(const NumberFormat& format, const Decimal& x, const Decimal& y, bool is_held) {
-    const long double wanted_x = x.nearest_long_double();
-    const long double wanted_y = y.nearest_long_double();
-    if (!is_held && (std::abs(wanted_x) > 0.0L || std::abs(wanted_y) > 0.0L)) {
-        throw Error(fmt::format("({:g}, {:g}) is less than {} can tell", wanted_x, wanted_y, to_text(format)),
-                    {},
-                    "choose a number format with more bits behind the point");
-    }
-}
-
-/// With all bits of a fixed-point word.
-template <class Arithmetic>
-long double exactly(const Arithmetic& arithmetic, typename Arithmetic::Number number) {
-    if constexpr (std::is_same_v<Arithmetic, FixedArithmetic>) {
-        return std::ldexp(static_cast<long double>(number), -arithmetic.fraction_bits());
-    } else {
-        return static_cast<long double>(number);
-    }
+    internal::refuse_overflow(overflow, format, room_for_turning);
 }
 
 template <class Number> struct Turn {
@@ -95,13 +55,6 @@ turn_of(const Arithmetic& arithmetic, const NumberFormat& format, const Decimal&
     }
 }
 
-template <class Arithmetic, class Vector>
-std::array<Word, 3>
-words_of_vector(const Arithmetic& arithmetic, const NumberFormat& format, const Vector& v) {
-    const auto word = [&](auto number) { return lowest_bits(arithmetic.to_word(number), format.word()); };
-    return {word(v.x), word(v.y), word(v.z)};
-}
-
 } // namespace
 
 Rotated rotate(const NumberFormat& format,
@@ -111,9 +64,10 @@ Rotated rotate(const NumberFormat& format,
                const Decimal& angle_deg) {
     return with_arithmetic(format, [&](const auto& arithmetic) {
         const Kernel kernel(arithmetic, sequence);
-        auto from_x = entered(arithmetic, format, x);
-        auto from_y = entered(arithmetic, format, y);
-        refuse_vanished(format, x, y, kernel.reach_of_vectoring(from_x, from_y) != Reach::zero_vector);
+        auto from_x = internal::entered(arithmetic, format, x);
+        auto from_y = internal::entered(arithmetic, format, y);
+        internal::refuse_vanished(
+            format, x, y, kernel.reach_of_vectoring(from_x, from_y) != Reach::zero_vector);
         const auto turn = turn_of(arithmetic, format, angle_deg);
         bool overflow = false;
         quarter_turn(arithmetic, from_x, from_y, turn.quarter_turns, overflow);
@@ -124,7 +78,7 @@ Rotated rotate(const NumberFormat& format,
                        arithmetic.to_double(turned.z),
                        0.0,
                        sequence.clock_count(),
-                       words_of_vector(arithmetic, format, turned)};
+                       internal::words_of_vector(arithmetic, format, turned)};
         // The exact result, with the quarter turns taken out of the angle so that none of its digits are
         // lost.
         long double exact_x = x.nearest_long_double();
@@ -132,9 +86,9 @@ Rotated rotate(const NumberFormat& format,
         quarter_turn(FloatArithmetic<long double>(), exact_x, exact_y, turn.quarter_turns, overflow);
         const long double c = std::cos(turn.exact);
         const long double s = std::sin(turn.exact);
-        answer.error =
-            static_cast<double>(std::hypot(exactly(arithmetic, turned.x) - (exact_x * c - exact_y * s),
-                                           exactly(arithmetic, turned.y) - (exact_y * c + exact_x * s)));
+        answer.error = static_cast<double>(
+            std::hypot(internal::exactly(arithmetic, turned.x) - (exact_x * c - exact_y * s),
+                       internal::exactly(arithmetic, turned.y) - (exact_y * c + exact_x * s)));
         return answer;
     });
 }
@@ -145,8 +99,10 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
     return with_arithmetic(format, [&](const auto& arithmetic) {
         const Kernel kernel(arithmetic, sequence);
         bool overflow = false;
-        const auto folded =
-            pre(arithmetic, entered(arithmetic, format, x_in), entered(arithmetic, format, y_in), overflow);
+        const auto folded = pre(arithmetic,
+                                internal::entered(arithmetic, format, x_in),
+                                internal::entered(arithmetic, format, y_in),
+                                overflow);
         const Reach reach = kernel.reach_of_vectoring(folded.x, folded.y);
         if (reach == Reach::zero_vector) {
             throw Error(fmt::format("({}, {}) has no direction in {}", x, y, to_text(format)));
@@ -175,7 +131,7 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
             std::abs(std::remainder(answer.angle_deg - to_degrees(std::atan2(y, x)), 360.0));
         answer.clocks = sequence.clock_count();
         answer.shift = shift;
-        answer.words = words_of_vector(arithmetic, format, found);
+        answer.words = internal::words_of_vector(arithmetic, format, found);
         return answer;
     });
 }

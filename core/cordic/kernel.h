@@ -117,6 +117,8 @@ public:
         const double angle = arithmetic_.to_double(z);
         return angle <= range_ && angle >= -range_ ? Reach::inside : Reach::outside;
     }
+    /// The largest |z| that rotation brings to zero: the sum of the angles, as this format holds them.
+    [[nodiscard]] constexpr double rotation_range() const { return range_; }
     /// Whether vectoring of (x, y) converges: its direction lies between those that all steps of one sense
     /// reach.
     [[nodiscard]] constexpr Reach reach_of_vectoring(Number x, Number y) const {

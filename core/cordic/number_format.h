@@ -38,6 +38,10 @@ struct NumberFormat {
     friend bool operator==(const NumberFormat&, const NumberFormat&) = default;
 };
 
+[[nodiscard]] constexpr bool is_fixed(const NumberFormat& format) {
+    return format.kind == NumberKind::fixed;
+}
+
 inline constexpr NumberFormat binary64{};
 inline constexpr NumberFormat binary32{.kind = NumberKind::binary32};
 

@@ -13,7 +13,10 @@ std::vector<RtlFile> make_rtl(const NumberFormat& format,
                               std::uint64_t seed) {
     if (format.kind != NumberKind::fixed) {
         throw Error(
-            fmt::format("hardware is made for fixed point, not for {}", to_text(format)), {}, "as q2.22");
+            fmt::format("hardware is made for fixed point, not for {}", to_text(format)),
+            {},
+            "as q2.22: a shift is then a wire; in floating point each addition of a step would need an adder "
+            "that aligns, normalises and rounds, which is not generated");
     }
     expects(vector_count > 0, "a test bench has vectors");
     const internal::Verilog verilog(format, sequence);

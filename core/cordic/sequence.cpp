@@ -1,10 +1,35 @@
 #include "core/cordic/sequence.h"
 
+#include "core/base/error.h"
 #include "core/cordic/angles.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
 namespace millwright::cordic {
+
+std::string_view to_text(CoordinateSystem m) {
+    switch (m) {
+    case CoordinateSystem::linear:
+        return "linear";
+    case CoordinateSystem::hyperbolic:
+        return "hyperbolic";
+    case CoordinateSystem::circular:
+        break;
+    }
+    return "circular";
+}
+
+CoordinateSystem parse_coordinate_system(std::string_view text) {
+    for (const auto m :
+         {CoordinateSystem::circular, CoordinateSystem::linear, CoordinateSystem::hyperbolic}) {
+        if (to_text(m) == text) {
+            return m;
+        }
+    }
+    throw Error(fmt::format("\"{}\" is no coordinate system", text), {}, "circular, linear or hyperbolic");
+}
 
 double gain(const Sequence& sequence) {
     double square = 1.0;
@@ -35,6 +60,11 @@ double convergence_range(const Sequence& sequence) {
         sum += wide_angle(sequence.m, sequence.shifts[static_cast<std::size_t>(i)]);
     }
     return to_floating<double>(sum);
+}
+
+double vectoring_range(const Sequence& sequence) {
+    const double range = convergence_range(sequence);
+    return sequence.m == CoordinateSystem::hyperbolic ? std::tanh(range) : range;
 }
 
 } // namespace millwright::cordic

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace millwright::cordic {
 
@@ -14,6 +15,11 @@ enum class CoordinateSystem : std::int8_t { hyperbolic = -1, linear = 0, circula
 [[nodiscard]] constexpr int sign_of(CoordinateSystem m) {
     return static_cast<int>(m);
 }
+
+/// "circular", "linear" or "hyperbolic".
+[[nodiscard]] std::string_view to_text(CoordinateSystem m);
+/// What to_text() gives. Throws Error that quotes the text.
+[[nodiscard]] CoordinateSystem parse_coordinate_system(std::string_view text);
 
 inline constexpr int most_steps = 62;
 inline constexpr int most_corrections = 8;
@@ -82,5 +88,9 @@ struct Sequence {
 /// The largest |z| that rotation brings to zero, and |angle| that vectoring does: the sum of all elementary
 /// angles.
 [[nodiscard]] double convergence_range(const Sequence& sequence);
+
+/// The largest |angle| (circular, rad) or |y/x| (linear, hyperbolic) whose vector the steps turn to the x
+/// axis.
+[[nodiscard]] double vectoring_range(const Sequence& sequence);
 
 } // namespace millwright::cordic

@@ -260,6 +260,7 @@ void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_choice(ui, now, ask);
     draw_times(ui, now, ask);
     draw_clocks(ui, now);
+    pass_.draw(ui, now.processor.choice());
 }
 
 void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {

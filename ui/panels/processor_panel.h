@@ -3,6 +3,7 @@
 
 #include "ui/panels/panel.h"
 #include "ui/panels/processor_code.h"
+#include "ui/panels/processor_pass.h"
 #include "ui/panels/processor_plots.h"
 
 namespace millwright::panels {
@@ -31,6 +32,7 @@ private:
 
     const actions::Catalogue& catalogue_;
     ProcessorCode code_;
+    ProcessorPass pass_;
     ProcessorPlots plots_;
 };
 

@@ -22,6 +22,17 @@ TEST(Rtl, HoldsTheTablesOfItsFormat) {
     EXPECT_EQ(std::ranges::count(files[4].text, '\n'), 10);
 }
 
+TEST(Rtl, NamesItsSystemAndWhatConverges) {
+    for (const RtlFile& file :
+         make_rtl(fixed_format(4, 20), thesis_sequence(CoordinateSystem::hyperbolic), 10, 1)) {
+        if (file.name.ends_with(".v")) {
+            EXPECT_THAT(file.text, HasSubstr("29 hyperbolic steps")) << file.name;
+            EXPECT_THAT(file.text,
+                        HasSubstr("|z| <= 1.837456 (rotation), x > 0 and |y/x| <= 0.950550 (vectoring)"));
+        }
+    }
+}
+
 TEST(Rtl, IsTheSameEachTime) {
     const auto a = make_rtl(fixed_format(2, 22), thesis_sequence(), 100, 7);
     const auto b = make_rtl(fixed_format(2, 22), thesis_sequence(), 100, 7);

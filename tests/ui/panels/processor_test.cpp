@@ -294,6 +294,36 @@ TEST(ProcessorWorkspace, ShowsWhatComesTooLateAtASlowerClock) {
     person.keep("processor-late");
 }
 
+TEST(ProcessorWorkspace, ComputesOnePassInEachSystem) {
+    ProcessorWorkspacePerson bench({1600, 1000});
+    Person& person = bench.person;
+    const auto shows = [&](const char* path) {
+        person.frames(2);
+        return person.desktop().ui().places().find(path) != nullptr;
+    };
+    const auto type = [&](const char* field, const char* text) {
+        person.click(field);
+        person.type(text);
+        person.press_key(render::Key::enter);
+        person.frames(2);
+    };
+    person.click("inspector/registers"); // folded away
+    EXPECT_TRUE(shows("inspector/pass/x_out"));
+    type("inspector/pass/z", "1.8"); // beyond 1.70857 rad
+    EXPECT_FALSE(shows("inspector/pass/x_out"));
+    person.choose("inspector/pass/system", "hyperbolic"); // whose range is 1.83745
+    EXPECT_TRUE(shows("inspector/pass/x_out"));
+    EXPECT_FALSE(person.refusal("inspector/pass/folds").empty());
+    person.bring_into_sight("inspector/pass/left");
+    person.keep("processor-pass");
+    person.click("inspector/pass/mode/vectoring");
+    EXPECT_TRUE(shows("inspector/pass/x_out"));
+    type("inspector/pass/y", "0.96"); // beyond 0.95055
+    EXPECT_FALSE(shows("inspector/pass/x_out"));
+    person.choose("inspector/pass/system", "linear");
+    EXPECT_TRUE(shows("inspector/pass/x_out"));
+}
+
 TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
     ProcessorWorkspacePerson bench;
     bench.person.workshop().run("processor.project"); // the dome needs five axes
