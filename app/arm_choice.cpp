@@ -1,11 +1,13 @@
 #include "app/arm_choice.h"
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +38,21 @@ double to_joint(const ArmModel& arm, int joint, double shown) {
 
 double from_joint(const ArmModel& arm, int joint, double position) {
     return arm.joint(joint).kind == JointKind::revolute ? to_degrees(position) : position;
+}
+
+JointPositions given_joints(const ArmModel& arm, const std::vector<double>& shown) {
+    if (static_cast<int>(shown.size()) != arm.joint_count()) {
+        throw Error(fmt::format(
+            "{} has {} joints, {} positions were given", arm.name(), arm.joint_count(), shown.size()));
+    }
+    JointPositions q(arm.joint_count());
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        q[n] = to_joint(arm, n, shown[static_cast<std::size_t>(n)]);
+        if (!std::isfinite(q[n])) {
+            throw Error(fmt::format("joint {}: the position is not a finite number", arm.joint(n).name));
+        }
+    }
+    return q;
 }
 
 double rounded(double value) {

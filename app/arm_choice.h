@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -22,6 +23,11 @@ void add_arm_option(CLI::App& command, std::string& arm);
 /// Degrees or mm to rad or mm, and back.
 [[nodiscard]] double to_joint(const kinematics::ArmModel& arm, int joint, double shown);
 [[nodiscard]] double from_joint(const kinematics::ArmModel& arm, int joint, double position);
+
+/// A position for every joint, as typed: degrees, mm of a sliding one. Throws Error for another count, and
+/// for numbers that are not finite.
+[[nodiscard]] kinematics::JointPositions given_joints(const kinematics::ArmModel& arm,
+                                                      const std::vector<double>& shown);
 
 /// To a billionth, so that rounding does not show.
 [[nodiscard]] double rounded(double value);

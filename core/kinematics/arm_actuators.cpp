@@ -99,19 +99,13 @@ DrivePositions drives_of(const ArmActuators& actuators, const JointPositions& jo
     return drives;
 }
 
-std::vector<DrivePositions>
-drives_inside(const ArmActuators& actuators, const DrivePositions& drives, double previous) {
+std::vector<double> roll_choices(const ArmActuators& actuators, const DrivePositions& drives) {
     const DriveLimits& limits = actuators.limits;
-    const double lead = drives[2] - drives[1];
-    if (!(lead > limits.below_second && lead < limits.above_second)) {
-        return {};
-    }
     const double low = limits.roll_low - drives[3];
-    std::vector<DrivePositions> found;
+    std::vector<double> found;
     const auto add = [&](double roll) {
         if (roll > low && roll < limits.roll_high) {
-            found.push_back(drives);
-            found.back()[4] = roll;
+            found.push_back(roll);
         }
     };
     if (limits.roll_turn > 0.0 && std::isfinite(low) && std::isfinite(limits.roll_high)) {
@@ -122,9 +116,7 @@ drives_inside(const ArmActuators& actuators, const DrivePositions& drives, doubl
     } else {
         add(drives[4]);
     }
-    std::ranges::stable_sort(found, [&](const DrivePositions& a, const DrivePositions& b) {
-        return std::abs(a[4] - previous) < std::abs(b[4] - previous);
-    });
+    std::ranges::stable_sort(found, {}, [&](double roll) { return std::abs(roll - drives[4]); });
     return found;
 }
 

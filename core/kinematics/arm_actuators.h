@@ -62,9 +62,7 @@ void expect_sound(const ArmActuators& actuators);
 [[nodiscard]] std::array<double, 2> triangle_angles(const ArmActuators& actuators,
                                                     const JointPositions& joints);
 
-/// Every choice of drive 5's turns that is inside the limits, the one nearest to `previous` first; none if
-/// the other drives are not inside theirs.
-[[nodiscard]] std::vector<DrivePositions>
-drives_inside(const ArmActuators& actuators, const DrivePositions& drives, double previous);
+/// The turns of drive 5 that are inside its window, which drive 4 moves; nearest to where it is first.
+[[nodiscard]] std::vector<double> roll_choices(const ArmActuators& actuators, const DrivePositions& drives);
 
 } // namespace millwright::kinematics

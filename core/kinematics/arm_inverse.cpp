@@ -211,20 +211,25 @@ InverseSolution arm_inverse(const ArmModel& arm, const PointedGoal& goal, const 
     return solve(arm, goal, previous, [&](double) { return previous[4] + arm.joint(4).theta; });
 }
 
-std::optional<Frame> projected_goal(const Frame& goal) {
-    const Vec3 tip = goal.translation();
-    if (distance_to_base_axis(tip) <= base_axis_tolerance) {
-        return goal; // a plane through the tool axis is always there
+std::optional<Vec3> projected_axis(const PointedGoal& goal) {
+    if (distance_to_base_axis(goal.tip) <= base_axis_tolerance) {
+        return goal.axis; // a plane through the tool axis is always there
     }
     constexpr double across = 1e-12; // length of what is left of the tool axis in the plane
-    const Vec3 m = plane_normal(tip);
-    const Vec3 z = goal.linear().col(2);
-    const Vec3 in_plane = z - m.dot(z) * m;
-    if (in_plane.norm() < across) {
+    const Vec3 m = plane_normal(goal.tip);
+    const Vec3 in_plane = goal.axis - m.dot(goal.axis) * m;
+    return in_plane.norm() < across ? std::nullopt : std::optional<Vec3>(in_plane.normalized());
+}
+
+std::optional<Frame> projected_goal(const Frame& goal) {
+    const Vec3 axis = goal.linear().col(2);
+    const std::optional<Vec3> in_plane = projected_axis({goal.translation(), axis});
+    if (!in_plane) {
         return std::nullopt;
     }
     Frame projected = goal;
-    projected.linear() = Eigen::Quaterniond::FromTwoVectors(z, in_plane).toRotationMatrix() * goal.linear();
+    projected.linear() =
+        Eigen::Quaterniond::FromTwoVectors(axis, *in_plane).toRotationMatrix() * goal.linear();
     return projected;
 }
 

@@ -34,5 +34,7 @@ arm_inverse(const ArmModel& arm, const PointedGoal& goal, const JointPositions& 
 /// The goal turned by the smallest angle so that its tool axis lies in the plane of the arm. Nothing if the
 /// tool axis is across that plane, where two directions are as near.
 [[nodiscard]] std::optional<Frame> projected_goal(const Frame& goal);
+/// The same of a tool axis (unit) alone.
+[[nodiscard]] std::optional<Vec3> projected_axis(const PointedGoal& goal);
 
 } // namespace millwright::kinematics

@@ -87,6 +87,12 @@ Way way_of(const ArmBlock& block, const std::filesystem::path& file) {
     return {block.way.norm(), [way = block.way](double u) { return Vec3(u * way); }};
 }
 
+void expect_feed(const ArmBlock& block, const std::filesystem::path& file) {
+    if (block.feed && !(*block.feed > 0.0)) {
+        fail_in_motion(file, block.line, "a feed is above 0");
+    }
+}
+
 /// The smallest turn that takes the tool axis from `from` to `to`, part of it.
 Mat3 turned(const Mat3& tool, const Vec3& to, double share) {
     const Vec3 from = tool.col(2);
@@ -98,6 +104,13 @@ Mat3 turned(const Mat3& tool, const Vec3& to, double share) {
 }
 
 } // namespace
+
+void expect_arcs(const std::vector<ArmBlock>& blocks, const std::filesystem::path& file) {
+    for (const ArmBlock& block : blocks) {
+        (void)way_of(block, file);
+        expect_feed(block, file);
+    }
+}
 
 std::vector<ArmWay> ways_of(const ArmModel& arm,
                             const std::vector<ArmBlock>& blocks,
@@ -112,9 +125,7 @@ std::vector<ArmWay> ways_of(const ArmModel& arm,
         const Way way = way_of(block, file);
         const Vec3 axis = block.tool_axis.value_or(Vec3(tool.linear().col(2)));
         feed = block.feed.value_or(feed);
-        if (!(feed > 0.0)) {
-            fail_in_motion(file, block.line, "a feed is above 0");
-        }
+        expect_feed(block, file);
         const auto at = [tool, axis, from = way.at, end = block.way](double share) {
             Frame there = tool;
             there.translation() += share < 1.0 ? from(share) : end;

@@ -12,6 +12,10 @@ namespace millwright::kinematics {
 /// F of blocks before the first that tells one, mm/s: the default of Saengsasri, Nittayachin 1996.
 inline constexpr double default_arm_feed = 10.0;
 
+/// Throws Error with file and line for an arc that is none, and for a feed that is not above 0: wherever the
+/// arm stands.
+void expect_arcs(const std::vector<ArmBlock>& blocks, const std::filesystem::path& file);
+
 /// One way a block, from where the joints `start` bring the tool on, to a billionth of a millimetre; blocks
 /// that do not move the tip have no length. Arcs lie in the plane of start, end and center; where those are
 /// on a line, in the XY plane, which the line must not leave then. A new tool axis is reached evenly along

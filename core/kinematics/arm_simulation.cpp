@@ -33,14 +33,11 @@ double in_single_precision(double value) {
 
 /// The tool axis nearest to `wanted` in the plane of the arm.
 Vec3 axis_at(const Vec3& tip, const Vec3& wanted, const std::filesystem::path& file, int line) {
-    Frame goal = Frame::Identity();
-    goal.translation() = tip;
-    goal.linear() = frame_along(wanted);
-    const auto projected = projected_goal(goal);
+    const auto projected = projected_axis({tip, wanted});
     if (!projected) {
         fail_in_simulation(file, line, "the tool axis is across the plane of the arm");
     }
-    return projected->linear().col(2);
+    return *projected;
 }
 
 class Simulation {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace millwright::kinematics {
 
@@ -86,15 +87,21 @@ void add_roll(const ArmActuators& drives, const DrivePositions& counts, std::vec
 
 } // namespace
 
+std::vector<ZoneBreach> drive_breaches(const ArmActuators& drives, const JointPositions& joints) {
+    std::vector<ZoneBreach> found;
+    const DrivePositions counts = drives_of(drives, joints);
+    add_triangles(drives, joints, found);
+    add_lead(drives, counts, found);
+    add_roll(drives, counts, found);
+    return found;
+}
+
 std::vector<ZoneBreach> zone_breaches(const ArmModel& arm, const JointPositions& joints) {
     std::vector<ZoneBreach> found;
     if (const ArmZone* zone = arm.zone()) {
         add_box(arm, *zone, joints, found);
         if (zone->drives) {
-            const DrivePositions counts = drives_of(*zone->drives, joints);
-            add_triangles(*zone->drives, joints, found);
-            add_lead(*zone->drives, counts, found);
-            add_roll(*zone->drives, counts, found);
+            std::ranges::move(drive_breaches(*zone->drives, joints), std::back_inserter(found));
         }
     }
     return found;

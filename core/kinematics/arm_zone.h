@@ -23,6 +23,11 @@ struct ZoneBreach {
     std::string why;    ///< a sentence
 };
 
+/// The limits of the drives that are broken there: triangles that do not close, A3 against A2, the window of
+/// A5.
+[[nodiscard]] std::vector<ZoneBreach> drive_breaches(const ArmActuators& drives,
+                                                     const JointPositions& joints);
+
 /// All that is broken there; empty for an arm without a zone. Joint limits are not looked at.
 [[nodiscard]] std::vector<ZoneBreach> zone_breaches(const ArmModel& arm, const JointPositions& joints);
 

@@ -29,6 +29,7 @@ struct PathPlace {
 struct ArmInput {
     std::vector<TaughtPoint> points; ///< in the order in which they are played
     std::string program;             ///< of the card, in its own language, without OPEN and CLOSE
+    std::string motion_file;         ///< lines and arcs of the tool, as the thesis wrote them
     PathPlace path;
 
     friend bool operator==(const ArmInput&, const ArmInput&) = default;

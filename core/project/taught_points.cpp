@@ -61,13 +61,16 @@ std::vector<TaughtPoint> points_of(const JsonValue& array) {
 }
 
 ArmInput arm_of(const JsonValue& value) {
-    value.expect_only({"points", "program", "path"});
+    value.expect_only({"points", "program", "motion_file", "path"});
     ArmInput arm;
     if (const auto points = value.find("points")) {
         arm.points = points_of(*points);
     }
     if (const auto program = value.find("program")) {
         arm.program = program->text();
+    }
+    if (const auto motion = value.find("motion_file")) {
+        arm.motion_file = motion->text();
     }
     if (const auto path = value.find("path")) {
         path->expect_only({"at_mm", "turned_deg", "most_lean_deg"});
@@ -96,6 +99,7 @@ Json json_of(const ArmInput& arm) {
     Json json;
     json["points"] = json_of(arm.points);
     json["program"] = arm.program;
+    json["motion_file"] = arm.motion_file;
     json["path"] = {{"at_mm", point_json(arm.path.at_mm)},
                     {"turned_deg", point_json(arm.path.turned_deg)},
                     {"most_lean_deg", arm.path.most_lean_deg}};

@@ -7,6 +7,7 @@
 #include "core/kinematics/arm_rates.h"
 #include "core/kinematics/arm_simulation.h"
 #include "core/kinematics/arm_zone.h"
+#include "core/kinematics/tool_roll.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
@@ -99,7 +100,11 @@ void ArmBench::set_joints(const JointPositions& joints) {
 }
 
 void ArmBench::go_home() {
-    set_joints(home_of(arm()));
+    set_joints(home());
+}
+
+JointPositions ArmBench::home() const {
+    return home_of(arm());
 }
 
 void ArmBench::move_tip(const Vec3& tip) {
@@ -129,12 +134,41 @@ void ArmBench::set_goal(const Vec3& tip, const Vec3& axis) {
     solve();
 }
 
+void ArmBench::set_goal_from_tool() {
+    const Frame now = tool();
+    if (goal_roll_) {
+        goal_roll_ = kinematics::roll_of(now.linear());
+    }
+    set_goal(now.translation(), now.linear().col(2));
+}
+
+void ArmBench::set_goal_roll(std::optional<double> roll) {
+    goal_roll_ = roll;
+    if (goal_) {
+        goal_->axis = wanted_axis_;
+        solve();
+    }
+}
+
 void ArmBench::set_projects(bool on) {
     projects_ = on;
     if (goal_) {
         goal_->axis = wanted_axis_;
         solve();
     }
+}
+
+/// The roll is that about the axis which the arm can hold, as of `millwright arm ik --roll`.
+Frame ArmBench::goal_frame(const kinematics::ArmAim& aim) const {
+    if (!goal_roll_) {
+        return frame_at(goal_->tip, frame_along(goal_->axis));
+    }
+    Vec3 axis = goal_->axis;
+    const auto in_plane = arm().planar_elbow() ? kinematics::projected_axis(*goal_) : std::nullopt;
+    if (in_plane && angle_between(*in_plane, axis) <= aim.most_tilt) {
+        axis = *in_plane;
+    }
+    return frame_at(goal_->tip, kinematics::frame_with_roll(axis, *goal_roll_));
 }
 
 void ArmBench::solve() {
@@ -145,8 +179,10 @@ void ArmBench::solve() {
         reason_ = "the tool axis has no direction";
         return;
     }
-    const Frame goal = frame_at(goal_->tip, frame_along(goal_->axis));
-    const kinematics::ArmAim aim{kinematics::ArmDemand::tip_and_axis, projects_ ? 0.5 * pi : rounding};
+    using kinematics::ArmDemand;
+    const kinematics::ArmAim aim{goal_roll_ ? ArmDemand::frame : ArmDemand::tip_and_axis,
+                                 projects_ ? 0.5 * pi : rounding};
+    const Frame goal = goal_frame(aim);
     for (JointPositions& joints : kinematics::all_holds(arm(), goal, aim, joints_)) {
         std::string branch = branch_of(joints);
         ArmSolution solution{std::move(joints), std::move(branch)};

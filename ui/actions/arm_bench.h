@@ -10,6 +10,7 @@
 #include "ui/actions/arm_path_work.h"
 #include "ui/actions/card_run.h"
 #include "ui/actions/machine_news.h"
+#include "ui/actions/motion_file_bench.h"
 #include "ui/actions/motion_program_bench.h"
 #include "ui/viewport/arm_scene.h"
 
@@ -70,6 +71,8 @@ public:
     void set_joints(const kinematics::JointPositions& joints);
     /// The upper arm upright, the forearm level; of other arms every joint at 0, or near it.
     void go_home();
+    /// The joints of it.
+    [[nodiscard]] kinematics::JointPositions home() const;
     /// The tip there and the tool leaning as it does; where the arm cannot it stays, and refusal() says why.
     void move_tip(const Vec3& tip);
     /// The same by `way` in a straight line, base's frame, mm.
@@ -80,6 +83,11 @@ public:
     /// Looks for every way to hold the tool there. `axis` need not be a unit vector; one of no length is
     /// refused by reason().
     void set_goal(const Vec3& tip, const Vec3& axis);
+    /// The tool as it is now; its roll, too, where one is asked for.
+    void set_goal_from_tool();
+    /// The roll about the goal's axis (core/kinematics/tool_roll.h), rad; nullopt: any will do.
+    void set_goal_roll(std::optional<double> roll);
+    [[nodiscard]] const std::optional<double>& goal_roll() const { return goal_roll_; }
     /// Turns the goal's axis by the smallest angle into the plane of an arm with five joints.
     void set_projects(bool on);
     [[nodiscard]] bool projects() const { return projects_; }
@@ -133,6 +141,9 @@ public:
     [[nodiscard]] MotionProgramBench& program() { return program_; }
     [[nodiscard]] const MotionProgramBench& program() const { return program_; }
 
+    [[nodiscard]] MotionFileBench& motion_file() { return motion_file_; }
+    [[nodiscard]] const MotionFileBench& motion_file() const { return motion_file_; }
+
     /// A program on the part that stands there is looked at, in the background; none: nothing is. The joints
     /// of the wish are those of now.
     void look_at_path(std::optional<ArmPathWish> wish);
@@ -153,6 +164,7 @@ public:
 
 private:
     void solve();
+    [[nodiscard]] Frame goal_frame(const kinematics::ArmAim& aim) const;
     [[nodiscard]] motion::Trajectory planned(const std::vector<motion::ArmStop>& stops) const;
     void place(const kinematics::JointPositions& joints); ///< and the trace
     void extend_trace();
@@ -165,6 +177,7 @@ private:
     std::string refusal_;
     std::optional<kinematics::PointedGoal> goal_;
     Vec3 wanted_axis_ = Vec3::UnitZ(); ///< of the goal, before it was projected
+    std::optional<double> goal_roll_;
     bool projects_ = true;
     std::vector<ArmSolution> solutions_;
     std::string reason_;
@@ -179,6 +192,7 @@ private:
     MachineNews news_;
     std::optional<int> new_point_;
     MotionProgramBench program_;
+    MotionFileBench motion_file_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;
     bool of_card_ = false; ///< the motion that is wanted

@@ -119,6 +119,28 @@ Permission can_send_path(const Workbench& now) {
                                      ".");
 }
 
+Permission sound_motion_file(const Workbench& now) {
+    if (const Permission there = in_workspace(now); !there.allowed) {
+        return there;
+    }
+    if (!now.arm.motion_file().faults().empty()) {
+        return Permission::refused("The motion file has a fault: see its line.");
+    }
+    return now.arm.motion_file().has_blocks()
+               ? Permission{}
+               : Permission::refused("There is no motion file yet: write one under Motion file.");
+}
+
+Permission can_simulate_motion(const Workbench& now) {
+    return now.arm_connected() ? Permission::refused("The picture follows the connected controller: play it.")
+                               : sound_motion_file(now);
+}
+
+Permission can_play_motion(const Workbench& now) {
+    const Permission able = can_play_arm(now);
+    return able.allowed ? sound_motion_file(now) : able;
+}
+
 void record(Hands& hands) {
     ArmBench& arm = hands.workshop.arm();
     const int place = static_cast<int>(hands.now.project.arm.points.size());
@@ -250,6 +272,41 @@ void add_arm_teach_actions(Actions& actions) {
          icons::file},
         can_play_arm,
         ask_for_arm_file<FileQuestion::play_motion_file>);
+    add(actions,
+        {"arm.simulate_motion",
+         menu,
+         "Simulate the motion file",
+         "The text as it is, by the drawn arm, from the home of the thesis on.",
+         "",
+         icons::play},
+        can_simulate_motion,
+        [](Hands& hands) { hands.workshop.simulate_motion_file(); });
+    add(actions,
+        {"arm.play_motion",
+         menu,
+         "Play the motion file that is written",
+         "From where the arm is: the drawn arm, or the connected one.",
+         "",
+         icons::play},
+        can_play_motion,
+        [](Hands& hands) { hands.workshop.play_motion_text(); });
+    add(actions,
+        {"arm.save_result",
+         menu,
+         "Save the result of the motion file",
+         "Points and joints from the home of the thesis on, in the layout of the thesis.",
+         "",
+         icons::save},
+        sound_motion_file,
+        ask_for_arm_file<FileQuestion::save_motion_result>);
+    add(actions,
+        {"arm.open_motion", menu, "Open a motion file", "In place of the present text.", "", icons::folder},
+        in_workspace,
+        ask_for_arm_file<FileQuestion::open_motion_file>);
+    add(actions,
+        {"arm.save_motion", menu, "Save the motion file", "As a file of its own.", "", icons::save},
+        in_workspace,
+        ask_for_arm_file<FileQuestion::save_motion_file>);
     add(actions,
         {"arm.card_settings",
          menu,

@@ -32,6 +32,7 @@ struct HandSettings {
     bool arm_keys = false;         ///< the keys of the thesis move the arm
     bool arm_path = false;         ///< a program is shown on the arm
     bool arm_path_of_file = false; ///< the opened file's, where one is open, not the project's
+    double arm_result_step = 5.0;  ///< mm between two points of a motion file's result
     bool single_block = false;
     bool show_reports = false;         ///< in the console
     std::vector<std::string> commands; ///< typed before, oldest first

@@ -30,10 +30,15 @@ Permission can_step_lines(const Workbench& now) {
                             : Permission::refused("Lines are stepped in an opened G-code file.");
 }
 
-Permission in_program(const Workbench& now) {
-    return now.session.workspace == Workspace::program
+/// The listing of the Program workspace, or an editor of the arm.
+Permission has_text(const Workbench& now) {
+    const bool editor = now.session.workspace == Workspace::arm && now.session.panes.lower_shown &&
+                        (now.session.lower_tab_now() == LowerTab::motion_program ||
+                         now.session.lower_tab_now() == LowerTab::motion_file);
+    return editor || now.session.workspace == Workspace::program
                ? Permission{}
-               : Permission::refused("The listing is searched in the Program workspace.");
+               : Permission::refused(
+                     "Texts are searched in the Program workspace, and in the editors of the Arm workspace.");
 }
 
 void go_to(Hands& hands, gcode::Step step) {
@@ -161,22 +166,31 @@ void add_playback_actions(Actions& actions) {
         can_step_lines,
         step_line<-1>);
     add(actions,
+        {"program.find",
+         "Step-through",
+         "Find",
+         "In the listing, or in the editor in sight, which can replace, too.",
+         "Ctrl+F",
+         icons::search},
+        has_text,
+        [](Hands& hands) { hands.session.file.find_wanted = true; });
+    add(actions,
         {"program.find_next",
          "Step-through",
          "Find the next place",
-         "Goes on with the search in the listing.",
+         "Searches again, in the listing or in the editor in sight.",
          "Ctrl+G",
          icons::search},
-        in_program,
+        has_text,
         [](Hands& hands) { hands.session.file.find_next = 1; });
     add(actions,
         {"program.find_previous",
          "Step-through",
          "Find the place before",
-         "Goes back with the search in the listing.",
+         "Searches backwards, in the listing or in the editor in sight.",
          "Ctrl+Shift+G",
          icons::search},
-        in_program,
+        has_text,
         [](Hands& hands) { hands.session.file.find_next = -1; });
 }
 

@@ -39,8 +39,10 @@ enum class LowerTab {
     jobs,
     log,
     motors,
+    drives, ///< of the arm
     points,
     motion_program,
+    motion_file, ///< of the arm
     gouges
 };
 
@@ -74,7 +76,8 @@ struct FileView {
     Playback parked;                 ///< where the other motion stands: the file's, or the project's
     bool plays_file = false;         ///< whose motion Session::playback is
     std::optional<gcode::Step> step; ///< chosen by hand; nothing: that of the motion
-    int find_next = 0;               ///< 1: the listing goes on to the next hit, -1: back
+    int find_next = 0;        ///< 1: the listing, or the editor in sight, goes on to the next hit, -1: back
+    bool find_wanted = false; ///< its field takes the keyboard
 };
 
 /// A file that is asked for, until the person has chosen or given up.
@@ -90,6 +93,9 @@ enum class FileQuestion {
     save_motion_program,
     open_arm,         ///< a file of one's own
     play_motion_file, ///< of the thesis's kind: lines and arcs of the tool
+    open_motion_file, ///< into the editor
+    save_motion_file,
+    save_motion_result, ///< the points and joints of one
     load_card_settings,
     write_program ///< of the project, as G-code
 };

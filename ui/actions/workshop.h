@@ -144,6 +144,15 @@ public:
     void open_arm(const std::filesystem::path& file);
     /// Lines and arcs of the tool from where the arm stands. Throws Error with the line of what is wrong.
     void play_motion_file(const std::filesystem::path& file);
+    /// The motion file of the project, from the home of the thesis on: the drawn arm alone. Throws Error.
+    void simulate_motion_file();
+    /// The same from where the arm stands: the drawn arm, or the connected one. Throws Error.
+    void play_motion_text();
+    /// The motion file as a file of its own, and the points and joints of it from the home of the thesis on,
+    /// as `millwright arm simulate` writes them. Each throws Error and ends the question.
+    void open_motion_file(const std::filesystem::path& file);
+    void save_motion_file(const std::filesystem::path& file);
+    void save_motion_result(const std::filesystem::path& file);
     /// Sends a file of settings to the card, and tells what is dangerous or refused in it. Throws Error.
     void load_card_settings(const std::filesystem::path& file);
     /// Points and programs of the arm as files of their own. Each throws Error and ends the question.

@@ -2,12 +2,11 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_motion_ways.h"
+#include "core/kinematics/arm_simulation.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
 #include "core/machine/drivers/pmac/pmac_program.h"
 #include "core/motion/arm_tour.h"
-#include "core/motion/planner.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/workshop.h"
@@ -106,6 +105,7 @@ bool Workshop::follow_arm(double seconds) {
 void Workshop::follow_arm_work() {
     const Workbench now = look();
     arm_->program().follow(now.project.arm.program);
+    arm_->motion_file().follow(now.project.arm.motion_file);
     if (const auto simulation = arm_->program().take()) {
         if (simulation->records.size() > 1 && !now.arm_connected()) {
             arm_->play(play_of(simulation));
@@ -170,15 +170,22 @@ void Workshop::open_arm(const fs::path& file) {
 
 void Workshop::play_motion_file(const fs::path& file) {
     session_.question = FileQuestion::none;
-    constexpr double quarter_turn = 0.5 * pi;
-    const kinematics::ArmModel& arm = arm_->arm();
-    const auto blocks = kinematics::parse_arm_motion(read_file(file), file);
-    const auto ways = kinematics::ways_of(arm, blocks, arm_->joints(), file);
-    kinematics::ArmPathSettings settings;
-    settings.aim = motion::aim_of(arm, quarter_turn);
-    motion::ArmMotion motion(arm, arm_->joints());
-    motion.follow(ways, kinematics::follow_path(arm, ways, arm_->joints(), settings, {}), file);
-    play_on_arm(motion::plan(motion.program(), arm, {}, {}));
+    play_on_arm(motion_of_file(arm_->arm(), read_file(file), arm_->joints(), file));
+}
+
+void Workshop::play_motion_text() {
+    play_on_arm(motion_of_file(
+        arm_->arm(), history_.current().arm.motion_file, arm_->joints(), MotionFileBench::name()));
+}
+
+void Workshop::simulate_motion_file() {
+    auto motion = motion_of_file(
+        arm_->arm(), history_.current().arm.motion_file, arm_->home(), MotionFileBench::name());
+    tell(session_,
+         widgets::Severity::info,
+         fmt::format("From its home the arm takes {:.1f} s.", motion.duration()));
+    arm_->play(play_of(std::move(motion)));
+    arm_->clear_trace();
 }
 
 void Workshop::run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends) {
@@ -234,6 +241,31 @@ void Workshop::save_motion_program(const fs::path& file) {
     write_file(file, history_.current().arm.program);
     session_.question = FileQuestion::none;
     tell(session_, widgets::Severity::info, "Saved " + file.filename().string() + ".");
+}
+
+void Workshop::open_motion_file(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    edit("Open a motion file",
+         [text = read_file(file)](project::Project& draft) { draft.arm.motion_file = text; },
+         {});
+}
+
+void Workshop::save_motion_file(const fs::path& file) {
+    write_file(file, history_.current().arm.motion_file);
+    session_.question = FileQuestion::none;
+    tell(session_, widgets::Severity::info, "Saved " + file.filename().string() + ".");
+}
+
+void Workshop::save_motion_result(const fs::path& file) {
+    session_.question = FileQuestion::none;
+    const auto blocks =
+        kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
+    const auto records = kinematics::simulate_arm(
+        arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
+    write_file(file, kinematics::arm_result_text(records));
+    tell(session_,
+         widgets::Severity::info,
+         counted(records.size(), "point") + " saved in " + file.filename().string() + ".");
 }
 
 } // namespace millwright::actions

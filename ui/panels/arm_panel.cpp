@@ -3,6 +3,7 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/kinematics/tool_roll.h"
 #include "core/project/assets.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/arm_path_fields.h"
@@ -82,6 +83,39 @@ bool slides(const kinematics::ArmModel& arm) {
         }
     }
     return false;
+}
+
+/// Whether the goal's roll matters, and which it is.
+void roll_fields(Ui& ui, const ArmBench& bench, ActionQueue& ask) {
+    const auto& roll = bench.goal_roll();
+    if (const auto on = ui.toggle("roll_matters",
+                                  "With roll",
+                                  roll.has_value(),
+                                  "Off: the tool may turn about its axis as it likes")) {
+        ask.arm([on = *on](ArmBench& b) {
+            b.set_goal_roll(on ? std::optional(kinematics::roll_of(b.tool().linear())) : std::nullopt);
+        });
+    }
+    if (roll) {
+        const widgets::FieldInfo field{
+            "roll",
+            "Roll",
+            "\u00b0",
+            "Of the tool about its axis. At 0 the tool's x lies in the upright plane "
+            "through the axis and points up",
+            -360.0,
+            360.0,
+            {},
+            2};
+        if (const auto wanted = ui.number(to_degrees(*roll), field)) {
+            ask.arm([to = from_degrees(*wanted)](ArmBench& b) { b.set_goal_roll(to); });
+        }
+    }
+}
+
+std::string direction_text(const Vec3& direction) {
+    return fmt::format(
+        "{}  {}  {}", fixed(direction.x(), 3), fixed(direction.y(), 3), fixed(direction.z(), 3));
 }
 
 } // namespace
@@ -176,15 +210,17 @@ void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
         return;
     }
     const Frame tool = now.arm.tool();
-    const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
+    const Vec3 tip = tool.translation();
+    const Mat3 directions = tool.linear();
     const auto labels = ui.label_share(0.34F);
     ui.value("tip",
              "Tip",
              fmt::format("{}  {}  {}", fixed(tip.x(), 1), fixed(tip.y(), 1), fixed(tip.z(), 1)),
              "mm");
-    ui.value("axis",
-             "Axis",
-             fmt::format("{}  {}  {}", fixed(axis.x(), 3), fixed(axis.y(), 3), fixed(axis.z(), 3)));
+    ui.value("axis", "Axis (z)", direction_text(directions.col(2)));
+    ui.value("x", "Its x", direction_text(directions.col(0)));
+    ui.value("y", "Its y", direction_text(directions.col(1)));
+    ui.value("roll", "Roll", fixed(to_degrees(kinematics::roll_of(directions)), 2), "\u00b0");
     const double measure = now.arm.manipulability();
     ui.value("manipulability",
              "Manipulability",
@@ -211,6 +247,7 @@ void ArmPanel::draw_goal(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     if (const auto wanted = ui.vec3("axis", "Axis", {axis.x(), axis.y(), axis.z()}, direction)) {
         ask.arm([tip, d = *wanted](ArmBench& b) { b.set_goal(tip, Vec3(d[0], d[1], d[2])); });
     }
+    roll_fields(ui, bench, ask);
     if (const auto on = ui.toggle("project",
                                   "Into its plane",
                                   bench.projects(),
@@ -223,7 +260,7 @@ void ArmPanel::draw_goal(Ui& ui, const Workbench& now, ActionQueue& ask) const {
                       "From the tool",
                       {},
                       {{}, widgets::Rank::normal, -1.0F, "Takes what the arm does now"})) {
-            ask.arm([](ArmBench& b) { b.set_goal(b.tool().translation(), b.tool().linear().col(2)); });
+            ask.arm([](ArmBench& b) { b.set_goal_from_tool(); });
         }
         const auto allowed =
             bench.goal() ? widgets::Permission{} : widgets::Permission::refused("There is no goal.");

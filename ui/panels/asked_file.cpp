@@ -25,7 +25,7 @@ bool is_opened(const fs::path& file) {
            project::is_plot_file(file);
 }
 
-constexpr std::array<AskedFile, 12> questions{
+constexpr std::array<AskedFile, 15> questions{
     {{FileQuestion::open,
       "Open a project, G-code, a surface, a plot or a picture",
       true,
@@ -99,6 +99,27 @@ constexpr std::array<AskedFile, 12> questions{
       "",
       [](actions::Workshop& workshop, const fs::path& file) { workshop.play_motion_file(file); },
       "No files here."},
+     {FileQuestion::open_motion_file,
+      "Open a motion file",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_motion_file(file); },
+      "No files here."},
+     {FileQuestion::save_motion_file,
+      "Save the motion file as",
+      false,
+      ".mot",
+      "motion.mot",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_motion_file(file); },
+      "No motion files (.mot) here."},
+     {FileQuestion::save_motion_result,
+      "Save points and joints as",
+      false,
+      ".txt",
+      "result.txt",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_motion_result(file); },
+      "No results (.txt) here."},
      {FileQuestion::load_card_settings,
       "Load settings of the card",
       true,

@@ -76,6 +76,10 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {
         const auto width = ui.width(whole - ui.px(buttons));
         const auto labels = ui.label_share(label / (whole - ui.px(buttons)));
+        if (now.session.file.find_wanted) {
+            ui.focus_field(ui.path("find"));
+            ask.show([](actions::Session& session) { session.file.find_wanted = false; });
+        }
         if (const auto text =
                 ui.search_field("find", "Find", wanted_, "Words of the program; Enter finds the next")) {
             *text == wanted_ && !wanted_.empty() ? go_on(1, now, ask) : look_for(*text, now, ask);

@@ -1,6 +1,7 @@
 #include "ui/panels/lower_panel.h"
 
 #include "core/base/text.h"
+#include "ui/panels/arm_drives.h"
 #include "ui/panels/arm_motors.h"
 #include "ui/panels/error_table.h"
 #include "ui/panels/gouge_table.h"
@@ -44,9 +45,11 @@ constexpr std::array<Tab, 8> driving{{{LowerTab::console, {"console", "Console",
                                       {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                       {LowerTab::log, {"log", "Log", icons::info}}}};
 
-constexpr std::array<Tab, 5> moving_arm{{{LowerTab::motors, {"motors", "Joints", icons::table}},
+constexpr std::array<Tab, 7> moving_arm{{{LowerTab::motors, {"motors", "Joints", icons::table}},
+                                         {LowerTab::drives, {"drives", "Drives", icons::table}},
                                          {LowerTab::points, {"points", "Points", icons::add}},
                                          {LowerTab::motion_program, {"program", "Program", icons::program}},
+                                         {LowerTab::motion_file, {"motion_file", "Motion file", icons::file}},
                                          {LowerTab::console, {"console", "Terminal", icons::keyboard}},
                                          {LowerTab::log, {"log", "Log", icons::info}}}};
 
@@ -120,10 +123,14 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return draw_jobs(ui, now);
     case LowerTab::motors:
         return arm_motors(ui, now);
+    case LowerTab::drives:
+        return arm_drives(ui, now);
     case LowerTab::points:
         return points_.draw(ui, now, ask);
     case LowerTab::motion_program:
         return motion_program_.draw(ui, now, ask);
+    case LowerTab::motion_file:
+        return motion_file_.draw(ui, now, ask);
     case LowerTab::log:
         return draw_log(ui, now);
     }

@@ -5,6 +5,7 @@
 #include "ui/panels/console_panel.h"
 #include "ui/panels/controller_tables.h"
 #include "ui/panels/listing_panel.h"
+#include "ui/panels/motion_file_panel.h"
 #include "ui/panels/motion_plots.h"
 #include "ui/panels/motion_program_panel.h"
 #include "ui/panels/panel.h"
@@ -18,7 +19,7 @@ namespace millwright::panels {
 class LowerPanel final : public Panel {
 public:
     explicit LowerPanel(const actions::Catalogue& catalogue)
-        : queue_(catalogue), points_(catalogue), motion_program_(catalogue) {}
+        : queue_(catalogue), points_(catalogue), motion_program_(catalogue), motion_file_(catalogue) {}
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
@@ -34,6 +35,7 @@ private:
     QueuePanel queue_;
     ArmPointsPanel points_;
     MotionProgramPanel motion_program_;
+    MotionFilePanel motion_file_;
 };
 
 } // namespace millwright::panels

@@ -83,6 +83,26 @@ void draw_gutter(Ui& ui, const Rect& whole, float gutter, float top, float step,
     }
 }
 
+int line_of(std::string_view text, std::size_t at) {
+    return static_cast<int>(std::ranges::count(text.substr(0, at), '\n'));
+}
+
+/// Line by line behind the letters, which begin at `left` and `top`.
+void draw_marked(Ui& ui, std::string_view text, const TextRange& range, float left, float top, float step) {
+    const ImFont* font = ui.look().fonts.mono;
+    const std::size_t to = std::min(range.to, text.size());
+    std::size_t from = std::min(range.from, to);
+    while (from < to) {
+        const std::size_t line_begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1; // npos + 1 is 0
+        const std::size_t line_end = std::min(text.find('\n', from), to);
+        const float x = left + text_width(font, text.substr(line_begin, from - line_begin));
+        const float width = text_width(font, text.substr(from, line_end - from));
+        const float y = top + static_cast<float>(line_of(text, from)) * step;
+        fill({x, y, std::max(width, ui.px(3.0F)), step}, faded(ui.colours().warning, 0.45), ui.px(2.0F));
+        from = line_end + 1;
+    }
+}
+
 void bring_into_sight(int line, float step, float height) {
     const float top = static_cast<float>(line) * step;
     if (top < ImGui::GetScrollY()) {
@@ -140,6 +160,13 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
         const float needed = step * static_cast<float>(line_count(view.text) + 1);
         const float top = ImGui::GetCursorScreenPos().y;
         draw_gutter(ui, whole, gutter, top, step, view);
+        if (view.marked) {
+            draw_marked(ui, view.text, *view.marked, whole.x + gutter, top, step);
+            if (view.follow_marked) {
+                bring_into_sight(line_of(view.text, view.marked->from), step, whole.h);
+                ui.change_in(0.0);
+            }
+        }
         ImGui::SetCursorScreenPos({whole.x + gutter, top});
         Ui::State::Written& written = ui.state().written;
         const bool known = written.path == path; // it was being written in the last frame
@@ -165,6 +192,8 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
         if (typing) {
             answer.history = history_asked();
             follow_writing(ui, path, view.text, writing, answer);
+            answer.caret =
+                writing.caret < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(writing.caret));
             if (written.frames_to_follow > 0) {
                 bring_into_sight(writing.line, step, whole.h);
             }

@@ -59,6 +59,45 @@ TEST(TextPattern, FindsEachPlaceThatTheStandardLibraryFinds) {
     }
 }
 
+std::vector<std::size_t> places_of(const TextPattern& pattern, const std::string& text) {
+    std::vector<std::size_t> found;
+    for (auto at = pattern.next(text, 0); at; at = pattern.next(text, *at + 1)) {
+        found.push_back(*at);
+    }
+    std::vector<std::size_t> backward;
+    for (auto at = pattern.previous(text, text.size()); at; at = pattern.previous(text, *at)) {
+        backward.insert(backward.begin(), *at);
+    }
+    EXPECT_EQ(found, backward);
+    TextCount count(text, pattern);
+    while (!count.done()) {
+        count.advance(1);
+    }
+    EXPECT_LE(count.count(), static_cast<std::int64_t>(found.size())); // overlaps count once
+    return found;
+}
+
+TEST(TextPattern, TellsCapitalLettersAndWholeWordsApartWhereItShall) {
+    const std::string text = "X10 x10 X100 aX10\nX10";
+    using Places = std::vector<std::size_t>;
+    EXPECT_EQ(places_of(TextPattern("x10"), text), (Places{0, 4, 8, 14, 18}));
+    EXPECT_EQ(places_of(TextPattern("x10", {.same_case = true}), text), (Places{4}));
+    EXPECT_EQ(places_of(TextPattern("x10", {.whole_words = true}), text), (Places{0, 4, 18}));
+    EXPECT_EQ(places_of(TextPattern("X10", {.same_case = true, .whole_words = true}), text), (Places{0, 18}));
+    // What is no letter needs no border.
+    EXPECT_EQ(places_of(TextPattern(";", {.whole_words = true}), "X1;;Y"), (Places{2, 3}));
+}
+
+TEST(TextPattern, PutsAnotherTextInEveryPlace) {
+    const ReplacedText all = replaced_everywhere("aXaxa", TextPattern("x"), "xx");
+    EXPECT_EQ(all.text, "axxaxxa");
+    EXPECT_EQ(all.count, 2);
+    EXPECT_EQ(replaced_everywhere("aaa", TextPattern("aa"), "b").text, "ba");
+    EXPECT_EQ(replaced_everywhere("X1 X10", TextPattern("X1", {.whole_words = true}), "").text, " X10");
+    EXPECT_EQ(replaced_everywhere("none", TextPattern("x"), "y").count, 0);
+    EXPECT_EQ(replaced_everywhere("", TextPattern("x"), "y").text, "");
+}
+
 TEST(TextPattern, FindsAPlaceFarBack) {
     const std::string text = "needle" + std::string(200'000, ' ');
     EXPECT_EQ(TextPattern("NEEDLE").previous(text, text.size()), 0U);

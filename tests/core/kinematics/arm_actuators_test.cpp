@@ -52,10 +52,7 @@ TEST(ArmActuatorsK6, RefuseATriangleThatDoesNotClose) {
 std::vector<double> rolls(double fourth, double fifth) {
     DrivePositions a;
     a << 0.0, 0.0, 0.0, fourth, fifth;
-    std::vector<double> found;
-    for (const DrivePositions& inside : drives_inside(shipped(), a, fifth)) {
-        found.push_back(inside[4]);
-    }
+    std::vector<double> found = roll_choices(shipped(), a);
     std::ranges::sort(found);
     return found;
 }
@@ -73,18 +70,6 @@ TEST(ArmActuatorsK6, ChooseTheTurnOfTheRoll) {
     EXPECT_EQ(most(2600.0), 1U);
     EXPECT_EQ(most(2601.0), 1U);
     EXPECT_EQ(most(2602.0), 2U);
-}
-
-TEST(ArmActuatorsK6, BindTheThirdToTheSecond) {
-    DrivePositions a;
-    const auto allowed = [&](double second, double third) {
-        a << 0.0, second, third, 5000.0, 30'000.0;
-        return !drives_inside(shipped(), a, 0.0).empty();
-    };
-    EXPECT_TRUE(allowed(500.0, 3499.0));
-    EXPECT_FALSE(allowed(500.0, 3500.0));
-    EXPECT_TRUE(allowed(500.0, -9499.0));
-    EXPECT_FALSE(allowed(500.0, -9500.0));
 }
 
 } // namespace

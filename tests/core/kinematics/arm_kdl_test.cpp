@@ -55,6 +55,27 @@ TEST_P(BesideKdl, FindsWhatKdlFinds) {
     EXPECT_GT(found, 20);
 }
 
+/// A goal that five joints cannot have, turned into the plane of the arm: KDL goes there with our joints.
+TEST(BesideKdlK4, ReachesWhatWasProjected) {
+    const ArmModel arm = test::arm("motoman-l3");
+    test::KdlArm kdl(arm);
+    std::mt19937 random(4);
+    int reached = 0;
+    for (int n = 0; n < 500; ++n) {
+        Frame goal = base_T_tool(arm, test::random_joints(random, arm, 0.6));
+        std::normal_distribution<double> any;
+        const Eigen::Quaterniond turn(any(random), any(random), any(random), any(random));
+        goal.linear() = turn.normalized().toRotationMatrix();
+        const auto projected = projected_goal(goal);
+        ASSERT_TRUE(projected);
+        for (const JointPositions& branch : arm_inverse(arm, *projected, JointPositions::Zero(5)).branches) {
+            ++reached;
+            EXPECT_LT((kdl.forward(branch).matrix() - projected->matrix()).cwiseAbs().maxCoeff(), 1e-9);
+        }
+    }
+    EXPECT_GT(reached, 500);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, BesideKdl, ::testing::Values("motoman-l3", "six-axis", "scara"));
 
 } // namespace

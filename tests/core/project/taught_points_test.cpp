@@ -39,6 +39,7 @@ TEST(TaughtPointsC6, AProjectKeepsPointsProgramAndPlace) {
     Project project = project_from_preset("dome");
     project.arm.points = three();
     project.arm.program = "LINEAR\n\tX10 ; \"there\"\n";
+    project.arm.motion_file = "G1 X300 ;\nG1 Z-100 ;\n";
     project.arm.path = {{1.5, -2.0, 3.0}, {0.0, 90.0, -45.0}};
     EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
     Project without = project_from_preset("dome");

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
+#include "core/kinematics/tool_roll.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,37 @@ TEST_F(ArmBenchTest, TurnsAnAxisIntoItsPlaneOnlyIfItMay) {
     bench_.set_projects(false);
     EXPECT_TRUE(bench_.solutions().empty());
     EXPECT_NE(bench_.reason().find("out of the plane"), std::string::npos);
+}
+
+TEST_F(ArmBenchTest, HoldsTheRollOfAGoalWhereOneIsAskedFor) {
+    kinematics::JointPositions there(5);
+    there << from_degrees(30.0), from_degrees(-60.0), from_degrees(80.0), from_degrees(20.0),
+        from_degrees(45.0);
+    const Frame wanted = kinematics::base_T_tool(bench_.arm(), there);
+    bench_.set_goal(wanted.translation(), wanted.linear().col(2));
+    ASSERT_FALSE(bench_.solutions().empty());
+    EXPECT_NEAR(bench_.solutions()[0].joints[4], 0.0, 1e-9); // any roll: joint 5 stays
+    bench_.set_goal_roll(kinematics::roll_of(wanted.linear()));
+    ASSERT_GE(bench_.solutions().size(), 2U);
+    EXPECT_LT((bench_.solutions()[0].joints - there).norm(), 1e-9);
+    for (const ArmSolution& solution : bench_.solutions()) {
+        const Frame back = kinematics::base_T_tool(bench_.arm(), solution.joints);
+        EXPECT_LT((back.matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-9);
+    }
+    // Of an axis that has to be turned into the plane the roll is that about the turned one.
+    bench_.set_goal(Vec3(800.0, 100.0, 0.0), Vec3(0.0, 0.6, 0.8));
+    bench_.set_goal_roll(from_degrees(25.0));
+    ASSERT_FALSE(bench_.solutions().empty());
+    for (const ArmSolution& solution : bench_.solutions()) {
+        const Mat3 held = kinematics::base_T_tool(bench_.arm(), solution.joints).linear();
+        EXPECT_NEAR(to_degrees(kinematics::roll_of(held)), 25.0, 1e-6);
+        EXPECT_LT((held.col(2) - bench_.goal()->axis).norm(), 1e-9);
+    }
+    bench_.set_joints(there);
+    bench_.set_goal_from_tool();
+    EXPECT_NEAR(*bench_.goal_roll(), kinematics::roll_of(wanted.linear()), 1e-12);
+    bench_.set_goal_roll(std::nullopt);
+    EXPECT_FALSE(bench_.solutions().empty());
 }
 
 TEST_F(ArmBenchTest, GoesInALineWhereItIsToldTo) {

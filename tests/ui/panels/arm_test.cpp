@@ -66,8 +66,12 @@ TEST(ArmWorkspace, OpensWithTheArmAtHomeAndShowsEveryPart) {
 
 TEST(ArmWorkspace, CutsNoLabelInASmallWindow) {
     ArmWorkspacePerson bench({1100, 700});
-    for (const char* tab :
-         {"lower/tabs/points", "lower/tabs/program", "lower/tabs/console", "lower/tabs/motors"}) {
+    for (const char* tab : {"lower/tabs/points",
+                            "lower/tabs/program",
+                            "lower/tabs/motion_file",
+                            "lower/tabs/console",
+                            "lower/tabs/drives",
+                            "lower/tabs/motors"}) {
         bench.person.click(tab);
         bench.person.frames(2);
         for (const std::string& cut : bench.person.desktop().ui().cut_texts()) {
@@ -185,6 +189,42 @@ TEST(ArmWorkspace, AGoalListsItsSolutionsAndTheArmGoesThere) {
     }
     EXPECT_FALSE(bench.arm().moving());
     EXPECT_LT((bench.tip() - Vec3(800.0, 300.0, 300.0)).norm(), 1e-6);
+}
+
+TEST(ArmWorkspaceK6, ShowsItsDrivesLive) {
+    ArmWorkspacePerson bench;
+    bench.person.click("lower/tabs/drives");
+    bench.person.frames(3);
+    EXPECT_TRUE(bench.person.sees("lower/drives/drive_5"));
+    const auto before = bench.person.picture_of("lower/drives");
+    bench.person.workshop().arm().set_joint(1, from_degrees(-60.0));
+    bench.person.frames(3);
+    bench.person.keep("arm-drives");
+    EXPECT_GT(render::difference(before, bench.person.picture_of("lower/drives"), 16).fraction, 0.001);
+    bench.person.choose("inspector/arm", "scara");
+    bench.person.frames(3);
+    EXPECT_FALSE(bench.person.sees("lower/drives/drive_5"));
+}
+
+TEST(ArmWorkspace, AGoalHasARollWhereItMatters) {
+    ArmWorkspacePerson bench({1600, 1000});
+    bench.person.click("inspector/goal/from_tool");
+    bench.person.frames(3);
+    EXPECT_FALSE(bench.person.sees("inspector/goal/roll"));
+    bench.person.click("inspector/goal/roll_matters");
+    bench.person.frames(3);
+    bench.person.fill_in("inspector/goal/roll", "30");
+    ASSERT_FALSE(bench.arm().solutions().empty()) << bench.arm().reason();
+    EXPECT_NEAR(std::abs(bench.arm().solutions()[0].joints[4]), from_degrees(30.0), 1e-9);
+    bench.person.click("timeline/arm_go_joints");
+    for (int n = 0; n < 60 * 30 && bench.arm().moving(); ++n) {
+        bench.person.frames(1);
+    }
+    EXPECT_NEAR(std::abs(bench.arm().joints()[4]), from_degrees(30.0), 1e-9);
+    for (const std::string& cut : bench.person.desktop().ui().cut_texts()) {
+        ADD_FAILURE() << cut;
+    }
+    bench.person.keep("arm-roll");
 }
 
 TEST(ArmWorkspace, AGoalOutOfReachSaysWhy) {

@@ -1,0 +1,333 @@
+#include "app/commands/arm_pose.h"
+
+#include "app/arm_choice.h"
+#include "app/usage_error.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
+#include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_solver.h"
+#include "core/kinematics/arm_zone.h"
+#include "core/kinematics/tool_roll.h"
+#include "core/kinematics/tool_rotation.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using kinematics::ArmModel;
+using kinematics::JointPositions;
+
+constexpr int starting_points = 200; ///< for arms without a closed form
+
+/// A tool axis so little out of the plane of an arm with five joints was meant to be in it.
+constexpr double rounding_deg = 0.01;
+
+struct ArmPoseOptions {
+    std::string arm = "motoman-l3";
+    std::vector<double> numbers;
+    std::optional<double> roll_deg{}; ///< nothing: any
+    std::vector<double> rotation;     ///< row by row; empty: none is asked for
+    bool project = false;
+    bool json = false;
+};
+
+nlohmann::ordered_json rows_of(const Mat3& rotation) {
+    auto rows = nlohmann::ordered_json::array();
+    for (int n = 0; n < 3; ++n) {
+        rows.push_back({rounded(rotation(n, 0)), rounded(rotation(n, 1)), rounded(rotation(n, 2))});
+    }
+    return rows;
+}
+
+void print_rotation(const Mat3& rotation) {
+    for (int n = 0; n < 3; ++n) {
+        fmt::print("{} {:>12.9f} {:>12.9f} {:>12.9f}\n",
+                   n == 0 ? "rotation" : "        ",
+                   rounded(rotation(n, 0)),
+                   rounded(rotation(n, 1)),
+                   rounded(rotation(n, 2)));
+    }
+}
+
+int forward(const ArmPoseOptions& options) {
+    const ArmModel arm = arm_of(options.arm);
+    const JointPositions q = given_joints(arm, options.numbers);
+    const Frame tool = kinematics::base_T_tool(arm, q);
+    const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
+    const double roll = to_degrees(kinematics::roll_of(tool.linear()));
+    const double measure =
+        kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
+    const int outside = arm.joint_outside(q);
+    const auto breaches = kinematics::zone_breaches(arm, q);
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["x"] = rounded(tip.x());
+        answer["y"] = rounded(tip.y());
+        answer["z"] = rounded(tip.z());
+        answer["tool"] = {rounded(axis.x()), rounded(axis.y()), rounded(axis.z())};
+        answer["roll"] = rounded(roll);
+        answer["rotation"] = rows_of(tool.linear());
+        answer["manipulability"] = measure;
+        answer["inside_limits"] = outside < 0 && breaches.empty();
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("x {} y {} z {} mm\ntool axis {} {} {}\nroll {} deg\n",
+                   shortest(rounded(tip.x())),
+                   shortest(rounded(tip.y())),
+                   shortest(rounded(tip.z())),
+                   shortest(rounded(axis.x())),
+                   shortest(rounded(axis.y())),
+                   shortest(rounded(axis.z())),
+                   shortest(rounded(roll)));
+        print_rotation(tool.linear());
+        fmt::print("manipulability {:.6f}\n", measure);
+    }
+    if (outside >= 0) {
+        fmt::print(stderr, "millwright: joint {} is outside of its limits\n", arm.joint(outside).name);
+    }
+    for (const kinematics::ZoneBreach& breach : breaches) {
+        fmt::print(stderr, "millwright: {}\n", breach.why);
+    }
+    return 0;
+}
+
+/// Where the tool shall be. With neither roll nor rotation any roll will do.
+struct ToolGoal {
+    kinematics::PointedGoal pointed;
+    std::optional<double> roll;   ///< about the axis, rad
+    std::optional<Mat3> rotation; ///< all directions; the axis is its z
+};
+
+struct Solutions {
+    std::vector<JointPositions> joints;
+    std::string reason;
+    double projected_deg = 0.0;   ///< by how much the goal was turned
+    std::optional<Mat3> rotation; ///< of the tool, where it is asked for
+};
+
+/// Without those that leave the arm's zone; the reason of the last if none is left.
+void keep_zone(const ArmModel& arm, Solutions& found) {
+    std::string why;
+    std::erase_if(found.joints, [&](const JointPositions& q) {
+        const auto breaches = kinematics::zone_breaches(arm, q);
+        why = breaches.empty() ? why : breaches.front().why;
+        return !breaches.empty();
+    });
+    found.reason = found.joints.empty() && !why.empty() ? why : found.reason;
+}
+
+void search(const ArmModel& arm, const Frame& goal, bool any_roll, Solutions& found) {
+    const auto demand = any_roll ? kinematics::ArmDemand::tip_and_axis : kinematics::ArmDemand::frame;
+    found.joints = kinematics::solve_arm_from_many_starts(arm, goal, demand, resting(arm), starting_points);
+    if (found.joints.empty()) {
+        found.reason = fmt::format("none was found from {} starting points", starting_points);
+    }
+}
+
+/// An arm of five joints holds its tool in its own plane only.
+void solve_in_plane(
+    const ArmModel& arm, const ToolGoal& goal, Frame frame, bool any_roll, bool project, Solutions& found) {
+    const auto projected = kinematics::projected_goal(frame);
+    const double out =
+        projected ? to_degrees(angle_between(projected->linear().col(2), goal.pointed.axis)) : 90.0;
+    if (projected && (project || out < rounding_deg)) {
+        frame.linear() =
+            goal.rotation ? Mat3(projected->linear())
+                          : kinematics::frame_with_roll(projected->linear().col(2), goal.roll.value_or(0.0));
+        found.projected_deg = out;
+    }
+    const kinematics::PointedGoal pointed{frame.translation(), frame.linear().col(2)};
+    auto answer = any_roll ? kinematics::arm_inverse(arm, pointed, resting(arm))
+                           : kinematics::arm_inverse(arm, frame, resting(arm));
+    found.joints = std::move(answer.branches);
+    found.reason = std::move(answer.why);
+    if (!any_roll) {
+        found.rotation = frame.linear();
+    }
+}
+
+Solutions solved(const ArmModel& arm, const ToolGoal& goal, bool project) {
+    Frame frame = Frame::Identity();
+    frame.translation() = goal.pointed.tip;
+    frame.linear() = goal.rotation ? *goal.rotation
+                                   : kinematics::frame_with_roll(goal.pointed.axis, goal.roll.value_or(0.0));
+    const bool any_roll = !goal.roll && !goal.rotation;
+    Solutions found;
+    if (arm.planar_elbow()) {
+        solve_in_plane(arm, goal, frame, any_roll, project, found);
+    } else {
+        search(arm, frame, any_roll, found);
+        if (!any_roll) {
+            found.rotation = frame.linear();
+        }
+    }
+    keep_zone(arm, found);
+    return found;
+}
+
+nlohmann::ordered_json shown(const ArmModel& arm, const std::vector<JointPositions>& solutions) {
+    auto list = nlohmann::ordered_json::array();
+    for (const JointPositions& q : solutions) {
+        auto joints = nlohmann::ordered_json::array();
+        for (int n = 0; n < arm.joint_count(); ++n) {
+            joints.push_back(rounded(from_joint(arm, n, q[n])));
+        }
+        list.push_back(std::move(joints));
+    }
+    return list;
+}
+
+/// For each of the solutions whether the arm cannot move its tip in every direction there.
+std::vector<bool> singular_ones(const ArmModel& arm, const std::vector<JointPositions>& solutions) {
+    constexpr double singular = 1e-6;
+    std::vector<bool> found;
+    for (const JointPositions& q : solutions) {
+        const double measure =
+            kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
+        found.push_back(measure < singular);
+    }
+    return found;
+}
+
+/// Throws UsageError where tip, axis, rotation and roll do not go together, Error for bad numbers.
+ToolGoal goal_of(const ArmPoseOptions& options) {
+    const auto& v = options.numbers;
+    const bool by_rotation = !options.rotation.empty();
+    const std::size_t wanted = by_rotation ? 3 : 6;
+    if (v.size() != wanted) {
+        throw UsageError(fmt::format("the goal has {} numbers, {} were given", wanted, v.size()),
+                         {},
+                         by_rotation ? "with --frame: X Y Z"
+                                     : "X Y Z AX AY AZ, or X Y Z with --frame R11,R12,...,R33");
+    }
+    if (by_rotation && options.roll_deg) {
+        throw UsageError("--frame tells the roll: leave --roll out");
+    }
+    ToolGoal goal;
+    goal.pointed.tip = Vec3(v[0], v[1], v[2]);
+    goal.pointed.axis = by_rotation ? Vec3(Vec3::UnitZ()) : Vec3(v[3], v[4], v[5]);
+    if (!is_finite(goal.pointed.tip) || !is_finite(goal.pointed.axis)) {
+        throw Error("the goal is not finite");
+    }
+    constexpr double farthest_mm = 1e6;
+    if (!(goal.pointed.tip.cwiseAbs().maxCoeff() <= farthest_mm)) {
+        throw Error(fmt::format("the goal is farther than {:g} mm", farthest_mm));
+    }
+    if (!(goal.pointed.axis.norm() > 1e-9)) {
+        throw Error("the tool axis has no direction", {}, "its three numbers are 0");
+    }
+    if (options.roll_deg && !std::isfinite(*options.roll_deg)) {
+        throw Error("the roll is not a finite number");
+    }
+    if (by_rotation) {
+        goal.rotation = kinematics::rotation_of_rows(options.rotation);
+    }
+    goal.pointed.axis =
+        goal.rotation ? Vec3(goal.rotation->col(2)) : Vec3(goal.pointed.axis.stableNormalized());
+    goal.roll = options.roll_deg ? std::optional(from_degrees(*options.roll_deg)) : std::nullopt;
+    return goal;
+}
+
+int inverse(const ArmPoseOptions& options) {
+    const ArmModel arm = arm_of(options.arm);
+    const ToolGoal goal = goal_of(options);
+    const Solutions found = solved(arm, goal, options.project);
+    const auto list = shown(arm, found.joints);
+    const auto singular = singular_ones(arm, found.joints);
+    for (std::size_t n = 0; n < singular.size(); ++n) {
+        if (singular[n]) {
+            fmt::print(stderr, "millwright: the arm is singular at solution {}\n", n + 1);
+        }
+    }
+    if (options.json) {
+        nlohmann::ordered_json answer;
+        answer["solutions"] = list;
+        answer["singular"] = singular;
+        answer["projected_degrees"] = rounded(found.projected_deg);
+        if (found.rotation) {
+            answer["rotation"] = rows_of(*found.rotation);
+        }
+        if (list.empty()) {
+            answer["reason"] = found.reason;
+        }
+        fmt::print("{}\n", answer.dump(2));
+        return 0;
+    }
+    if (found.projected_deg >= rounding_deg) {
+        fmt::print("The {} was turned by {:.4f} deg into the plane of the arm.\n",
+                   goal.rotation ? "frame" : "tool axis",
+                   found.projected_deg);
+        if (goal.rotation) {
+            print_rotation(*found.rotation);
+        }
+    }
+    for (const auto& solution : list) {
+        std::string line;
+        for (const auto& value : solution) {
+            line += fmt::format("{:>14.6f}", value.get<double>());
+        }
+        fmt::print("{}\n", line);
+    }
+    if (list.empty()) {
+        fmt::print("No solution: {}.\n", found.reason);
+    }
+    return 0;
+}
+
+CLI::App& add_pose_command(CLI::App& group,
+                           const char* name,
+                           const char* text,
+                           const std::shared_ptr<ArmPoseOptions>& options) {
+    CLI::App& command = *group.add_subcommand(name, text);
+    add_arm_option(command, options->arm);
+    command.add_flag("--json", options->json, "Print the answer as JSON");
+    return command;
+}
+
+} // namespace
+
+void add_arm_pose_commands(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<ArmPoseOptions>();
+    CLI::App& fk = add_pose_command(group, "fk", "The tool for given joints", options);
+    fk.add_option("JOINTS", options->numbers, "Position of every joint: degrees, mm of a sliding one")
+        ->required()
+        ->expected(1, 9)
+        ->type_name("J1 J2 ...");
+    fk.callback([&chosen, options] { chosen = [options] { return forward(*options); }; });
+    CLI::App& ik = add_pose_command(group, "ik", "Every position of the joints for a given tool", options);
+    ik.add_option(
+          "GOAL", options->numbers, "Tip in mm and direction of the tool axis; the tip alone with --frame")
+        ->required()
+        ->expected(3, 6)
+        ->type_name("X Y Z AX AY AZ");
+    ik.add_option(
+          "--frame",
+          options->rotation,
+          "Rotation matrix of the tool, row by row: its columns are the tool's x, y and z in the base")
+        ->delimiter(',')
+        ->expected(9)
+        ->allow_extra_args(false)
+        ->type_name("R11,R12,...,R33");
+    ik.add_flag("--project",
+                options->project,
+                "Turn the goal by the smallest angle into the plane of an arm with five joints");
+    ik.add_option(
+          "--roll", options->roll_deg, "Roll of the tool about its axis, degrees; without it any will do")
+        ->type_name("DEG");
+    ik.callback([&chosen, options] { chosen = [options] { return inverse(*options); }; });
+}
+
+} // namespace millwright::app

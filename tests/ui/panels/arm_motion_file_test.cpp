@@ -1,0 +1,188 @@
+// The editor of motion files in the Arm workspace, and finding and replacing in every editor (S7 of the list
+// of what replaces the program of Saengsasri, Nittayachin 1996).
+#include "core/base/files.h"
+#include "core/base/units.h"
+#include "tests/ui/panels/person.h"
+#include "ui/actions/arm_bench.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+namespace millwright::panels {
+namespace {
+
+using render::Key;
+using testing::HasSubstr;
+
+class ArmMotionFileS7 : public testing::Test {
+protected:
+    ArmMotionFileS7() {
+        person_.workshop().run("view.arm");
+        person_.frames(4);
+        tab("motion_file");
+    }
+    void tab(const std::string& name) {
+        person_.click("lower/tabs/" + name);
+        person_.frames(2);
+    }
+    [[nodiscard]] const actions::ArmBench& arm() { return person_.workshop().arm(); }
+    [[nodiscard]] std::string text() { return person_.project().arm.motion_file; }
+    void write(const std::string& words) {
+        person_.click("lower/text");
+        person_.type(words);
+        person_.frames(2);
+    }
+    void look_for(const std::string& words) {
+        person_.click("lower/find/wanted");
+        person_.press_key(Key::a, true);
+        person_.type(words);
+        person_.press_key(Key::enter);
+        person_.frames(2);
+    }
+
+    test::Person person_{{1280, 800}};
+};
+
+const std::string path_of_the_thesis = "G1 X300 Y0 Z0 ;\nG1 X0 Y0 Z-100 ;\nG1 X-300 Y0 Z100 ;";
+
+TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
+    EXPECT_FALSE(person_.refusal("lower/arm_simulate_motion").empty());
+    write("G1 X300 ;\nG2 X10 ;");
+    ASSERT_EQ(arm().motion_file().faults().size(), 1U);
+    EXPECT_EQ(arm().motion_file().faults().front().place.line, 2);
+    EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("an arc needs"));
+    EXPECT_THAT(person_.refusal("lower/arm_simulate_motion"), HasSubstr("fault"));
+    person_.keep("arm-motion-file-fault");
+    for (int n = 0; n < 2; ++n) {
+        person_.press_key(Key::backspace);
+    }
+    person_.type("I4 J3 ;"); // the end is no point of this circle
+    person_.frames(2);
+    ASSERT_EQ(arm().motion_file().faults().size(), 1U);
+    EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the center"));
+}
+
+TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {
+    write(path_of_the_thesis);
+    EXPECT_TRUE(arm().motion_file().faults().empty());
+    person_.workshop().arm().set_joint(0, 0.5); // it begins at home wherever the arm is
+    person_.click("lower/arm_simulate_motion");
+    ASSERT_TRUE(arm().moving());
+    EXPECT_GT(arm().duration(), 70.0); // 916 mm at 10 mm/s
+    person_.frames(30);
+    EXPECT_NEAR(arm().tool().translation().y(), 0.0, 1e-3);
+    EXPECT_GT(arm().tool().translation().x(), 800.0);
+    person_.workshop().session().hand.arm_result_step = 10.0;
+    const auto file = person_.folder() / "result.txt";
+    person_.workshop().save_motion_result(file);
+    const std::string result = read_file(file);
+    EXPECT_THAT(result,
+                testing::StartsWith("next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n"
+                                    " 2 := -90.00000 \n 3 := 90.00000 \n"));
+    std::size_t records = 0;
+    for (auto at = result.find("next"); at != std::string::npos; at = result.find("next", at + 1)) {
+        ++records;
+    }
+    EXPECT_EQ(records, 75U); // as printed in the thesis
+    for (const auto& [button, path] : {std::pair("lower/arm_save_result", "dialogs/files/save"),
+                                       std::pair("lower/arm_save_motion", "dialogs/files/save"),
+                                       std::pair("lower/arm_open_motion", "dialogs/files/open")}) {
+        person_.click(button);
+        person_.frames(3);
+        EXPECT_TRUE(person_.sees(path)) << button;
+        person_.press_key(Key::escape);
+        person_.frames(2);
+    }
+}
+
+TEST_F(ArmMotionFileS7, IsOpenedSavedUndoneAndPlayedFromWhereTheArmIs) {
+    const auto file = person_.folder() / "there.mot";
+    write_file(file, "G1 Y50 ;\n");
+    person_.workshop().open_motion_file(file);
+    person_.frames(2);
+    EXPECT_EQ(text(), "G1 Y50 ;\n");
+    person_.workshop().arm().set_joint(0, 0.2);
+    person_.frames(2);
+    const Vec3 before = arm().tool().translation();
+    person_.click("lower/arm_play_motion");
+    for (int n = 0; n < 60 * 30 && arm().moving(); ++n) {
+        person_.frames(1);
+    }
+    EXPECT_LT((arm().tool().translation() - before - Vec3(0.0, 50.0, 0.0)).norm(), 1e-3);
+    person_.click("lower/text");
+    person_.press_key(Key::end, true);
+    person_.type("X1 ;");
+    EXPECT_EQ(text(), "G1 Y50 ;\nX1 ;");
+    person_.press_key(Key::z, true);
+    person_.press_key(Key::z, true);
+    EXPECT_EQ(text(), "G1 Y50 ;\n");
+    const auto copy = person_.folder() / "copy.mot";
+    person_.workshop().save_motion_file(copy);
+    EXPECT_EQ(read_file(copy), "G1 Y50 ;\n");
+}
+
+TEST_F(ArmMotionFileS7, FindsAgainAndReplacesOneOrAll) {
+    write("G1 X10 ;\nG1 X100 ;\nG1 x10 ;");
+    EXPECT_FALSE(person_.sees("lower/find/wanted"));
+    person_.press_key(Key::f, true);
+    person_.frames(3);
+    ASSERT_TRUE(person_.sees("lower/find/wanted"));
+    person_.type("X10");
+    person_.press_key(Key::enter);
+    person_.frames(2);
+    person_.keep("arm-find");
+    for (const std::string& cut : person_.desktop().ui().cut_texts()) {
+        ADD_FAILURE() << cut;
+    }
+    person_.fill_in("lower/find/replacement", "Y7");
+    person_.click("lower/find/whole_words");
+    person_.click("lower/find/replace"); // shows the first place behind the caret, or from the beginning
+    EXPECT_EQ(text(), "G1 X10 ;\nG1 X100 ;\nG1 x10 ;");
+    person_.click("lower/find/replace");
+    person_.frames(2);
+    EXPECT_EQ(text(), "G1 Y7 ;\nG1 X100 ;\nG1 x10 ;");
+    person_.workshop().run("edit.undo");
+    person_.frames(2);
+    EXPECT_EQ(text(), "G1 X10 ;\nG1 X100 ;\nG1 x10 ;");
+    person_.click("lower/find/same_case");
+    person_.click("lower/find/replace_all");
+    person_.frames(2);
+    EXPECT_EQ(text(), "G1 Y7 ;\nG1 X100 ;\nG1 x10 ;");
+    person_.click("lower/find/whole_words");
+    person_.click("lower/find/same_case");
+    person_.click("lower/find/replace_all");
+    person_.frames(2);
+    EXPECT_EQ(text(), "G1 Y7 ;\nG1 Y70 ;\nG1 Y7 ;");
+    person_.workshop().run("edit.undo");
+    person_.frames(2);
+    EXPECT_EQ(text(), "G1 Y7 ;\nG1 X100 ;\nG1 x10 ;");
+}
+
+TEST_F(ArmMotionFileS7, EveryEditorSearchesByTheSameKeys) {
+    tab("program");
+    std::string program;
+    for (int n = 1; n <= 60; ++n) {
+        program += "X" + std::to_string(n) + "\n";
+    }
+    write(program);
+    person_.press_key(Key::f, true);
+    person_.frames(3);
+    look_for("X3");
+    const auto first = person_.picture_of("lower/text");
+    person_.keep("arm-find-first");
+    person_.press_key(Key::g, true); // searches again: X30
+    person_.frames(4);
+    EXPECT_GT(render::difference(first, person_.picture_of("lower/text"), 16).fraction, 0.002);
+    person_.press_key(Key::g, true, true);
+    person_.frames(4);
+    EXPECT_LT(render::difference(first, person_.picture_of("lower/text"), 16).fraction, 0.002);
+    tab("points");
+    EXPECT_FALSE(
+        person_.workshop().catalogue().find("program.find").permission(person_.workshop().look()).allowed);
+}
+
+} // namespace
+} // namespace millwright::panels

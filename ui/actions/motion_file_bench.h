@@ -1,0 +1,42 @@
+// The motion file of the arm while it is being written: what is wrong with it, and its motion. Lengths mm,
+// angles rad.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/kinematics/arm_model.h"
+#include "core/kinematics/arm_motion_file.h"
+#include "core/motion/trajectory.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace millwright::actions {
+
+/// Lines and arcs of a motion file, from the joints `start` on. Throws Error with the line of what is wrong,
+/// and of what the arm cannot do.
+[[nodiscard]] motion::Trajectory motion_of_file(const kinematics::ArmModel& arm,
+                                                const std::string& text,
+                                                const kinematics::JointPositions& start,
+                                                const std::filesystem::path& file);
+
+class MotionFileBench {
+public:
+    /// Looks through the text if it is another one than before.
+    void follow(const std::string& text);
+    /// The first thing that is wrong, if anything is: words, numbers, arcs.
+    [[nodiscard]] const std::vector<Diagnostic>& faults() const { return faults_; }
+    [[nodiscard]] bool has_blocks() const { return !blocks_.empty(); }
+    /// Of a text without faults.
+    [[nodiscard]] const std::vector<kinematics::ArmBlock>& blocks() const { return blocks_; }
+
+    /// Stands for a file in messages.
+    [[nodiscard]] static const std::filesystem::path& name();
+
+private:
+    std::string text_;
+    std::vector<Diagnostic> faults_;
+    std::vector<kinematics::ArmBlock> blocks_;
+};
+
+} // namespace millwright::actions

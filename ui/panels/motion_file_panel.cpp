@@ -1,0 +1,41 @@
+#include "ui/panels/motion_file_panel.h"
+
+#include "ui/actions/arm_bench.h"
+#include "ui/panels/internal/fields.h"
+
+namespace millwright::panels {
+
+using widgets::Rank;
+
+MotionFilePanel::MotionFilePanel(const actions::Catalogue& catalogue)
+    : catalogue_(catalogue),
+      editor_({&project::ArmInput::motion_file, "Write a motion file", "motion file"}) {}
+
+void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    {
+        const auto row = ui.row(6);
+        action_button(ui, now, ask, catalogue_, "arm.simulate_motion", Rank::primary, "Simulate");
+        action_button(ui, now, ask, catalogue_, "arm.play_motion", Rank::normal, "Play");
+        action_button(ui, now, ask, catalogue_, "arm.save_result", Rank::normal, "Result");
+        action_button(ui, now, ask, catalogue_, "arm.open_motion", Rank::normal, "Open");
+        action_button(ui, now, ask, catalogue_, "arm.save_motion", Rank::normal, "Save");
+        editor_.draw_find_button(ui);
+    }
+    const auto& faults = now.arm.motion_file().faults();
+    constexpr float step_width = 190.0F;
+    {
+        const auto width = ui.width(ui.px(step_width));
+        const auto labels = ui.label_share(0.5F);
+        const widgets::FieldInfo step{
+            "step", "Result each", "mm", "Distance of two points in the result file", 0.001, 1000.0, 5.0, 3};
+        if (const auto value = ui.number(now.session.hand.arm_result_step, step)) {
+            ask.show([to = *value](actions::Session& session) { session.hand.arm_result_step = to; });
+        }
+    }
+    ui.beside();
+    fault_line(
+        ui, faults, "G1 X300 Z-50 ; from where the tool is, in mm; G2, G3 arcs; each block ends with ;");
+    editor_.draw(ui, now, ask, faults);
+}
+
+} // namespace millwright::panels
