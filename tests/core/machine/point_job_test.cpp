@@ -69,7 +69,8 @@ TEST(PointJob, PlaysTheStrokesOrderDepthsAndToolsOfTheProgram) {
         ++moves;
         ASSERT_GE(last, 0) << n;
         const Vec3& point = track.points[static_cast<std::size_t>(last)];
-        const Vec3 target(block.target[1], block.target[0], block.target[2]); // its axes are Y, X, Z
+        const auto coordinate = [&](char letter) { return block.target[job.machine->axis_index(letter)]; };
+        const Vec3 target(coordinate('X'), coordinate('Y'), coordinate('Z'));
         EXPECT_NEAR((point - target).norm(), 0.0, 1e-4) << n;
     }
     EXPECT_GT(moves, 4 * 6);
