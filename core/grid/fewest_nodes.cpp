@@ -30,22 +30,19 @@ bool all_inside(const ErrorModel& model,
     return true;
 }
 
-/// On a lattice of so many intervals, with moves up to `longest`.
-std::optional<PlacedTrack> fewest_on(const ErrorModel& model,
-                                     const PlacedTrack& ends,
-                                     const LatticeSettings& fineness,
-                                     double longest,
+/// The fewest on the places of `table`.
+std::optional<PlacedTrack> fewest_in(const MoveTable& table,
+                                     const ErrorModel& model,
+                                     const Track& track,
                                      const MoveLimits& limits,
                                      const Progress& progress) {
-    const MoveTable table(
-        model, ends.track, lattice(model, ends, fineness, progress), {0.0, longest}, coarse, progress);
     MoveLimits held = limits;
     for (int n = 0; n < most_tightenings; ++n) {
         const auto path = shortest_path(table, {}, held);
         if (!path) {
             return std::nullopt;
         }
-        PlacedTrack found{ends.track, places_of(table, *path)};
+        PlacedTrack found{track, places_of(table, *path)};
         if (all_inside(model, found, limits, progress)) {
             return found;
         }
@@ -54,13 +51,37 @@ std::optional<PlacedTrack> fewest_on(const ErrorModel& model,
     return std::nullopt;
 }
 
-double longest_move(const PlacedTrack& track) {
-    double longest = 0.0;
-    for (std::size_t n = 1; n < track.places.size(); ++n) {
-        longest = std::max(longest, track.places[n] - track.places[n - 1]);
+/// Which moves between `places` are next to one of the coarser table that is nearly inside the limits.
+class NextToAllowed {
+public:
+    NextToAllowed(const MoveTable& rough, const std::vector<double>& places, const MoveLimits& limits)
+        : rough_(rough), nearly_{nearly_inside * limits.tip, nearly_inside * limits.axis} {
+        const std::vector<double>& ruler = rough.places();
+        for (const double place : places) {
+            const auto after = std::ranges::upper_bound(ruler, place);
+            below_.push_back(
+                std::clamp(static_cast<int>(after - ruler.begin()) - 1, 0, std::max(0, rough.size() - 2)));
+        }
     }
-    return longest;
-}
+
+    [[nodiscard]] bool operator()(int k, int l) const {
+        const int from = below_[static_cast<std::size_t>(k)];
+        const int to = below_[static_cast<std::size_t>(l)];
+        if (to - from <= 1) {
+            return true;
+        }
+        const auto allowed = [this](int a, int b) { return nearly_.allow(rough_.move(a, b)); };
+        return allowed(from, to) || allowed(from + 1, to) || allowed(from, to + 1) ||
+               allowed(from + 1, to + 1);
+    }
+
+private:
+    static constexpr double nearly_inside = 4.0;
+
+    const MoveTable& rough_;
+    MoveLimits nearly_;
+    std::vector<int> below_; ///< the place of the coarser table at or before each place
+};
 
 } // namespace
 
@@ -73,15 +94,20 @@ std::optional<PlacedTrack> fewest_nodes(const ErrorModel& model,
                                         const Progress& progress) {
     expects(first < last, "a track has a length");
     expects(settings.lattice >= 8 && settings.lattice <= 100'000, "a lattice has 8 to 100 000 intervals");
-    expects(settings.longest_move > 0.0 && settings.longest_move <= 1.0, "a move is a share of its track");
     const PlacedTrack ends{track, {first, last}};
-    const double longest = settings.longest_move * (last - first);
-    LatticeSettings fineness{.intervals = settings.lattice / 4, .monitor_share = settings.monitor_share};
-    const auto roughly = fewest_on(model, ends, fineness, longest, limits, progress);
-    fineness.intervals = settings.lattice;
-    constexpr double as_long_again = 1.5;
-    const double worth_measuring = roughly ? as_long_again * longest_move(*roughly) : longest;
-    return fewest_on(model, ends, fineness, std::min(longest, worth_measuring), limits, progress);
+    if (all_inside(model, ends, limits, progress)) {
+        return ends;
+    }
+    const auto places_at = [&](int intervals) {
+        return lattice(
+            model, ends, {.intervals = intervals, .monitor_share = settings.monitor_share}, progress);
+    };
+    constexpr MoveWindow any_length{0.0, infinity};
+    const MoveTable rough(model, track, places_at(settings.lattice / 4), any_length, coarse, progress);
+    std::vector<double> places = places_at(settings.lattice);
+    const WorthMeasuring worth = NextToAllowed(rough, places, limits);
+    const MoveTable table(model, track, std::move(places), any_length, coarse, progress, worth);
+    return fewest_in(table, model, track, limits, progress);
 }
 
 } // namespace millwright::grid

@@ -11,14 +11,14 @@ namespace millwright::grid {
 /// Values outside their range throw Defect.
 struct FewestNodesSettings {
     int lattice = 2000;         ///< intervals, 8 to 100 000: the fewest nodes are those among its places
-    double longest_move = 0.4;  ///< that is looked at, of the track, above 0, at most 1
     double monitor_share = 0.5; ///< of the lattice's density that follows the error, 0 to 0.99
 };
 
 /// The track from `first` to `last` with the fewest nodes whose moves are all inside `limits` by fine
-/// sampling; of several choices the one with the least sum of length error^2. Nothing if there is none on the
-/// lattice, which may be too coarse, or the machine does not reach. A lattice of a quarter of the places
-/// tells which moves are worth measuring: those up to half as long again as its longest. Throws Cancelled.
+/// sampling; of several choices the one with the least sum of length error^2. Moves of any length count.
+/// Nothing if there is none on the lattice, which may be too coarse, or the machine does not reach. A lattice
+/// of a quarter of the places tells which moves are worth measuring: those next to one of its moves whose
+/// error is inside of four times as much. Throws Cancelled.
 [[nodiscard]] std::optional<PlacedTrack> fewest_nodes(const ErrorModel& model,
                                                       const Track& track,
                                                       double first,

@@ -81,7 +81,8 @@ MoveTable::MoveTable(const ErrorModel& model,
                      std::vector<double> places,
                      MoveWindow window,
                      Sampling sampling,
-                     const Progress& progress)
+                     const Progress& progress,
+                     const WorthMeasuring& worth)
     : places_(std::move(places)) {
     expects(size() >= 2 && std::ranges::is_sorted(places_), "the places of a table ascend");
     std::vector<Vec2> nodes;
@@ -97,11 +98,15 @@ MoveTable::MoveTable(const ErrorModel& model,
             std::lower_bound(after, places_.end(), here + (1.0 - window_slack) * window.shortest);
         const auto beyond =
             std::upper_bound(nearest, places_.end(), here + (1.0 + window_slack) * window.longest);
-        const Row row{static_cast<int>(nearest - places_.begin()),
-                      static_cast<int>(beyond - places_.begin()),
-                      moves_.size()};
+        Row row{static_cast<int>(nearest - places_.begin()),
+                static_cast<int>(beyond - places_.begin()),
+                moves_.size()};
+        while (worth && row.first < row.end && !worth(k, row.end - 1)) {
+            --row.end;
+        }
+        constexpr MoveError out_of_reach{.tip = infinity, .axis = infinity};
         for (int l = row.first; l < row.end; ++l) {
-            moves_.push_back(errors->between(k, l));
+            moves_.push_back(!worth || worth(k, l) ? errors->between(k, l) : out_of_reach);
         }
         rows_.push_back(row);
     }

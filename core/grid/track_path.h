@@ -9,6 +9,7 @@
 #include "core/grid/move_cost.h"
 #include "core/grid/track.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,16 +22,24 @@ struct MoveWindow {
     double longest = 1.0;
 };
 
+/// Whether the move from place `k` to place `l` of a lattice can be of use.
+using WorthMeasuring = std::function<bool(int k, int l)>;
+    /// Moves whose error is near these limits are measured finely.
+    MoveLimits limits = {};
+};
+
 /// The errors of all moves of a lattice inside a window, [a row a place].
 class MoveTable {
 public:
-    /// `places` ascend. Measures every move once; throws Cancelled within one row.
+    /// `places` ascend. Measures every move once, without those that `worth` leaves out, which are out of
+    /// reach then; throws Cancelled within one row.
     MoveTable(const ErrorModel& model,
               const Track& track,
               std::vector<double> places,
               MoveWindow window,
               Sampling sampling,
-              const Progress& progress);
+              const Progress& progress,
+              const WorthMeasuring& worth = {});
 
     [[nodiscard]] const std::vector<double>& places() const { return places_; }
     [[nodiscard]] int size() const { return static_cast<int>(std::ssize(places_)); }

@@ -1,6 +1,7 @@
 #include "core/grid/fewest_nodes.h"
 
 #include "core/base/error.h"
+#include "core/grid/lattice.h"
 #include "core/grid/track_path.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
@@ -74,12 +75,41 @@ TEST(FewestNodes, AreWithinTheToleranceByFineSampling) {
     }
 }
 
+// A straight track took three moves where one will do: longer ones were never tried.
+TEST(FewestNodes, OfAMoveThatIsAllowedAsAWholeAreItsEnds) {
+    const SpikeErrorModel even({.background = 20.0, .height = 0.0, .limit = 1e9});
+    for (const auto& [tolerance, nodes] : {std::pair(20.5, 2U), std::pair(7.0, 3U)}) {
+        const auto found = fewest_nodes(even, middle_track, 0.0, 1.0, {.tip = tolerance}, {}, {});
+        ASSERT_TRUE(found.has_value());
+        EXPECT_EQ(found->places.size(), nodes) << tolerance;
+    }
+}
+
+/// Against all moves of the lattice, whatever their length.
+TEST(FewestNodes, AreAsFewAsAmongAllMovesOfTheLattice) {
+    for (const double tolerance : {0.02, 0.05, 0.2, 1.0}) {
+        const SpikeErrorModel spike({});
+        const FewestNodesSettings settings{.lattice = 240};
+        const auto found = fewest_nodes(spike, middle_track, 0.0, 1.0, {.tip = tolerance}, settings, {});
+        const MoveTable all(spike,
+                            middle_track,
+                            lattice(spike, {middle_track, {0.0, 1.0}}, {.intervals = 240}, {}),
+                            {0.0, 1.0},
+                            fine,
+                            {});
+        const auto best = shortest_path(all, {}, {.tip = tolerance});
+        ASSERT_EQ(found.has_value(), best.has_value()) << tolerance;
+        if (best) {
+            EXPECT_EQ(found->places.size(), best->nodes.size()) << tolerance;
+        }
+    }
+}
+
 TEST(FewestNodes, AreNothingWhereTheLatticeIsTooCoarse) {
     const SpikeErrorModel spike({});
     EXPECT_FALSE(fewest_nodes(spike, middle_track, 0.0, 1.0, {.tip = 1e-6}, {.lattice = 50}, {}).has_value());
     EXPECT_THROW((void)fewest_nodes(spike, middle_track, 0.5, 0.5, {}, {}, {}), Defect);
     EXPECT_THROW((void)fewest_nodes(spike, middle_track, 0.0, 1.0, {}, {.lattice = 7}, {}), Defect);
-    EXPECT_THROW((void)fewest_nodes(spike, middle_track, 0.0, 1.0, {}, {.longest_move = 0.0}, {}), Defect);
 }
 
 } // namespace
