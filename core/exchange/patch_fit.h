@@ -10,6 +10,7 @@
 #include "core/exchange/triangle_mesh.h"
 #include "core/geometry/bezier_patch.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -29,17 +30,25 @@ struct FitSettings {
     int rounds = 12;    ///< of correcting the parameters, at most
 };
 
-/// Distances of points of the mesh from the patch, mm; above zero on the side of its normal. Of a face the
-/// figures are those of points spread densely over what its outline leaves.
+/// How far both are apart, both ways, mm; the larger of `max` and `patch_max` is their Hausdorff distance.
 struct Deviation {
+    /// Of the points of the mesh from the patch; above zero on the side of its normal. Of a face the figures
+    /// are those of points spread densely over what its outline leaves.
     std::vector<double> at_points; ///< one a point of `MeshFit::side`
     double max = 0.0;              ///< without sign
     double mean = 0.0;             ///< without sign
     double rms = 0.0;
+    /// Of points of the patch, inside its trim, from the mesh, or from the face itself.
+    double patch_max = 0.0;
+    double patch_mean = 0.0;
+    Vec2 patch_max_at = Vec2::Zero(); ///< (u, v)
+
+    [[nodiscard]] double largest() const { return std::max(max, patch_max); }
 };
 
 struct MeshFit {
     geometry::BezierPatch patch;
+    geometry::Trim trim;        ///< of the patch: the outline of a trimmed face
     TriangleMesh side;          ///< the part of the mesh that was fitted
     TriangleMesh left_out;      ///< the triangles that look the other way or sideways
     double left_out_area = 0.0; ///< mm^2
@@ -52,7 +61,8 @@ struct MeshFit {
 /// The side of the mesh that is seen from `along` (if not given its mean normal, or +z where the mesh is
 /// closed). Where that is one sheet with four corners and no hole the patch follows its outline; else it
 /// fills the least rectangle around it, and goes on with little bending where that is empty. Throws Error if
-/// no triangle looks that way or they all lie in a line; Cancelled.
+/// no triangle looks that way or they all lie in a line, if the patch folds or goes far away from the
+/// mesh; Cancelled.
 [[nodiscard]] MeshFit
 fit_patch(const TriangleMesh& mesh, const FitSettings& settings, const Progress& progress);
 

@@ -90,6 +90,9 @@ TEST(FaceFit, TellsTheDistanceFromTheFaceItself) {
         EXPECT_GT(fit.deviation.max, 0.9 * measured) << degree;
         // Sides that end short of the face's are told, too.
         EXPECT_LT(fit.deviation.max, 2.0 * measured + 1e-6) << degree;
+        // Its sides go a little beyond those of the face, which the whole torus does not tell.
+        EXPECT_GT(fit.deviation.patch_max, 0.98 * measured) << degree;
+        EXPECT_LT(fit.deviation.patch_max, 3.0 * measured + 1e-6) << degree;
         EXPECT_LE(fit.deviation.mean, fit.deviation.rms) << degree;
         EXPECT_LE(fit.deviation.rms, fit.deviation.max) << degree;
         EXPECT_TRUE(fit.follows_outline) << degree;
