@@ -4,6 +4,7 @@
 #include "app/job_keys.h"
 #include "app/job_printer.h"
 #include "app/pmac_care.h"
+#include "app/question.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -21,6 +22,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <ctime>
@@ -99,8 +101,7 @@ void Controller::connect(bool at_a_line, const std::stop_token& stop) {
 void Controller::expect_rest() const {
     using machine::DriverState;
     const machine::DriverStatus now = driver_->status();
-    if (now.state == DriverState::running || now.state == DriverState::holding ||
-        now.state == DriverState::stopping) {
+    if (machine::is_at_work(now.state)) {
         const std::string why = now.message.empty() ? std::string(machine::to_text(now.state)) : now.message;
         throw Error("the machine takes no job: " + why,
                     {},
@@ -115,7 +116,7 @@ void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     using machine::DriverState;
     using machine::DriverStatus;
     if (!choice_.home) {
-        settle_position(at_a_line);
+        settle_position(at_a_line, stop);
     }
     const bool homing_unlocks = choice_.home && choice_.driver == "grbl";
     if (driver_->status().state == DriverState::alarm && !homing_unlocks) {
@@ -128,8 +129,8 @@ void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     }
     if (choice_.home) {
         driver_->home();
-        wait_for([](const DriverStatus& now) { return now.state != DriverState::running; }, stop);
-        settle_position(at_a_line);
+        wait_for([](const DriverStatus& now) { return !machine::is_at_work(now.state); }, stop);
+        settle_position(at_a_line, stop);
     }
 }
 
@@ -175,7 +176,7 @@ void Controller::say_who_is_there() const {
     std::fflush(stdout);
 }
 
-void Controller::settle_position(bool at_a_line) {
+void Controller::settle_position(bool at_a_line, const std::stop_token& stop) {
     if (choice_.trust_position) {
         driver_->trust_position();
     }
@@ -189,10 +190,30 @@ void Controller::settle_position(bool at_a_line) {
                     {},
                     "--trust-position if it stands where the controller says");
     }
+    const bool every_job = machine::needs_confirmation(driver_->status(), driver_->stored_offsets());
+    if (every_job && ::isatty(STDIN_FILENO) != 0) {
+        ask_whether_position_is_right(why, stop);
+        return;
+    }
     fmt::print(stderr,
-               "millwright: {} A job that begins at a line needs that, or --trust-position if it stands "
-               "where the controller says.\n",
-               machine::doubt_sentence(why));
+               "millwright: {} {} needs that, or --trust-position if it is where the controller says.\n",
+               machine::doubt_sentence(why),
+               every_job ? "Every job" : "A job that begins at a line");
+}
+
+/// No word but yes lets anything move.
+void Controller::ask_whether_position_is_right(const std::string& why, const std::stop_token& stop) {
+    const std::string answer =
+        question(machine::doubt_sentence(why) +
+                     "\nIs the machine where the controller says? Type yes to run the job, anything else to "
+                     "leave it > ",
+                 stop);
+    if (answer != "yes") {
+        throw Error(
+            "nothing was started: the position is not confirmed", {}, "--trust-position confirms it, too");
+    }
+    driver_->trust_position();
+    remember();
 }
 
 /// What cannot be remembered is told, and keeps nobody from working.
@@ -210,9 +231,11 @@ std::optional<machine::Survey> Controller::survey_of(const machine::Job& job) co
     if (!able.dialect) {
         return std::nullopt;
     }
-    return machine::survey(job.listing->text,
-                           job.project,
-                           {*able.dialect, able.axes, driver_->status().position, driver_->stored_offsets()});
+    const machine::DriverStatus now = driver_->status();
+    return machine::survey(
+        job.listing->text,
+        job.project,
+        {*able.dialect, able.axes, now.position, driver_->stored_offsets(), now.modes, able.mist});
 }
 
 void Controller::look_at(const machine::Job& job) const {
@@ -249,16 +272,20 @@ void Controller::check_joints(const machine::Job& job, const std::stop_token& st
     }
 }
 
-machine::JobOutcome Controller::run(const machine::Job& job, const std::stop_token& stop) {
+machine::JobOutcome Controller::run(const machine::Job& job, const Interrupt& interrupt) {
     show_warnings(job);
     if (choice_.driver == "pmac") {
-        check_joints(job, stop);
+        check_joints(job, interrupt.token());
     }
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder_);
     JobPrinter printer;
     const JobKeys keys(dispatcher, choice_.keys, {choice_.optional_stop, choice_.single_block});
-    const Progress progress([](const Progress::Report&) {}, stop);
+    const Progress progress([](const Progress::Report&) {}, interrupt.token());
+    bool cut = false;
     return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
+        if (interrupt.insisted() && !std::exchange(cut, true)) {
+            driver_->emergency_stop();
+        }
         remember();
         printer.show(report, keys.listening());
     });

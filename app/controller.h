@@ -1,6 +1,7 @@
 // A job on a controller that plans for itself, on the command line.
 #pragma once
 
+#include "app/interrupt.h"
 #include "core/base/progress.h"
 #include "core/machine/clock.h"
 #include "core/machine/dispatcher.h"
@@ -54,22 +55,24 @@ public:
 
     /// Throws Error for what this controller must not be sent.
     void check(const machine::Job& job) const;
-    /// Throws Error if nobody answers, or if the controller is locked and nobody said that it may be
-    /// unlocked, or that it shall be homed first, which moves it; `at_a_line`: also if the position that a
-    /// job needs that begins there is in doubt. Nothing was unlocked then.
+    /// Asks a person at a terminal whether the position is right where something has cost it. Throws Error if
+    /// nobody answers, or if the controller is locked and nobody said that it may be unlocked, or that it
+    /// shall be homed first, which moves it; `at_a_line`: also if the position that a job needs that begins
+    /// there is in doubt. Nothing was unlocked then.
     void connect(bool at_a_line, const std::stop_token& stop);
     /// Throws Error for what the connected machine could not do of it from where it stands; nothing moves.
     void look_at(const machine::Job& job) const;
     /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
     /// anything is sent if the text is at fault.
-    [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const std::stop_token& stop);
+    [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const Interrupt& interrupt);
 
 private:
     void expect_rest() const;
     void prepare(bool at_a_line, const std::stop_token& stop);
     void wait_for(const std::function<bool(const machine::DriverStatus&)>& done, const std::stop_token& stop);
     void unlock();
-    void settle_position(bool at_a_line);
+    void settle_position(bool at_a_line, const std::stop_token& stop);
+    void ask_whether_position_is_right(const std::string& why, const std::stop_token& stop);
     void say_who_is_there() const;
     void remember();
     [[nodiscard]] std::optional<machine::Survey> survey_of(const machine::Job& job) const;

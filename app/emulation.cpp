@@ -101,6 +101,7 @@ int serve(const EmulationChoice& choice,
     machine::EmulatorServer server(
         open_links(choice, name, faults, clock), clock, make(), choice.speed, faults);
     server.wait_for_host(choice.wait_for_host);
+    server.reset_when_opened(choice.reset_when_opened);
     while (!interrupt.token().stop_requested()) {
         constexpr double glance = 0.05;
         clock.wait(glance);

@@ -22,6 +22,7 @@ struct EmulationChoice {
     std::string faults;
     double speed = 1.0;
     std::optional<double> wait_for_host; ///< s, see EmulatorServer
+    bool reset_when_opened = false;      ///< of Grbl alone
 };
 
 /// Adds them to `command`.

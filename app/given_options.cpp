@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -16,6 +17,17 @@ std::string shell_word(std::string_view text) {
     };
     if (!text.empty() && std::ranges::all_of(text, plain)) {
         return std::string(text);
+    }
+    const auto controls = [](unsigned char c) { return std::iscntrl(c) != 0; };
+    if (std::ranges::any_of(text, controls)) { // which a terminal would obey
+        std::string escaped = "$'";
+        for (const char c : text) {
+            escaped += controls(static_cast<unsigned char>(c))
+                           ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+                       : c == '\'' || c == '\\' ? std::string("\\") + c
+                                                : std::string(1, c);
+        }
+        return escaped + "'";
     }
     std::string quoted = "'";
     for (const char c : text) {

@@ -10,11 +10,6 @@ namespace {
 
 using machine::DriverState;
 
-double fraction_of(const machine::JobReport& report) {
-    return report.planned_time > 0.0 ? report.driver.planned_time / report.planned_time
-                                     : static_cast<double>(report.driver.executed_blocks) / report.blocks;
-}
-
 } // namespace
 
 void JobPrinter::show(const machine::JobReport& report, bool keys) {
@@ -22,9 +17,7 @@ void JobPrinter::show(const machine::JobReport& report, bool keys) {
     const bool holding = now.state == DriverState::holding;
     tell_waiting(now, keys);
     printer_.pause(holding);
-    printer_.show(
-        {fraction_of(report),
-         fmt::format("Block {} of {}{}", now.executed_blocks, report.blocks, holding ? ", holding" : "")});
+    printer_.show({report.fraction(), report.progress_text() + (holding ? ", holding" : "")});
 }
 
 /// On a line of its own, whole: a bar has no room for what a person has to do.

@@ -24,7 +24,9 @@
 #include "app/commands/thesis_command.h"
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
+#include "app/kept_outputs.h"
 #include "app/output_files.h"
+#include "app/output_streams.h"
 #include "app/threads_option.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
@@ -35,9 +37,15 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace millwright::app {
@@ -47,18 +55,19 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
-/// A full disk shows when what is left is written.
-void expect_output_written() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        throw Error("standard output could not be written");
+/// `exit_code`, or that of a failure where the output did not arrive. Who closes a pipe, as head does, knows.
+int with_output_written(int exit_code) {
+    const int failure = output_failure();
+    if (failure == 0 || failure == EPIPE) {
+        return failure == 0 ? exit_code : std::max(exit_code, failed);
     }
+    throw Error("standard output could not be written: " +
+                std::error_code(failure, std::generic_category()).message());
 }
 
 int run(const Command& command) {
     try {
-        const int exit_code = command();
-        expect_output_written();
-        return exit_code;
+        return with_output_written(command());
     } catch (const UsageError& error) {
         fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
         return wrong_usage;
@@ -66,6 +75,14 @@ int run(const Command& command) {
         fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
     } catch (const Cancelled&) {
         fmt::print(stderr, "millwright: cancelled\n");
+    } catch (const std::filesystem::filesystem_error& failure) { // links in a loop, a folder that is gone
+        const std::filesystem::path& place = failure.path1();
+        const std::string what = place.empty() ? "the current folder: " : "";
+        fmt::print(stderr,
+                   "millwright: {}\n",
+                   to_text(Diagnostic{{place, 0, 0, -1}, what + failure.code().message(), {}}));
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "millwright: there is not enough memory for this\n");
     } catch (const std::exception& failure) {
         fmt::print(stderr, "millwright: internal error: {}\n", failure.what());
     }
@@ -79,6 +96,7 @@ std::string command_words(const CLI::App& app) {
 }
 
 int main(int argc, char** argv) {
+    guard_output_streams();
     CLI::App app(
         "Designs surfaces, shows where a 5-axis machine would cut them wrong, and makes programs that do "
         "not.\nWithout a command: opens the workbench.",
@@ -115,7 +133,12 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& parsed) {
         if (parsed.get_exit_code() == 0) { // --help or --version
-            return app.exit(parsed);
+            return run([&] {
+                std::ostringstream text;
+                const int exit_code = app.exit(parsed, text, text);
+                fmt::print("{}", text.str());
+                return exit_code;
+            });
         }
         fmt::print(
             stderr, "millwright: {}\nRun \"{} --help\" for more.\n", parsed.what(), command_words(app));
@@ -123,6 +146,7 @@ int main(int argc, char** argv) {
     }
     return run([&] {
         expect_outputs_apart(app);
+        const KeptOutputs kept(named_outputs(app));
         return chosen();
     });
 }

@@ -83,4 +83,14 @@ void expect_outputs_apart(const CLI::App& app) {
     }
 }
 
+std::vector<fs::path> named_outputs(const CLI::App& app) {
+    Files files;
+    collect(app, files);
+    std::vector<fs::path> named;
+    for (const Named& out : files.written) {
+        named.emplace_back(out.value);
+    }
+    return named;
+}
+
 } // namespace millwright::app

@@ -3,10 +3,16 @@
 
 #include <CLI/App.hpp>
 
+#include <filesystem>
+#include <vector>
+
 namespace millwright::app {
 
 /// Of the commands that were meant. Throws Error where a file that is to be written (--out and the like) is
 /// also an argument that is read, under whatever name, or is to be written twice.
 void expect_outputs_apart(const CLI::App& app);
+
+/// Files that options of these commands name to be written, --out and the like.
+[[nodiscard]] std::vector<std::filesystem::path> named_outputs(const CLI::App& app);
 
 } // namespace millwright::app

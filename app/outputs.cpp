@@ -1,12 +1,22 @@
 #include "app/outputs.h"
 
+#include "app/kept_outputs.h"
+#include "app/written_files.h"
+#include "core/base/draft.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <memory>
 #include <system_error>
+#include <thread>
+#include <utility>
 
 namespace millwright::app {
 
@@ -14,16 +24,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path beside(const fs::path& folder, const OutputFile& file) {
-    return folder / ("." + file.name + ".new");
-}
-
-void remove_drafts(const fs::path& folder, const std::vector<OutputFile>& files) {
-    for (const OutputFile& file : files) {
-        std::error_code ignored;
-        fs::remove(beside(folder, file), ignored);
+/// One program at a time in a folder; the system ends the lock however the program ends.
+class OutputLock {
+public:
+    explicit OutputLock(const fs::path& folder) : handle_(::open(folder.c_str(), O_RDONLY | O_CLOEXEC)) {
+        constexpr auto glance = std::chrono::milliseconds(20);
+        constexpr auto patience = std::chrono::seconds(10);
+        const auto end = std::chrono::steady_clock::now() + patience;
+        // Where a file system knows no locks, there is none.
+        while (handle_ >= 0 && ::flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            if (std::chrono::steady_clock::now() > end) {
+                ::close(handle_);
+                throw Error("another program is writing to this folder", folder);
+            }
+            std::this_thread::sleep_for(glance);
+        }
     }
-}
+    OutputLock(const OutputLock&) = delete;
+    OutputLock& operator=(const OutputLock&) = delete;
+    ~OutputLock() {
+        if (handle_ >= 0) {
+            ::close(handle_);
+        }
+    }
+
+private:
+    int handle_;
+};
 
 void expect_replaceable(const fs::path& place, const fs::path& source) {
     std::error_code failure;
@@ -32,6 +59,15 @@ void expect_replaceable(const fs::path& place, const fs::path& source) {
     }
     if (!source.empty() && fs::equivalent(place, source, failure)) {
         throw Error("would be written over, and is read", place, "choose another folder");
+    }
+}
+
+bool has_bytes(const fs::path& file, const std::string& bytes) {
+    std::error_code missing;
+    try {
+        return fs::is_regular_file(file, missing) && read_file(file) == bytes;
+    } catch (const Error&) {
+        return false;
     }
 }
 
@@ -78,22 +114,56 @@ void OutputFolder::remove_empty() const {
 void write_outputs(const fs::path& typed, const std::vector<OutputFile>& files, const fs::path& source) {
     const fs::path folder = without_ups(typed);
     make_folder(folder);
+    const OutputLock lock(folder);
+    std::vector<std::unique_ptr<Draft>> drafts;
+    for (const OutputFile& file : files) {
+        expect_replaceable(folder / file.name, source);
+        drafts.push_back(std::make_unique<Draft>(folder / file.name));
+        drafts.back()->write(file.bytes);
+    }
+    WrittenFiles written;
+    std::vector<bool> foreign;
+    std::vector<fs::path> places;
+    std::vector<std::pair<fs::path, fs::path>> kept;
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        const fs::path& place = places.emplace_back(drafts[n]->target());
+        foreign.push_back(!written.holds(place) && !has_bytes(place, files[n].bytes));
+    }
     try {
-        for (const OutputFile& file : files) {
-            expect_replaceable(folder / file.name, source);
-            write_file(beside(folder, file), file.bytes);
+        for (const auto& draft : drafts) {
+            draft->exchange();
+        }
+        for (std::size_t n = 0; n < files.size(); ++n) {
+            if (foreign[n] && drafts[n]->had_old()) {
+                kept.emplace_back(places[n], kept_name(places[n]));
+                drafts[n]->keep_old(kept.back().second);
+            }
         }
     } catch (const Error&) {
-        remove_drafts(folder, files);
+        for (const auto& draft : drafts) {
+            draft->put_back();
+        }
         throw;
     }
-    for (const OutputFile& file : files) {
-        std::error_code failure;
-        fs::rename(beside(folder, file), folder / file.name, failure);
-        if (failure) {
-            remove_drafts(folder, files);
-            throw Error("cannot write: " + failure.message(), folder / file.name);
-        }
+    for (const auto& [file, name] : kept) {
+        say_kept(file, name);
+    }
+    written.add(places);
+}
+
+void remove_output(const fs::path& file) {
+    std::error_code failure;
+    if (!fs::is_regular_file(file, failure)) {
+        return;
+    }
+    if (WrittenFiles().holds(file)) {
+        fs::remove(file, failure);
+        return;
+    }
+    const fs::path name = kept_name(file);
+    fs::rename(file, name, failure);
+    if (!failure) {
+        say_kept(file, name);
     }
 }
 

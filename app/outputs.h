@@ -1,4 +1,5 @@
-// Several files that belong together, in a folder: all of them are replaced or none.
+// Several files that belong together, in a folder: all of them are replaced or none, and nothing is lost that
+// Millwright has not written itself.
 #pragma once
 
 #include <filesystem>
@@ -29,10 +30,15 @@ private:
     std::vector<std::filesystem::path> made_; ///< the innermost first
 };
 
-/// Writes all beside their places first and renames them then. Throws Error, also where one of them would
-/// replace `source`, a file that they were made from; what was there before then stays.
+/// Writes all beside their places first and exchanges them then, while no other program of ours does so in
+/// this folder. A file there that is not as a command wrote it last gets another name, and that is said on
+/// standard error. Throws Error, also where one of them would replace `source`, a file that they were made
+/// from, or one that the user may not write; what was there before then stays.
 void write_outputs(const std::filesystem::path& folder,
                    const std::vector<OutputFile>& files,
                    const std::filesystem::path& source = {});
+
+/// Takes a file away that would no longer fit the others; one that no command has written gets another name.
+void remove_output(const std::filesystem::path& file);
 
 } // namespace millwright::app

@@ -77,7 +77,7 @@ void check_from_line(const PlannedMachineChoice& choice, int from_line) {
 }
 
 machine::JobOutcome
-PlannedMachine::run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop) {
+PlannedMachine::run(const machine::Job& job, const std::string& log_folder, const Interrupt& interrupt) {
     connect(job);
     JobPrinter printer;
     bool begun = false; // from then on the report says more
@@ -87,13 +87,17 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
                 printer.show(report);
             }
         },
-        stop);
+        interrupt.token());
+    bool cut = false;
     machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
     const JobKeys keys(dispatcher,
                        choice_.controller.keys,
                        {choice_.controller.optional_stop, choice_.controller.single_block});
     machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
         begun = true;
+        if (interrupt.insisted() && !std::exchange(cut, true)) {
+            driver_->emergency_stop();
+        }
         printer.show(report, keys.listening());
     });
     tell_remarks(job);

@@ -46,7 +46,7 @@ public:
 
     /// Under a progress bar. Throws Error, before anything moves if the job is at fault.
     [[nodiscard]] machine::JobOutcome
-    run(const machine::Job& job, const std::string& log_folder, const std::stop_token& stop);
+    run(const machine::Job& job, const std::string& log_folder, const Interrupt& interrupt);
 
 private:
     void connect(const machine::Job& job);

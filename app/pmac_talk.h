@@ -40,7 +40,7 @@ private:
     void check();
     void wait_for_rest();
 
-    Interrupt interrupt_;
+    Interrupt interrupt_{Suspending::refused};
     machine::SteadyClock clock_;
     std::unique_ptr<machine::PmacDriver> driver_;
     bool cancelled_ = false;

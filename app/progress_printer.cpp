@@ -1,5 +1,7 @@
 #include "app/progress_printer.h"
 
+#include "app/output_streams.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 #include <fmt/format.h>
@@ -55,6 +57,9 @@ ProgressPrinter::~ProgressPrinter() {
 
 void ProgressPrinter::show(const Progress::Report& report) {
     const auto now = Clock::now();
+    if (!error_takes_text()) {
+        return;
+    }
     if (on_terminal_) {
         constexpr auto interval = std::chrono::milliseconds(80);
         if (now - last_ >= interval) {
@@ -67,8 +72,11 @@ void ProgressPrinter::show(const Progress::Report& report) {
 }
 
 void ProgressPrinter::say(const std::string& line) {
+    if (!error_takes_text()) {
+        return;
+    }
     finish();
-    fmt::print(stderr, "{}\n", line);
+    fmt::print(stderr, "{}\n", printable(line));
     std::fflush(stderr);
 }
 
@@ -88,7 +96,7 @@ void ProgressPrinter::draw_bar(const Progress::Report& report, double elapsed) {
         fmt::format("[{:#<{}}{:.<{}}] {:3} %", "", done, "", width - done, percent(report.fraction));
     const std::string left = remaining(report.fraction, elapsed);
     const std::size_t taken = bar.size() + left.size() + 2;
-    const std::string text = report.text.substr(0, columns > taken ? columns - taken : 0);
+    const std::string text = printable(report.text).substr(0, columns > taken ? columns - taken : 0);
     fmt::print(stderr, "\r\033[K{}", fmt::format("{}{}  {}", bar, left, text).substr(0, columns));
     std::fflush(stderr);
     drawn_ = true;
@@ -102,12 +110,12 @@ void ProgressPrinter::print_line(const Progress::Report& report) {
     }
     words_ = std::move(words);
     tenths_ = tenths;
-    fmt::print(stderr, "{:3} %  {}\n", percent(report.fraction), report.text);
+    fmt::print(stderr, "{:3} %  {}\n", percent(report.fraction), printable(report.text));
     std::fflush(stderr);
 }
 
 void ProgressPrinter::finish() {
-    if (drawn_) {
+    if (drawn_ && error_takes_text()) {
         fmt::print(stderr, "\r\033[K");
         std::fflush(stderr);
         drawn_ = false;

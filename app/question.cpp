@@ -1,18 +1,22 @@
 #include "app/question.h"
 
+#include "app/output_streams.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <system_error>
 
 namespace millwright::app {
 
 std::string question(const std::string& text, const std::stop_token& stop) {
-    fmt::print("{}", text);
-    std::fflush(stdout);
+    fmt::print("{}", printable(text));
+    if (const int failure = output_failure(); failure != 0) {
+        throw Error("nobody can be asked: standard output could not be written: " +
+                    std::error_code(failure, std::generic_category()).message());
+    }
     std::string answer;
     while (true) {
         if (stop.stop_requested()) {
@@ -25,7 +29,8 @@ std::string question(const std::string& text, const std::stop_token& stop) {
             continue;
         }
         char byte = 0; // one at a time: what follows the line belongs to the next question
-        if (::read(STDIN_FILENO, &byte, 1) != 1 || byte == '\n') {
+        constexpr std::size_t longest = 1000; // bytes; no answer is
+        if (::read(STDIN_FILENO, &byte, 1) != 1 || byte == '\n' || answer.size() == longest) {
             return answer;
         }
         answer += byte;

@@ -228,7 +228,7 @@ private:
     }
 
     static void say(const machine::JobOutcome& outcome) {
-        fmt::print("{}\nLog: {}\n", outcome.sentence, outcome.log_file.string());
+        fmt::print("{}\nLog: {}\n", printable(outcome.sentence), printable(outcome.log_file.string()));
         std::fflush(stdout);
     }
 

@@ -3,12 +3,13 @@
 // -a -s "-screen 0 1600x1000x24 -noreset" build/release/bench/start_bench
 #include <X11/Xlib.h>
 #include <benchmark/benchmark.h>
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -28,7 +29,8 @@ pid_t started(std::vector<std::string> words) {
     arguments.push_back(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-        (void)freopen("/dev/null", "w", stdout);
+        setenv("XDG_STATE_HOME", "/tmp/millwright-start-bench", 1); // not among the user's recent files
+        dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
         execv(arguments[0], arguments.data());
         _exit(127);
     }
@@ -37,8 +39,7 @@ pid_t started(std::vector<std::string> words) {
 
 int end_of(pid_t child) {
     int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 struct CloseDisplay {
@@ -85,10 +86,19 @@ void first_frame(benchmark::State& state, const std::vector<std::string>& words,
     for (auto _ : state) {
         const auto start = Clock::now();
         const pid_t child = started(words);
-        while (!shows(display.get(), title) && Clock::now() - start < std::chrono::seconds(30)) {
+        if (child < 0) {
+            state.SkipWithError("the program could not be started");
+            return;
+        }
+        bool shown = false;
+        while (!shown && Clock::now() - start < std::chrono::seconds(30)) {
             usleep(1000);
+            shown = shows(display.get(), title);
         }
         state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
+        if (!shown) {
+            state.SkipWithError("no window came within 30 s");
+        }
         kill(child, SIGINT);
         (void)end_of(child);
     }

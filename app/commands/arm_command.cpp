@@ -17,6 +17,7 @@
 #include "core/kinematics/arm_simulation.h"
 #include "core/kinematics/arm_solver.h"
 #include "core/kinematics/arm_zone.h"
+#include "core/kinematics/tool_roll.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
 
@@ -28,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,7 @@ struct ArmOptions {
     std::string file;
     std::string out;
     double step_mm = 5.0;
+    std::optional<double> roll_deg{}; ///< nothing: any
     bool project = false;
     bool json = false;
 };
@@ -70,6 +73,7 @@ int forward(const ArmOptions& options) {
     }
     const Frame tool = kinematics::base_T_tool(arm, q);
     const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
+    const double roll = to_degrees(kinematics::roll_of(tool.linear()));
     const double measure =
         kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
     const int outside = arm.joint_outside(q);
@@ -80,17 +84,19 @@ int forward(const ArmOptions& options) {
         answer["y"] = rounded(tip.y());
         answer["z"] = rounded(tip.z());
         answer["tool"] = {rounded(axis.x()), rounded(axis.y()), rounded(axis.z())};
+        answer["roll"] = rounded(roll);
         answer["manipulability"] = measure;
         answer["inside_limits"] = outside < 0 && breaches.empty();
         fmt::print("{}\n", answer.dump(2));
     } else {
-        fmt::print("x {} y {} z {} mm\ntool axis {} {} {}\nmanipulability {:.6f}\n",
+        fmt::print("x {} y {} z {} mm\ntool axis {} {} {}\nroll {} deg\nmanipulability {:.6f}\n",
                    shortest(rounded(tip.x())),
                    shortest(rounded(tip.y())),
                    shortest(rounded(tip.z())),
                    shortest(rounded(axis.x())),
                    shortest(rounded(axis.y())),
                    shortest(rounded(axis.z())),
+                   shortest(rounded(roll)),
                    measure);
     }
     if (outside >= 0) {
@@ -119,10 +125,7 @@ void keep_zone(const ArmModel& arm, Solutions& found) {
     found.reason = found.joints.empty() && !why.empty() ? why : found.reason;
 }
 
-/// Any roll will do; an arm with fewer joints than a frame has freedoms may need another one than ours.
-Solutions sought(const ArmModel& arm, const Frame& goal) {
-    const auto demand =
-        arm.joint_count() == 5 ? kinematics::ArmDemand::tip_and_axis : kinematics::ArmDemand::frame;
+Solutions sought(const ArmModel& arm, const Frame& goal, kinematics::ArmDemand demand) {
     Solutions found;
     found.joints = kinematics::solve_arm_from_many_starts(arm, goal, demand, resting(arm), starting_points);
     if (found.joints.empty()) {
@@ -132,12 +135,15 @@ Solutions sought(const ArmModel& arm, const Frame& goal) {
     return found;
 }
 
-Solutions solved(const ArmModel& arm, kinematics::PointedGoal goal, bool project) {
+/// Any roll will do unless one is asked for.
+Solutions
+solved(const ArmModel& arm, kinematics::PointedGoal goal, const std::optional<double>& roll, bool project) {
     Frame frame = Frame::Identity();
     frame.translation() = goal.tip;
-    frame.linear() = frame_along(goal.axis);
+    frame.linear() = kinematics::frame_with_roll(goal.axis, roll.value_or(0.0));
     if (!arm.planar_elbow()) {
-        return sought(arm, frame);
+        using kinematics::ArmDemand;
+        return sought(arm, frame, roll ? ArmDemand::frame : ArmDemand::tip_and_axis);
     }
     Solutions found;
     const auto projected = kinematics::projected_goal(frame);
@@ -146,7 +152,9 @@ Solutions solved(const ArmModel& arm, kinematics::PointedGoal goal, bool project
         goal.axis = projected->linear().col(2);
         found.projected_deg = out;
     }
-    auto answer = kinematics::arm_inverse(arm, goal, resting(arm));
+    frame.linear() = kinematics::frame_with_roll(goal.axis, roll.value_or(0.0));
+    auto answer = roll ? kinematics::arm_inverse(arm, frame, resting(arm))
+                       : kinematics::arm_inverse(arm, goal, resting(arm));
     found.joints = std::move(answer.branches);
     found.reason = std::move(answer.why);
     keep_zone(arm, found);
@@ -191,7 +199,11 @@ int inverse(const ArmOptions& options) {
     if (!(axis.norm() > 1e-9)) {
         throw Error("the tool axis has no direction", {}, "its three numbers are 0");
     }
-    const Solutions found = solved(arm, {tip, axis.stableNormalized()}, options.project);
+    if (options.roll_deg && !std::isfinite(*options.roll_deg)) {
+        throw Error("the roll is not a finite number");
+    }
+    const auto roll = options.roll_deg ? std::optional(from_degrees(*options.roll_deg)) : std::nullopt;
+    const Solutions found = solved(arm, {tip, axis.stableNormalized()}, roll, options.project);
     const auto list = shown(arm, found.joints);
     const auto singular = singular_ones(arm, found.joints);
     for (std::size_t n = 0; n < singular.size(); ++n) {
@@ -289,6 +301,9 @@ void add_arm_command(CLI::App& app, Command& chosen) {
     ik.add_flag("--project",
                 options->project,
                 "Turn the axis by the smallest angle into the plane of an arm with five joints");
+    ik.add_option(
+          "--roll", options->roll_deg, "Roll of the tool about its axis, degrees; without it any will do")
+        ->type_name("DEG");
     ik.callback([&chosen, options] { chosen = [options] { return inverse(*options); }; });
     CLI::App& path =
         add_arm_subcommand(group, "simulate", "Work off a motion file, from the home of the thesis", options);

@@ -2,6 +2,7 @@
 
 #include "app/commands/emulate_table.h"
 #include "app/emulation.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
@@ -32,6 +33,8 @@ struct EmulateOptions {
     std::string machine = "router-xyz";
     bool line_numbers = false;
     bool echo = false;
+    bool mist = false;
+    bool no_switches = false;
     bool homed = false;
     bool arm = false;
     int channels = 4;
@@ -42,13 +45,21 @@ int emulate_grbl(const EmulateOptions& options) {
     if (options.surface) {
         surface = [z = *options.surface](double, double) { return z; };
     }
+    if (options.wire.reset_when_opened && options.wire.tcp < 0) {
+        throw UsageError("who opens a pseudo-terminal is not known", {}, "--reset-when-opened needs --tcp");
+    }
     return serve(options.wire, "Grbl 1.1h", [&] {
-        return std::make_unique<machine::GrblEmulator>(
+        auto grbl = std::make_unique<machine::GrblEmulator>(
             machine::GrblEmulatorOptions{.eeprom_file = options.eeprom,
                                          .line_numbers = options.line_numbers,
                                          .echo = options.echo,
+                                         .mist = options.mist,
                                          .keep_truth = false,
                                          .surface = surface});
+        if (options.no_switches) {
+            grbl->break_limit_switches();
+        }
+        return grbl;
     });
 }
 
@@ -116,6 +127,11 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
     grbl.add_option("--eeprom", options->eeprom, "File that keeps settings and offsets")->type_name("FILE");
     grbl.add_flag("--line-numbers", options->line_numbers, "Report the number of the line in motion");
     grbl.add_flag("--echo", options->echo, "Repeat each line as it was read");
+    grbl.add_flag("--mist", options->mist, "Built with M7");
+    grbl.add_flag("--no-switches", options->no_switches, "Its limit switches never switch");
+    grbl.add_flag("--reset-when-opened",
+                  options->wire.reset_when_opened,
+                  "Reset whenever a program connects, as boards do that are wired to DTR; with --tcp");
     grbl.add_option("--surface", options->surface, "A probe touches at this height, machine coordinates, mm")
         ->type_name("Z");
     grbl.callback([&chosen, options] { chosen = [options] { return emulate_grbl(*options); }; });

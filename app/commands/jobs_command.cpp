@@ -52,20 +52,21 @@ void say_how_it_goes_on(const machine::JobStory& story) {
     const bool from_line = way.why_the_beginning.empty();
     const LogStart& start = story.start;
     const bool from_here = from_line && (start.driver == "stream" || start.driver == "records");
-    fmt::print("    Look at the machine and the part. {}\n"
-               "    millwright {} {} --driver {}{}{}{}{}\n",
-               from_line ? "To go on before the first line that is not certain:"
-                         : with_full_stop("It runs again from its beginning alone: " + way.why_the_beginning),
-               start.project.ends_with(".json") ? "run" : "send",
-               shell_word(start.project),
-               start.driver,
-               start.address.empty() ? (start.driver == "virtual" ? "" : " ...")
-                                     : " --port " + shell_word(start.address),
-               start.options.empty() ? "" : " " + start.options,
-               from_line
-                   ? fmt::format(" --from-line {}{}", way.line, way.needs_clearance ? " --clearance Z" : "")
-                   : std::string(),
-               from_here ? " --at X,Y,Z" : "");
+    fmt::print(
+        "    Look at the machine and the part. {}\n"
+        "    millwright {} {} --driver {}{}{}{}{}\n",
+        from_line
+            ? "To go on before the first line that is not certain:"
+            : with_full_stop("It runs again from its beginning alone: " + printable(way.why_the_beginning)),
+        start.project.ends_with(".json") ? "run" : "send",
+        shell_word(start.project),
+        shell_word(start.driver),
+        start.address.empty() ? (start.driver == "virtual" ? "" : " ...")
+                              : " --port " + shell_word(start.address),
+        start.options.empty() ? "" : " " + printable(start.options),
+        from_line ? fmt::format(" --from-line {}{}", way.line, way.needs_clearance ? " --clearance Z" : "")
+                  : std::string(),
+        from_here ? " --at X,Y,Z" : "");
     if (from_here) {
         fmt::print("    with the place of X, Y and Z where the table stands: it does not tell it.\n");
     }
@@ -79,10 +80,10 @@ void say_how_it_goes_on(const machine::JobStory& story) {
 /// `told`: the programs of later jobs; what these have left is what counts.
 void show(const machine::JobStory& story, std::set<std::string>& told) {
     fmt::print("{}  {}  {}\n    {}\n",
-               story.log_file.string(),
-               story.start.started_at.empty() ? "-" : story.start.started_at,
-               story.start.project,
-               story.sentence);
+               printable(story.log_file.string()),
+               story.start.started_at.empty() ? "-" : printable(story.start.started_at),
+               printable(story.start.project),
+               printable(story.sentence));
     const bool latest = told.insert(story.start.project).second;
     if (latest && !story.running && story.executed_blocks < story.start.blocks) {
         say_how_it_goes_on(story);
@@ -106,7 +107,7 @@ int list_jobs(const JobsOptions& options) {
             show(story, told);
         }
         if (folder.jobs.empty()) {
-            fmt::print("No job logs in {}.\n", options.folder);
+            fmt::print("No job logs in {}.\n", printable(options.folder));
         }
     }
     return folder.unreadable.empty() ? 0 : 1;

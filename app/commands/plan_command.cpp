@@ -263,8 +263,7 @@ int plan(const PlanOptions& options) {
     }
     write_outputs(options.out, files, opened.file);
     if (!preview) { // an older one would show another path
-        std::error_code failure;
-        std::filesystem::remove(std::filesystem::path(options.out) / "preview.png", failure);
+        remove_output(std::filesystem::path(options.out) / "preview.png");
     }
     print_notes(text);
     print_warnings(plan);

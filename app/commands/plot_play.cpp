@@ -110,7 +110,7 @@ void print_play_json(const PlayStatus& status) {
 }
 
 int play(const PlotPlayOptions& options) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     plot::PointFile read = points_to_play(options);
     const auto points = std::make_shared<const std::vector<Vec3>>(std::move(read.points));
     const kinematics::MachineModel model = kinematics::read_machine(

@@ -164,7 +164,7 @@ private:
         }
     }
 
-    Interrupt interrupt_;
+    Interrupt interrupt_{Suspending::refused};
     machine::SteadyClock clock_;
     std::unique_ptr<machine::PmacDriver> driver_;
 };

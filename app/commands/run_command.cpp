@@ -60,7 +60,7 @@ machine::Job begun_at(machine::Job job, int line, const RunOptions& options) {
 
 int run_plan(const RunOptions& options) {
     check(options.machine);
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     std::optional<Controller> controller;
     if (options.machine.driver == "grbl") {
         controller.emplace(options.machine.controller, options.series.log);
@@ -86,8 +86,8 @@ int run_plan(const RunOptions& options) {
         }
     };
     steps.run = [&](const machine::Job& job) {
-        return controller ? controller->run(job, interrupt.token())
-                          : planned_machine.run(job, options.series.log, interrupt.token());
+        return controller ? controller->run(job, interrupt)
+                          : planned_machine.run(job, options.series.log, interrupt);
     };
     return run_series(options.series, steps, interrupt.token());
 }

@@ -132,7 +132,7 @@ machine::Job job_from_file(const SendOptions& options, const std::string& file) 
 
 /// To a controller that plans for itself.
 int send_text(const SendOptions& options) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     Controller controller(options.machine.controller, options.series.log);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
@@ -142,12 +142,12 @@ int send_text(const SendOptions& options) {
     };
     steps.ready = [&] { controller.connect(options.series.from_line > 1, interrupt.token()); };
     steps.look = [&](const machine::Job& job) { controller.look_at(job); };
-    steps.run = [&](const machine::Job& job) { return controller.run(job, interrupt.token()); };
+    steps.run = [&](const machine::Job& job) { return controller.run(job, interrupt); };
     return run_series(options.series, steps, interrupt.token());
 }
 
 int send_motion(const SendOptions& options) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     const auto model = model_of(options);
     PlannedMachine machine(options.machine);
     SeriesSteps steps;
@@ -172,9 +172,7 @@ int send_motion(const SendOptions& options) {
         return job;
     };
     steps.ready = [] {};
-    steps.run = [&](const machine::Job& job) {
-        return machine.run(job, options.series.log, interrupt.token());
-    };
+    steps.run = [&](const machine::Job& job) { return machine.run(job, options.series.log, interrupt); };
     return run_series(options.series, steps, interrupt.token());
 }
 

@@ -4,6 +4,7 @@
 #include "app/series.h"
 #include "core/base/error.h"
 #include "core/machine/driver.h"
+#include "core/machine/drivers/grbl/grbl_driver.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/position_memory.h"
 
@@ -26,12 +27,6 @@ struct StopOptions {
     bool emergency = false;
 };
 
-bool moves(const machine::DriverStatus& now) {
-    using machine::DriverState;
-    return now.state == DriverState::running || now.state == DriverState::holding ||
-           now.state == DriverState::stopping;
-}
-
 std::string sentence(const machine::DriverStatus& now) {
     std::string text(machine::to_text(now.state));
     return now.message.empty() ? text : text + ": " + now.message;
@@ -43,7 +38,8 @@ machine::DriverStatus
 at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_token& stop) {
     constexpr double glance = 0.02; // s
     machine::DriverStatus now = driver.status();
-    while (moves(now) || (now.state == machine::DriverState::disconnected && !now.link_lost)) {
+    while (machine::is_at_work(now.state) ||
+           (now.state == machine::DriverState::disconnected && !now.link_lost)) {
         if (stop.stop_requested()) {
             throw Cancelled();
         }
@@ -53,14 +49,30 @@ at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_to
     return now;
 }
 
+/// Boards that reset when their port is opened stop dead, and know no longer where they are.
+void refuse_reset_by_opening(const machine::Driver& driver, machine::PositionMemory& memory) {
+    const auto* const grbl = dynamic_cast<const machine::GrblDriver*>(&driver);
+    if (grbl == nullptr || !grbl->readout().began_anew) {
+        return;
+    }
+    memory.keep(driver.status());
+    throw Error(
+        "opening the port reset the controller: if the machine was moving, its motion was cut dead and its "
+        "position is lost",
+        {},
+        "look at the machine, then home it or set its zero anew");
+}
+
 int stop_machine(const StopOptions& options) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(Suspending::refused);
     machine::SteadyClock clock;
     machine::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
     const auto driver = machine::make_driver(options.machine, {}, clock);
     driver->connect();
     memory.remind(*driver);
-    if (const machine::DriverStatus found = driver->status(); !moves(found) && !options.emergency) {
+    refuse_reset_by_opening(*driver, memory);
+    if (const machine::DriverStatus found = driver->status();
+        !machine::is_at_work(found.state) && !options.emergency) {
         fmt::print("The machine stands ({}).\n", sentence(found));
         return 0;
     }
@@ -75,6 +87,9 @@ int stop_machine(const StopOptions& options) {
         throw Error(now.message, {}, "use the switch at the machine");
     }
     fmt::print("The machine was stopped ({}).\n", sentence(now));
+    if (!now.position_doubt.empty()) {
+        fmt::print("{}\n", machine::doubt_sentence(now.position_doubt));
+    }
     return 0;
 }
 

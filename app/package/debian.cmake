@@ -10,9 +10,13 @@ file(CONFIGURE OUTPUT changelog.Debian CONTENT "millwright (${PROJECT_VERSION}-1
 
  -- ${maintainer}  ${date}
 ")
-install(CODE "execute_process(COMMAND gzip -9nc changelog.Debian WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
-    OUTPUT_FILE changelog.Debian.gz COMMAND_ERROR_IS_FATAL ANY)")
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian.gz DESTINATION share/doc/millwright)
+set(changelog_of_debian ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian)
+add_custom_command(
+    OUTPUT ${changelog_of_debian}.gz
+    COMMAND gzip -9nc ${changelog_of_debian} > ${changelog_of_debian}.gz
+    DEPENDS ${changelog_of_debian})
+add_custom_target(package_changelog ALL DEPENDS ${changelog_of_debian}.gz)
+install(FILES ${changelog_of_debian}.gz DESTINATION share/doc/millwright)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -30,6 +34,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Loaded or read at run time, so that shlibdeps does not see them.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, fonts-font-awesome, fonts-inter, libegl1, libgl1")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS openmpi-bin) # for studies on many processors
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "On a 5-axis machine the tool does not go straight between two points
 of a path: the axes turn while they move, and the tool swings off the
 surface. Millwright shows where and by how much, moves the points of the

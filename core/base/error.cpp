@@ -28,7 +28,8 @@ std::size_t printable_length(std::string_view text) {
     return length;
 }
 
-/// What a file contains may be quoted: nothing of it reaches a terminal but characters.
+} // namespace
+
 std::string printable(std::string_view text) {
     std::string made;
     while (!text.empty()) {
@@ -42,8 +43,6 @@ std::string printable(std::string_view text) {
     }
     return made;
 }
-
-} // namespace
 
 std::string to_text(const Diagnostic& diagnostic) {
     const Place& place = diagnostic.place;

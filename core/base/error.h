@@ -30,6 +30,10 @@ struct Diagnostic {
     friend bool operator==(const Diagnostic&, const Diagnostic&) = default;
 };
 
+/// What a file or a controller says, fit for a terminal: bytes that would control it, or are no text, as
+/// \xNN.
+[[nodiscard]] std::string printable(std::string_view text);
+
 /// `file:line:column: message (hint)`, without what is not known; bytes that are no text as \xNN.
 [[nodiscard]] std::string to_text(const Diagnostic& diagnostic);
 

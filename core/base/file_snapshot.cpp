@@ -1,12 +1,14 @@
 #include "core/base/file_snapshot.h"
 
 #include "core/base/error.h"
+#include "core/base/files.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -65,7 +67,7 @@ void write_all(int to, const char* bytes, std::size_t count, const fs::path& ori
     }
 }
 
-std::size_t copy(int from, int to, const fs::path& original, const Progress& progress) {
+std::size_t copy(int from, int to, const fs::path& original, const Progress& progress, std::size_t most) {
     struct stat found {};
     if (::fstat(from, &found) != 0) {
         fail("cannot be read", original);
@@ -73,6 +75,10 @@ std::size_t copy(int from, int to, const fs::path& original, const Progress& pro
     if (S_ISDIR(found.st_mode)) {
         throw Error("is a folder", original);
     }
+    if (S_ISREG(found.st_mode) && static_cast<std::size_t>(found.st_size) > most) {
+        throw Error(too_large_text(most), original);
+    }
+    most = S_ISREG(found.st_mode) ? most : std::min(most, largest_stream);
     std::vector<char> buffer(step_bytes);
     std::size_t total = 0;
     while (true) {
@@ -85,6 +91,9 @@ std::size_t copy(int from, int to, const fs::path& original, const Progress& pro
             return total;
         }
         const auto count = static_cast<std::size_t>(std::max<ssize_t>(got, 0));
+        if (total + count > most) {
+            throw Error(too_large_text(most), original);
+        }
         write_all(to, buffer.data(), count, original);
         total += count;
         if (found.st_size > 0) {
@@ -95,13 +104,13 @@ std::size_t copy(int from, int to, const fs::path& original, const Progress& pro
 
 } // namespace
 
-FileSnapshot::FileSnapshot(const fs::path& file, const Progress& progress) {
+FileSnapshot::FileSnapshot(const fs::path& file, const Progress& progress, std::size_t most) {
     const Handle from(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
     if (from.number() < 0) {
         fail("cannot be opened", file);
     }
     const Handle to(nameless_file(file));
-    size_ = copy(from.number(), to.number(), file, progress);
+    size_ = copy(from.number(), to.number(), file, progress, most);
     if (size_ == 0) {
         return;
     }

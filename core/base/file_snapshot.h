@@ -11,13 +11,20 @@
 
 namespace millwright {
 
+/// Bytes of the largest file that is read so: 50 million lines of G-code.
+inline constexpr std::size_t largest_snapshot = std::size_t{2} << 30U;
+/// The same of a device or a pipe, of unknown length.
+inline constexpr std::size_t largest_stream = std::size_t{256} << 20U;
+
 class FileSnapshot {
 public:
     /// No bytes.
     FileSnapshot() = default;
     /// The copy lies in the system's folder for temporary files. Throws Error with the file and the system's
-    /// reason, or Cancelled.
-    explicit FileSnapshot(const std::filesystem::path& file, const Progress& progress = Progress());
+    /// reason, or where it has more than `most` bytes, or does not end before; or Cancelled.
+    explicit FileSnapshot(const std::filesystem::path& file,
+                          const Progress& progress = Progress(),
+                          std::size_t most = largest_snapshot);
     FileSnapshot(FileSnapshot&& other) noexcept;
     FileSnapshot& operator=(FileSnapshot&& other) noexcept;
     ~FileSnapshot();

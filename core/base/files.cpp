@@ -1,14 +1,14 @@
 #include "core/base/files.h"
 
 #include "core/base/error.h"
+#include "core/base/internal/write_all.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -22,15 +22,6 @@ std::string reason(int error_number) {
     return std::error_code(error_number, std::generic_category()).message();
 }
 
-mode_t mode_for(const fs::path& target) {
-    struct stat old {};
-    if (::stat(target.c_str(), &old) == 0) {
-        return old.st_mode & 0777U;
-    }
-    constexpr mode_t everyone_reads = 0644;
-    return everyone_reads;
-}
-
 /// A device, a pipe, a socket: nothing that another file could take the place of.
 bool is_no_file(const fs::path& file) {
     std::error_code failure;
@@ -40,45 +31,62 @@ bool is_no_file(const fs::path& file) {
 
 } // namespace
 
-std::string read_file(const fs::path& file) {
-    std::error_code failure;
-    if (fs::is_directory(file, failure)) {
-        throw Error("cannot read: " + reason(EISDIR), file);
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw Error("cannot read: " + reason(errno), file);
-    }
-    std::ostringstream bytes;
-    if (in.peek() != std::ifstream::traits_type::eof() && !(bytes << in.rdbuf())) {
-        throw Error("cannot read: " + reason(EIO), file);
-    }
-    return std::move(bytes).str();
+std::string too_large_text(std::size_t most) {
+    constexpr std::size_t mebibyte = std::size_t{1} << 20U;
+    constexpr std::size_t gibibyte = std::size_t{1} << 30U;
+    return "larger than " +
+           (most % gibibyte == 0 ? std::to_string(most / gibibyte) + " GiB"
+                                 : std::to_string(most / mebibyte) + " MiB") +
+           ", the most that is read";
 }
 
-void write_file(const fs::path& file, std::string_view bytes) {
-    FileWriter writer(file);
+std::string read_file(const fs::path& file, std::size_t most) {
+    const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (handle < 0) {
+        throw Error("cannot read: " + reason(errno), file);
+    }
+    const std::unique_ptr<const int, void (*)(const int*)> closing(
+        &handle, [](const int* opened) { ::close(*opened); });
+    struct stat found {};
+    std::string bytes;
+    const bool told = ::fstat(handle, &found) == 0 && S_ISREG(found.st_mode);
+    if (told && static_cast<std::size_t>(found.st_size) > most) {
+        throw Error(too_large_text(most), file);
+    }
+    if (told) {
+        bytes.reserve(static_cast<std::size_t>(found.st_size));
+    }
+    std::array<char, 65536> buffer{};
+    while (true) {
+        const ssize_t count = ::read(handle, buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count < 0) {
+            throw Error("cannot read: " + reason(errno), file);
+        }
+        if (count == 0) {
+            return bytes;
+        }
+        if (bytes.size() + static_cast<std::size_t>(count) > most) {
+            throw Error(too_large_text(most), file);
+        }
+        bytes.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+}
+
+void write_file(const fs::path& file, std::string_view bytes, Privacy privacy) {
+    FileWriter writer(file, privacy);
     writer.write(bytes);
     writer.close();
 }
 
-FileWriter::FileWriter(fs::path file) : file_(std::move(file)) {
-    std::error_code failure;
-    if (is_no_file(file_)) {
-        handle_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
-        if (handle_ < 0) {
-            fail();
-        }
+FileWriter::FileWriter(const fs::path& file, Privacy privacy) : file_(file) {
+    if (!is_no_file(file_)) {
+        draft_ = std::make_unique<Draft>(file_, privacy);
         return;
     }
-    if (fs::is_symlink(file_, failure)) {
-        file_ = fs::weakly_canonical(file_);
-    }
-    if (fs::is_directory(file_, failure)) {
-        throw Error("cannot write: " + reason(EISDIR), file_);
-    }
-    draft_ = file_.string() + ".XXXXXX";
-    handle_ = ::mkstemp(draft_.data());
+    handle_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
     if (handle_ < 0) {
         fail();
     }
@@ -87,37 +95,22 @@ FileWriter::FileWriter(fs::path file) : file_(std::move(file)) {
 FileWriter::~FileWriter() {
     if (handle_ >= 0) {
         ::close(handle_);
-        if (!writes_through()) {
-            ::unlink(draft_.c_str());
-        }
     }
 }
 
 void FileWriter::write(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(handle_, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) {
-            continue;
-        }
-        if (written < 0) {
-            fail();
-        }
-        bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (draft_) {
+        return draft_->write(bytes);
     }
-}
-
-void FileWriter::finish_draft() {
-    if (::fchmod(handle_, mode_for(file_)) != 0 || ::fsync(handle_) != 0 ||
-        ::rename(draft_.c_str(), file_.c_str()) != 0) {
+    if (!internal::write_all(handle_, bytes)) {
         fail();
     }
 }
 
 void FileWriter::close() {
-    if (!writes_through()) {
-        finish_draft();
-    }
-    if (::close(std::exchange(handle_, -1)) != 0) {
+    if (draft_) {
+        draft_->finish();
+    } else if (::close(std::exchange(handle_, -1)) != 0) {
         fail();
     }
 }

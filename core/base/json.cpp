@@ -34,6 +34,7 @@ std::string_view name_of(JsonKind kind) {
 }
 
 constexpr std::size_t deepest = 64;
+constexpr std::size_t most_values = 4'000'000; ///< some 160 bytes of memory each
 
 } // namespace
 
@@ -106,6 +107,9 @@ private:
 
     Node& add(JsonKind kind) {
         to_token();
+        if (++values_ > most_values) {
+            throw Error(Diagnostic{here(), fmt::format("more than {} values", most_values), {}});
+        }
         auto node = std::make_shared<Node>();
         node->kind = kind;
         node->line = line_;
@@ -184,6 +188,7 @@ private:
     std::string_view text_;
     std::filesystem::path file_;
     std::size_t cursor_ = 0;
+    std::size_t values_ = 0; ///< read so far
     int line_ = 1;
     int column_ = 1;
     std::shared_ptr<Node> root_;

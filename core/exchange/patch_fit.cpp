@@ -1,3 +1,5 @@
+#include "core/exchange/patch_fit.h"
+
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/exchange/internal/fit_deviation.h"
@@ -5,7 +7,6 @@
 #include "core/exchange/internal/least_squares.h"
 #include "core/exchange/internal/seen_side.h"
 #include "core/exchange/internal/square_map.h"
-#include "core/exchange/patch_fit.h"
 #include "core/geometry/closest_point.h"
 
 #include <fmt/format.h>

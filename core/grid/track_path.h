@@ -24,8 +24,8 @@ struct MoveWindow {
 
 /// Whether the move from place `k` to place `l` of a lattice can be of use.
 using WorthMeasuring = std::function<bool(int k, int l)>;
-    /// Moves whose error is near these limits are measured finely.
-    MoveLimits limits = {};
+/// Moves whose error is near these limits are measured finely.
+MoveLimits limits = {};
 };
 
 /// The errors of all moves of a lattice inside a window, [a row a place].

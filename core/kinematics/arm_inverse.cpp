@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace millwright::kinematics {
 
@@ -95,6 +96,40 @@ std::string joint_limit_sentence(const ArmModel& arm, const JointPositions& posi
                        to_degrees(joint.max));
 }
 
+/// How far the wrist can be from the shoulder inside the limits of joint 3, mm.
+struct WristSpan {
+    double least = 0.0, most = 0.0;
+};
+
+WristSpan wrist_span(const ArmModel& arm, const PlanarElbow& lengths) {
+    constexpr double turn = 2.0 * pi;
+    const ArmJoint& elbow = arm.joint(2);
+    const double first = elbow.min + elbow.theta, last = elbow.max + elbow.theta;
+    const auto passes = [&](double angle) {
+        return std::ceil((first - angle) / turn) * turn + angle <= last;
+    };
+    const auto distance = [&](double cosine) {
+        const double squares = lengths.upper_arm * lengths.upper_arm + lengths.forearm * lengths.forearm;
+        return std::sqrt(std::max(0.0, squares + 2.0 * lengths.upper_arm * lengths.forearm * cosine));
+    };
+    const bool everywhere = !(last - first < turn); // also without limits
+    return {distance(everywhere || passes(pi) ? -1.0 : std::min(std::cos(first), std::cos(last))),
+            distance(everywhere || passes(0.0) ? 1.0 : std::max(std::cos(first), std::cos(last)))};
+}
+
+/// Empty where joint 3 allows it.
+std::string wrist_sentence(const ArmModel& arm, const PlanarElbow& lengths, double distance) {
+    constexpr double rounding_mm = 1e-6;
+    const WristSpan span = wrist_span(arm, lengths);
+    return distance >= span.least - rounding_mm && distance <= span.most + rounding_mm
+               ? ""
+               : fmt::format(
+                     "the wrist would be {:.3f} mm from the shoulder; the arm reaches {:.3f} to {:.3f}",
+                     distance,
+                     span.least,
+                     span.most);
+}
+
 InverseSolution unreachable(std::string why) {
     return {.reach = Reach::unreachable, .branches = {}, .why = std::move(why)};
 }
@@ -136,11 +171,7 @@ solve(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previo
     const Vec3 wrist = goal.tip - lengths.tool * axis;
     const double cosine = elbow_cosine(lengths, wrist);
     if (!(std::abs(cosine) <= 1.0 + stretched)) {
-        return unreachable(
-            fmt::format("the wrist would be {:.3f} mm from the shoulder; the arm reaches {:.3f} to {:.3f}",
-                        wrist.norm(),
-                        std::abs(lengths.upper_arm - lengths.forearm),
-                        lengths.upper_arm + lengths.forearm));
+        return unreachable(wrist_sentence(arm, lengths, wrist.norm()));
     }
     InverseSolution found{
         .reach = front.is_free ? Reach::singular : Reach::reachable, .branches = {}, .why = {}};
@@ -154,7 +185,11 @@ solve(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previo
         }
     }
     found.reach = found.branches.empty() ? Reach::outside_limits : found.reach;
-    found.why = found.branches.empty() ? found.why : std::string();
+    if (!found.branches.empty()) {
+        found.why.clear();
+    } else if (std::string why = wrist_sentence(arm, lengths, wrist.norm()); !why.empty()) {
+        found.why = std::move(why); // whatever the other joints do
+    }
     return found;
 }
 

@@ -177,6 +177,32 @@ JointPositions way_back(const ArmModel& arm, const JointPositions& q, const Join
     return way;
 }
 
+/// `angle` in the turn inside the limits of `joint`; at the nearer limit where no turn is inside.
+double turn_inside(const ArmJoint& joint, double angle) {
+    constexpr double turn = 2.0 * pi;
+    const double middle = std::clamp(0.0, joint.min, joint.max);
+    return std::clamp(middle + std::remainder(angle - middle, turn), joint.min, joint.max);
+}
+
+/// Guesses at other branches: three turning joints in a row, the one between bent the other way, as a wrist
+/// that is turned over.
+std::vector<JointPositions> flipped(const ArmModel& arm, const JointPositions& q) {
+    std::vector<JointPositions> guesses;
+    for (int n = 0; n + 2 < arm.joint_count(); ++n) {
+        const bool turn = arm.joint(n).kind == JointKind::revolute &&
+                          arm.joint(n + 1).kind == JointKind::revolute &&
+                          arm.joint(n + 2).kind == JointKind::revolute;
+        if (turn) {
+            JointPositions guess = q;
+            guess[n] = turn_inside(arm.joint(n), q[n] + pi);
+            guess[n + 1] = turn_inside(arm.joint(n + 1), -q[n + 1] - 2.0 * arm.joint(n + 1).theta);
+            guess[n + 2] = turn_inside(arm.joint(n + 2), q[n + 2] + pi);
+            guesses.push_back(std::move(guess));
+        }
+    }
+    return guesses;
+}
+
 /// Of all positions that meet the same demand without a jump, as rolls about the tool axis do, the one that
 /// is nearest to `previous`: gradient projection on the null space of the Jacobian (Liegeois 1977).
 JointPositions pulled(const ArmModel& arm,
@@ -232,16 +258,24 @@ ArmSolverResult solve_arm(const ArmModel& arm,
 std::vector<JointPositions> solve_arm_from_many_starts(
     const ArmModel& arm, const Frame& goal, ArmDemand demand, const JointPositions& previous, int starts) {
     constexpr double same = 1e-5; // rad
+    constexpr int most_rounds = 20;
     const double length = std::max(stretched_length(arm), 1.0);
     const double golden = golden_ratio(arm.joint_count());
-    std::vector<JointPositions> found;
-    for (int n = 0; n < starts; ++n) {
+    std::vector<JointPositions> found, next{previous}; // starts that a guess speaks for come first
+    int spread_out = 0, last_news = 0;
+    while (!next.empty() || spread_out < std::min(last_news + starts, most_rounds * starts)) {
         JointPositions start = previous;
-        for (int joint = 0; n > 0 && joint < arm.joint_count(); ++joint) {
-            const double reach = arm.joint(joint).kind == JointKind::prismatic ? length : pi;
-            const double low = std::max(arm.joint(joint).min, -reach);
-            const double high = std::min(arm.joint(joint).max, reach);
-            start[joint] = low + (high - low) * spread(n, joint, golden);
+        if (!next.empty()) {
+            start = next.back();
+            next.pop_back();
+        } else {
+            ++spread_out;
+            for (int joint = 0; joint < arm.joint_count(); ++joint) {
+                const double reach = arm.joint(joint).kind == JointKind::prismatic ? length : pi;
+                const double low = std::max(arm.joint(joint).min, -reach);
+                const double high = std::min(arm.joint(joint).max, reach);
+                start[joint] = low + (high - low) * spread(spread_out, joint, golden);
+            }
         }
         ArmSolverResult result = solve_arm(arm, goal, demand, start);
         if (result.converged && demand != ArmDemand::frame) {
@@ -252,6 +286,10 @@ std::vector<JointPositions> solve_arm_from_many_starts(
         });
         if (result.converged && !known) {
             found.push_back(result.positions);
+            last_news = spread_out;
+            for (JointPositions& other : flipped(arm, result.positions)) {
+                next.push_back(std::move(other));
+            }
         }
     }
     std::ranges::stable_sort(found, [&](const JointPositions& a, const JointPositions& b) {

@@ -32,10 +32,11 @@ struct ArmSolverResult {
                                         const JointPositions& start,
                                         const ArmSolverSettings& settings = {});
 
-/// The different solutions found from `starts` starting points, spread evenly inside the limits (a turn to
-/// each side of 0 where there are none), nearest to `previous` first. The same for the same arguments. Where
-/// the demand leaves joints free (every roll about the tool axis will do) the nearest one to `previous`
-/// stands for all that hang together.
+/// The different solutions found from starting points that are spread evenly inside the limits (a turn to
+/// each side of 0 where there are none), and from guesses at other branches of what was found: until `starts`
+/// in a row have found nothing new. Nearest to `previous` first. The same for the same arguments. Where the
+/// demand leaves joints free (every roll about the tool axis will do) the nearest one to `previous` stands
+/// for all that hang together.
 [[nodiscard]] std::vector<JointPositions> solve_arm_from_many_starts(
     const ArmModel& arm, const Frame& goal, ArmDemand demand, const JointPositions& previous, int starts);
 

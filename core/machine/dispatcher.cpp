@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/machine/internal/path_estimate.h"
 #include "core/machine/internal/reach.h"
 #include "core/machine/internal/shared_log.h"
 #include "core/machine/survey.h"
@@ -37,11 +38,15 @@ bool ended(DriverState state) {
            state == DriverState::disconnected;
 }
 
-std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed) {
-    const std::string executed = fmt::format("{} of {} blocks were executed for certain in {}",
+/// `line`: where it was as far as is known; 0: not known.
+std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed, int line) {
+    const std::string executed = fmt::format("{} of {} blocks were executed for certain in {}{}",
                                              status.executed_blocks,
                                              blocks,
-                                             short_time(elapsed));
+                                             short_time(elapsed),
+                                             line > 0 && status.block > status.executed_blocks
+                                                 ? fmt::format(", up to about line {}", line)
+                                                 : std::string());
     switch (end) {
     case JobEnd::done:
         return fmt::format("All {} blocks were executed in {}.", blocks, short_time(elapsed));
@@ -91,10 +96,12 @@ public:
           JobLog& log,
           std::shared_ptr<const motion::Trajectory> trajectory,
           DriverStatus before,
-          internal::Reach reach)
+          internal::Reach reach,
+          internal::PathEstimate estimate)
         : dispatcher_(dispatcher), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
-          reach_(std::move(reach)), plans_itself_(dispatcher.driver_.capabilities().plans),
-          start_(dispatcher.clock_.now()), last_(std::move(before)), doubt_before_(last_.position_doubt) {
+          reach_(std::move(reach)), estimate_(std::move(estimate)),
+          plans_itself_(dispatcher.driver_.capabilities().plans), start_(dispatcher.clock_.now()),
+          last_(std::move(before)), doubt_before_(last_.position_doubt) {
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
         log_ = std::make_shared<internal::SharedLog>(
@@ -150,6 +157,7 @@ private:
     std::filesystem::path file_; ///< of the log
     std::shared_ptr<const motion::Trajectory> trajectory_;
     internal::Reach reach_;
+    internal::PathEstimate estimate_;
     std::string beyond_; ///< what was seen of a machine that left the reach; empty: nothing
     bool plans_itself_ = false;
     double start_ = 0.0;
@@ -166,8 +174,10 @@ private:
     void remember(const DriverStatus& status) {
         if (status.state != DriverState::disconnected) {
             const DriverStatus before = std::exchange(last_, status);
+            last_.block = estimated_block(status);
             last_.planned_time = plans_itself_ ? time_of_executed() : last_.planned_time;
             if (status.position_doubt != doubt_before_) { // what a controller says now is no position
+                last_.block = before.block;
                 last_.position = before.position;
                 last_.work_offset = before.work_offset;
             }
@@ -175,6 +185,20 @@ private:
         }
         last_.state = status.state;
         last_.message = status.message;
+    }
+
+    /// By the reported position, where the controller proves late what it has executed.
+    [[nodiscard]] int estimated_block(const DriverStatus& status) {
+        const auto& lines = job_.listing->line_of_block;
+        const int sent = std::min(status.sent_blocks, static_cast<int>(std::ssize(lines)));
+        const int executed = std::clamp(status.executed_blocks, 0, sent);
+        if (!estimate_.knows_path() || executed >= sent || status.position.size() < 3) {
+            return status.block;
+        }
+        const int line = estimate_.line_at(status.position.head<3>(),
+                                           lines[static_cast<std::size_t>(executed)],
+                                           lines[static_cast<std::size_t>(sent - 1)]);
+        return std::max(status.block, job_.listing->block_at_line(line));
     }
 
     [[nodiscard]] double planned_time() const { return trajectory_ ? trajectory_->duration() : 0.0; }
@@ -244,17 +268,16 @@ private:
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
-        const double fraction =
-            planned_time() > 0.0
-                ? last_.planned_time / planned_time()
-                : static_cast<double>(std::max(last_.executed_blocks, last_.block)) / std::max(1, blocks());
-        const std::string sent = last_.sent_blocks > last_.executed_blocks
-                                     ? fmt::format(", {} sent", last_.sent_blocks)
-                                     : std::string();
-        progress.report(fraction, fmt::format("Block {} of {}{}", last_.executed_blocks, blocks(), sent));
+        const JobReport report{last_, blocks(), elapsed(), planned_time(), line_of(last_.block)};
+        progress.report(report.fraction(), report.progress_text());
         if (listener) {
-            listener({last_, blocks(), elapsed(), planned_time()});
+            listener(report);
         }
+    }
+
+    [[nodiscard]] int line_of(int block) const {
+        const auto& lines = job_.listing->line_of_block;
+        return block >= 0 && block < std::ssize(lines) ? lines[static_cast<std::size_t>(block)] : 0;
     }
 
     [[nodiscard]] JobEnd end_of(const DriverStatus& status) const {
@@ -279,7 +302,7 @@ private:
         result.blocks = blocks();
         result.elapsed = elapsed();
         result.position = last_.position;
-        result.sentence = end_sentence(result.end, last_, blocks(), result.elapsed);
+        result.sentence = end_sentence(result.end, last_, blocks(), result.elapsed, line_of(last_.block));
         if (last_.position_doubt != doubt_before_ && !last_.position_doubt.empty()) {
             result.sentence += " " + doubt_sentence(last_.position_doubt);
         }
@@ -316,7 +339,8 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     if (text_alone && !able.plans) {
         throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
     }
-    internal::Reach reach = check(job, able, before);
+    internal::PathEstimate estimate;
+    internal::Reach reach = check(job, able, before, estimate);
     std::shared_ptr<const motion::Trajectory> trajectory;
     if (!text_alone) {
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
@@ -335,9 +359,10 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
                        .blocks = job.block_count(),
                        .planned_time = trajectory ? trajectory->duration() : 0.0,
                        .options = job.options,
-                       .from_line = job.from_line});
+                       .from_line = job.from_line,
+                       .position_confirmed = before.position_confirmed});
     progress.check();
-    Watch watch(*this, job, log, trajectory, before, std::move(reach));
+    Watch watch(*this, job, log, trajectory, before, std::move(reach), std::move(estimate));
     try {
         Work work{job.program, trajectory, job.listing, {}};
         if (able.piecewise) {
@@ -356,7 +381,8 @@ JobOutcome Dispatcher::run(const Job& job, const Progress& progress, const Liste
     }
 }
 
-/// A line in the middle is gone to by what the controller takes for its position.
+/// Whole programs count from stored offsets, and these from what the controller takes for its position; a
+/// line in the middle is gone to by that in any case.
 void Dispatcher::check_position(const Job& job, const DriverStatus& status) const {
     if (job.from_line > 1 && !status.position_known && driver_.capabilities().told_place) {
         throw Error(
@@ -374,18 +400,30 @@ void Dispatcher::check_position(const Job& job, const DriverStatus& status) cons
                     "it begins there when the machine was homed, when every axis has a new zero, or when "
                     "you confirm that it stands where it says");
     }
+    if (needs_confirmation(status, driver_.stored_offsets())) {
+        throw Error(
+            doubt_sentence(status.position_doubt) + " Stored work offsets may lead anywhere",
+            {},
+            "it begins when the machine was homed, when every axis has a new zero, or when you confirm "
+            "that it is where it says");
+    }
 }
 
-/// After something went wrong on our side. A machine that does not come to rest by itself is cut off.
-void Dispatcher::bring_to_rest() {
+/// After something went wrong on our side. A machine that does not come to rest by itself is cut off. What
+/// fails here is no reason to leave the log without its end.
+void Dispatcher::bring_to_rest() noexcept {
     constexpr double patience = 10.0; // s
-    driver_.stop();
-    for (double waited = 0.0; !ended(driver_.status().state); waited += poll_time) {
-        if (waited > patience) {
-            driver_.emergency_stop();
-            return;
+    try {
+        driver_.stop();
+        for (double waited = 0.0; !ended(driver_.status().state); waited += poll_time) {
+            if (waited > patience) {
+                driver_.emergency_stop();
+                return;
+            }
+            clock_.wait(poll_time);
         }
-        clock_.wait(poll_time);
+    } catch (const std::exception&) {
+        // A link that takes no word any more is lost, and its status says so.
     }
 }
 
@@ -421,16 +459,23 @@ void Dispatcher::set_optional_stop(bool on) {
 
 /// What a controller would have to find out by moving: read by its own rules, from where it stands. Throws
 /// what is wrong with it; returns where it can lead.
-internal::Reach
-Dispatcher::check(const Job& job, const Capabilities& able, const DriverStatus& before) const {
+internal::Reach Dispatcher::check(const Job& job,
+                                  const Capabilities& able,
+                                  const DriverStatus& before,
+                                  internal::PathEstimate& estimate) const {
     if (!able.plans || !able.dialect) {
         return {};
     }
     const std::vector<StoredOffset> offsets = driver_.stored_offsets();
-    const Survey found =
-        survey(job.listing->text, job.project, {*able.dialect, able.axes, before.position, offsets});
+    Survey found =
+        survey(job.listing->text,
+               job.project,
+               {*able.dialect, able.axes, before.position, offsets, before.modes, able.mist, able.piecewise});
     if (job.program == nullptr) { // else it was checked block by block
         throw_first_with_count(faults_of(found, driver_.limits(), job.project));
+    }
+    if (before.position.size() >= 3) {
+        estimate = {std::move(found.path), before.position.head<3>()};
     }
     return {found, able.axes, before, offsets};
 }

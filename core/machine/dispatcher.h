@@ -7,25 +7,20 @@
 #include "core/machine/driver.h"
 #include "core/machine/job.h"
 #include "core/machine/job_log.h"
+#include "core/machine/job_report.h"
 
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace millwright::machine {
 
 namespace internal {
+class PathEstimate;
 class Reach;
-}
-
-/// How a running job stands.
-struct JobReport {
-    DriverStatus driver;
-    int blocks = 0;
-    double elapsed = 0.0;      ///< s since the start
-    double planned_time = 0.0; ///< of the whole job, s
-};
+} // namespace internal
 
 class Dispatcher {
 public:
@@ -61,11 +56,13 @@ private:
     class Turn;
 
     void request(LogEvent event, std::string text, const std::function<void()>& command);
-    [[nodiscard]] internal::Reach
-    check(const Job& job, const Capabilities& able, const DriverStatus& before) const;
+    [[nodiscard]] internal::Reach check(const Job& job,
+                                        const Capabilities& able,
+                                        const DriverStatus& before,
+                                        internal::PathEstimate& estimate) const;
     void check_position(const Job& job, const DriverStatus& status) const;
     [[nodiscard]] std::vector<Request> take_requests();
-    void bring_to_rest();
+    void bring_to_rest() noexcept;
 
     Driver& driver_;
     Clock& clock_;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace millwright::machine {
 
 namespace {
@@ -40,7 +42,7 @@ void Driver::enable() {
     refuse_unsupported(*this, "switch the power of its motors");
 }
 
-void Driver::doubt_position(std::string) {}
+void Driver::doubt_position(std::string, bool) {}
 
 void Driver::home() {
     refuse_unsupported(*this, "home");
@@ -64,6 +66,15 @@ void Driver::set_optional_stop(bool on) {
     if (on) {
         refuse_unsupported(*this, "stop at M1 by a switch of ours");
     }
+}
+
+bool needs_confirmation(const DriverStatus& status, const std::vector<StoredOffset>& offsets) {
+    const auto is_work_offset = [](const StoredOffset& offset) {
+        constexpr std::string_view work_systems = "G54 G55 G56 G57 G58 G59";
+        return work_systems.find(offset.name) != std::string_view::npos && !offset.value.isZero();
+    };
+    return !status.position_doubt.empty() &&
+           (status.position_lost || std::ranges::any_of(offsets, is_work_offset));
 }
 
 std::string doubt_sentence(std::string_view why) {
@@ -105,6 +116,10 @@ std::string_view to_text(DriverState state) {
         return "alarm";
     }
     return "unknown";
+}
+
+bool is_at_work(DriverState state) {
+    return state == DriverState::running || state == DriverState::holding || state == DriverState::stopping;
 }
 
 std::string_view in_words(DriverState state) {

@@ -43,6 +43,7 @@ struct Capabilities {
     bool single_block = false;      ///< can stand still after each block
     bool optional_stop = false;     ///< has a switch for M1 here
     bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
+    bool mist = true;               ///< has M7
     std::optional<gcode::Dialect> dialect{};   ///< in which it reads text
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
 };
@@ -97,6 +98,10 @@ struct Work {
     std::function<int(int wanted)> ahead{};
 };
 
+/// Whether a person has to confirm the position before a job moves the machine: it is in doubt, and something
+/// has happened that costs it, or `offsets` holds a work offset, which counts from a zero that may be gone.
+[[nodiscard]] bool needs_confirmation(const DriverStatus& status, const std::vector<StoredOffset>& offsets);
+
 class Console;
 
 class Driver {
@@ -135,9 +140,10 @@ public:
     /// A person has read at the machine where it stands. Throws Error unless it is at rest, and where
     /// capabilities() says that it tells itself.
     virtual void stands_at(const kinematics::AxisPositions& position);
-    /// Something speaks against DriverStatus::position that the driver cannot know; `why` as
-    /// DriverStatus::position_doubt. Drivers whose position cannot be wrong unnoticed do nothing.
-    virtual void doubt_position(std::string why);
+    /// The caller has a reason to doubt DriverStatus::position that the driver cannot see; `why` and `lost`
+    /// as DriverStatus::position_doubt and position_lost. Drivers whose position cannot be wrong unnoticed do
+    /// nothing.
+    virtual void doubt_position(std::string why, bool lost);
     /// Stops and drops the link; waits until the machine is at rest. Never throws.
     virtual void close() noexcept = 0;
 

@@ -25,6 +25,9 @@ enum class DriverState {
 /// Behind "is": "idle", "in alarm".
 [[nodiscard]] std::string_view in_words(DriverState state);
 
+/// Running, holding or stopping: it is not at rest for good, or stands in the middle of something.
+[[nodiscard]] bool is_at_work(DriverState state);
+
 /// What a machine is at while it is running, holding or stopping.
 enum class Activity { none, program, command, jog, homing };
 
@@ -80,6 +83,9 @@ struct DriverStatus {
     /// Why the machine may no longer stand where `position` says, a part of a sentence; empty: nothing speaks
     /// against it. Ended by homing, by a new zero of every axis, or by Driver::trust_position().
     std::string position_doubt;
+    bool position_lost =
+        false; ///< the doubt is about something that costs the position, as a reset in motion
+    std::string position_confirmed; ///< the doubt that a person has ended by a word; empty: none
     kinematics::AxisPositions velocity;
     bool powered = true; ///< its motors, where that is told
     /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed;

@@ -38,7 +38,8 @@ std::string reason(int error_number) {
 std::string file_stem(const std::string& name) {
     constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
     std::string stem;
-    for (const char c : name) {
+    constexpr std::size_t longest_stem = 200; // bytes; a name may have 255, and ours have ends
+    for (const char c : std::string_view(name).substr(0, longest_stem)) {
         stem += allowed.find(c) == std::string_view::npos ? '_' : c;
     }
     const bool visible = !stem.empty() && stem.front() != '.';
@@ -84,7 +85,8 @@ LogStart start_from(const JsonValue& value) {
                        "planned_time_s",
                        "from_line",
                        "address",
-                       "options"});
+                       "options",
+                       "position_confirmed"});
     if (value.at("record").text() != "start" || value.at("format").text() != log_format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -115,6 +117,9 @@ LogStart start_from(const JsonValue& value) {
     }
     if (const auto options = value.find("options")) {
         start.options = options->text();
+    }
+    if (const auto confirmed = value.find("position_confirmed")) {
+        start.position_confirmed = confirmed->text();
     }
     if (const auto line = value.find("from_line")) {
         start.from_line = line->integer(1);
@@ -262,6 +267,9 @@ void JobLog::write(const LogStart& start) {
     }
     if (start.from_line > 1) {
         line["from_line"] = start.from_line;
+    }
+    if (!start.position_confirmed.empty()) {
+        line["position_confirmed"] = start.position_confirmed;
     }
     append(one_line(line));
 }

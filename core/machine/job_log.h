@@ -23,6 +23,7 @@ struct LogStart {
     double planned_time = 0.0;
     std::string options; ///< Job::options
     int from_line = 1;   ///< of the program's file; more than 1: it was not run from its beginning
+    std::string position_confirmed{}; ///< DriverStatus::position_confirmed
 
     friend bool operator==(const LogStart&, const LogStart&) = default;
 };

@@ -79,6 +79,15 @@ std::optional<QueuedJob> JobQueue::next() const {
     return first && first->state == QueueState::waiting ? first : std::nullopt;
 }
 
+std::shared_ptr<const Job> JobQueue::program_of(QueuedJobId id) const {
+    const std::scoped_lock lock(mutex_);
+    const auto found = std::ranges::find_if(entries_, [&](const Entry& one) { return one.shown.id == id; });
+    if (found == entries_.end()) {
+        throw Error("that job is not in the queue any more");
+    }
+    return found->job;
+}
+
 std::optional<QueuedJob> JobQueue::held() const {
     const std::optional<QueuedJob> first = first_unfinished();
     return first && first->state == QueueState::held ? first : std::nullopt;

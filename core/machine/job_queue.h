@@ -65,6 +65,8 @@ public:
     [[nodiscard]] std::vector<QueuedJob> jobs() const;
     /// What can be begun now: the first that is not done, if it waits.
     [[nodiscard]] std::optional<QueuedJob> next() const;
+    /// What a job would run; null where load() is due. Throws Error if there is no such job.
+    [[nodiscard]] std::shared_ptr<const Job> program_of(QueuedJobId id) const;
     /// The job that holds the queue.
     [[nodiscard]] std::optional<QueuedJob> held() const;
 

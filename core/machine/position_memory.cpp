@@ -18,14 +18,20 @@ namespace {
 constexpr std::string_view position_doubt_format_name = "millwright-position-doubt";
 constexpr int position_doubt_format_version = 1;
 
-std::string read_doubt(const std::filesystem::path& file) {
+struct KeptDoubt {
+    std::string why;
+    bool lost = true;
+};
+
+KeptDoubt read_doubt(const std::filesystem::path& file) {
     const JsonValue whole = JsonValue::read(file);
-    whole.expect_only({"format", "version", "controller", "doubt"});
+    whole.expect_only({"format", "version", "controller", "doubt", "lost"});
     if (whole.at("format").text() != position_doubt_format_name) {
         whole.at("format").fail("this is no doubt about a position");
     }
     (void)whole.at("version").integer(1, position_doubt_format_version);
-    return whole.at("doubt").text();
+    const auto lost = whole.find("lost");
+    return {whole.at("doubt").text(), !lost || lost->flag()};
 }
 
 } // namespace
@@ -39,19 +45,24 @@ void PositionMemory::remind(Driver& driver) {
         return;
     }
     try {
-        kept_ = read_doubt(file_);
+        const KeptDoubt doubt = read_doubt(file_);
+        kept_ = doubt.why;
+        kept_lost_ = doubt.lost;
     } catch (const Error& error) {
+        kept_lost_ = true;
         kept_ =
             "what was known of it when it was last connected cannot be read: " + to_text(error.diagnostic());
     }
-    driver.doubt_position(kept_); // what happened tells more than how the controller was found
+    driver.doubt_position(kept_, kept_lost_); // what happened tells more than how the controller was found
 }
 
 void PositionMemory::keep(const DriverStatus& status) {
-    if (status.state == DriverState::disconnected || status.position_doubt == kept_) {
+    if (status.state == DriverState::disconnected ||
+        (status.position_doubt == kept_ && status.position_lost == kept_lost_)) {
         return;
     }
     kept_ = status.position_doubt;
+    kept_lost_ = status.position_lost;
     if (kept_.empty()) {
         std::error_code why;
         std::filesystem::remove(file_, why);
@@ -62,7 +73,8 @@ void PositionMemory::keep(const DriverStatus& status) {
         const nlohmann::ordered_json whole{{"format", position_doubt_format_name},
                                            {"version", position_doubt_format_version},
                                            {"controller", controller_},
-                                           {"doubt", kept_}};
+                                           {"doubt", kept_},
+                                           {"lost", kept_lost_}};
         make_folder(std::filesystem::absolute(folder_));
         write_file(file_, whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }

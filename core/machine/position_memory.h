@@ -26,7 +26,8 @@ public:
 private:
     std::filesystem::path folder_, file_;
     std::string controller_;
-    std::string kept_; ///< what was last kept; empty: nothing
+    std::string kept_;       ///< what was last kept; empty: nothing
+    bool kept_lost_ = false; ///< DriverStatus::position_lost, of that
 };
 
 } // namespace millwright::machine

@@ -27,7 +27,8 @@ constexpr double rounding = 1e-6; // mm or rad: of positions that went through t
 
 class Surveyor final : public gcode::CanonSink {
 public:
-    Surveyor(Survey& found, const AxisValues& start) : found_(found), at_(start) {}
+    Surveyor(Survey& found, const AxisValues& start, bool keep_path)
+        : found_(found), at_(start), keep_path_(keep_path) {}
 
     void move(const Move& move, const gcode::SourceLine&) override {
         const AxisValues begin = frame_.from_machine(at_);
@@ -82,6 +83,7 @@ private:
     gcode::CanonFrame frame_;
     AxisValues at_; ///< machine, mm and degrees
     bool turning_ = false;
+    bool keep_path_ = false;
 
     void cut(int line) {
         if (found_.first_cut_line == 0) {
@@ -100,6 +102,10 @@ private:
 
     void go(const AxisValues& target, int line) {
         at_ = frame_.to_machine(target);
+        if (keep_path_) {
+            using gcode::Axis;
+            found_.path.push_back({line, Vec3(at_[Axis::x], at_[Axis::y], at_[Axis::z])});
+        }
         for (std::size_t n = 0; n < gcode::axis_count; ++n) {
             const double value = gcode::is_rotary(n) ? from_degrees(at_[n]) : at_[n];
             Survey::Range& range = found_.ranges[n];
@@ -216,6 +222,8 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
     reading.dialect = settings.dialect;
     reading.any_tool = true;
     reading.start = values_by_letter(settings.start, settings.axes);
+    reading.modes = settings.modes;
+    reading.mist = settings.mist;
     constexpr int most_errors = 100;
     reading.most_errors = most_errors;
     const std::filesystem::path folder = file.parent_path();
@@ -226,12 +234,15 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
         for (std::size_t n = 0; first > 0 && n < gcode::axis_count; ++n) {
             reading.parameters.emplace_back(first + static_cast<int>(n), values[n]);
         }
+        if (offset.name == "TLO") {
+            reading.tool_length = values[gcode::Axis::z];
+        }
         if (offset.name == "G92") {
             constexpr int g92_active = 5210;
             reading.parameters.emplace_back(g92_active, 1.0);
         }
     }
-    Surveyor surveyor(found, reading.start);
+    Surveyor surveyor(found, reading.start, settings.keep_path);
     gcode::Interpreter reader(text, file, std::move(reading), surveyor);
     reader.run();
     found.errors = reader.errors();

@@ -5,12 +5,14 @@
 #include "core/base/error.h"
 #include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/dialect.h"
+#include "core/geometry/vectors.h"
 #include "core/machine/driver.h"
 
 #include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +27,12 @@ struct Survey {
         [[nodiscard]] bool empty() const { return max < min; }
     };
 
+    /// Where a move or a piece of an arc ends: X Y Z, machine coordinates.
+    struct PathPoint {
+        int line = 0;
+        Vec3 at = Vec3::Zero();
+    };
+
     std::array<Range, gcode::axis_count> ranges; ///< of moves, arcs by their whole way, machine coordinates
     /// Where the machine stands before, mm and rad; only for axes whose place SurveySettings::start tells.
     std::array<std::optional<double>, gcode::axis_count> start;
@@ -35,16 +43,21 @@ struct Survey {
     std::vector<int> tools;         ///< numbers that are called, in their order, each once
     int first_cut_line = 0;         ///< the first feed move, 0: none
     bool spindle_before_cut = true; ///< it turned at the first feed move
+    std::vector<PathPoint> path;    ///< of all moves, if it is wanted
     std::vector<Diagnostic> errors; ///< what breaks the rules of the dialect
 };
 
-/// `start` and `offsets` tell where the machine stands and what its work systems are; without them the
-/// program is taken to begin at zero, and all offsets to be zero.
+/// `start`, `offsets` and `modes` are what the controller reports: where the machine stands, its work
+/// systems, and what is in force (DriverStatus::modes). Without them the program is taken to begin at zero,
+/// all offsets to be zero, and the modes to be those of the dialect.
 struct SurveySettings {
     gcode::Dialect dialect = gcode::Dialect::linuxcnc;
     std::vector<gcode::ProgramAxis> axes; ///< of `start` and `offsets`
     kinematics::AxisPositions start;      ///< machine coordinates; may be empty
     std::vector<StoredOffset> offsets;
+    std::string modes{};
+    bool mist = true;       ///< Capabilities::mist
+    bool keep_path = false; ///< Survey::path
 };
 
 /// For diagnostics the text is called `file`; subroutines in other files are looked for in its folder.

@@ -172,6 +172,17 @@ private:
         }
     }
 
+    static std::string moved_axes(const gcode::Program& program) {
+        std::string letters;
+        for (std::size_t n = 0; n < program.axes.size(); ++n) {
+            const bool moves = std::ranges::any_of(program.blocks, [&](const gcode::Block& block) {
+                return block.moves() && block.named.contains(static_cast<int>(n));
+            });
+            letters += moves ? std::string(1, program.axes[n].letter) : "";
+        }
+        return letters;
+    }
+
     static void plan(OpenedProgram& now, const Progress& progress) {
         if (!now.errors.empty()) {
             now.no_motion = "The program has errors.";
@@ -207,6 +218,7 @@ private:
             motion::plan(made.program, *now.machine, {}, progress));
         motion->listing =
             std::make_shared<const gcode::Listing>(gcode::listing_of(now.text->bytes.text(), made.program));
+        motion->moved_axes = moved_axes(made.program);
         motion->program = std::make_shared<const gcode::Program>(std::move(made.program));
         machine::Job job;
         job.machine = now.machine;

@@ -43,6 +43,7 @@ struct PlannedMotion {
     std::shared_ptr<const motion::Trajectory> trajectory;
     std::shared_ptr<const gcode::Listing> listing; ///< the file, with the line of each block
     std::vector<gcode::Step> step_of_block;        ///< the first that executes the block's line
+    std::string moved_axes; ///< letters of those that it positions, in the machine's order
 };
 
 /// Everything known of an opened file at one moment. Immutable once published; parts that are not there yet

@@ -422,10 +422,12 @@ std::string project_text(const Project& project) {
     return json_text(json);
 }
 
-void write_project(const Project& project, const fs::path& file) {
+std::string write_project(const Project& project, const fs::path& file) {
     Project near = project;
     near.plot.file = to_folder(project.plot.file, file.parent_path());
-    write_file(file, project_text(near));
+    std::string text = project_text(near);
+    write_file(file, text);
+    return text;
 }
 
 } // namespace millwright::project

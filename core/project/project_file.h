@@ -13,9 +13,10 @@ namespace millwright::project {
 /// `file`.
 [[nodiscard]] Project read_project(const std::filesystem::path& file);
 
-/// Deterministic bytes. A plot beside `file` or below is named from there. Throws Error if it cannot be
-/// written or would not be read again (faults_of); the old file then stays as it was.
-void write_project(const Project& project, const std::filesystem::path& file);
+/// Returns the bytes that it writes, which are deterministic. A plot beside `file` or below is named from
+/// there. Throws Error if it cannot be written or would not be read again (faults_of); the old file then
+/// stays as it was.
+std::string write_project(const Project& project, const std::filesystem::path& file);
 
 /// Throws Error with the first of faults_of(project) if there is one.
 [[nodiscard]] std::string project_text(const Project& project);

@@ -4,7 +4,11 @@
 #include "core/base/json.h"
 #include "core/project/internal/json_text.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
@@ -12,6 +16,23 @@
 namespace millwright::project {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// $HOME, or what the system knows of the user, as for a program that is started without an environment;
+/// empty if that has none either.
+fs::path home_folder() {
+    if (const char* named = std::getenv("HOME"); named != nullptr && *named != '\0') {
+        return named;
+    }
+    passwd entry{};
+    passwd* found = nullptr;
+    std::array<char, 4096> text{};
+    const bool known = ::getpwuid_r(::geteuid(), &entry, text.data(), text.size(), &found) == 0;
+    return known && found != nullptr && *entry.pw_dir != '\0' ? fs::path(entry.pw_dir) : fs::path();
+}
+
+} // namespace
 
 RecentFiles with_recent(RecentFiles files, const fs::path& opened) {
     const fs::path whole = fs::absolute(opened).lexically_normal();
@@ -46,9 +67,8 @@ fs::path recent_files_place() {
     if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0') {
         return fs::path(state) / "millwright/recent.json";
     }
-    const char* home = std::getenv("HOME");
-    return home != nullptr && *home != '\0' ? fs::path(home) / ".local/state/millwright/recent.json"
-                                            : fs::path();
+    const fs::path home = home_folder();
+    return home.empty() ? fs::path() : home / ".local/state/millwright/recent.json";
 }
 
 fs::path job_logs_place() {

@@ -74,7 +74,7 @@ RecoveryCopy& RecoveryCopy::operator=(RecoveryCopy&&) noexcept = default;
 RecoveryCopy::~RecoveryCopy() = default;
 
 void RecoveryCopy::write(const UnsavedWork& work) const {
-    write_file(file_, recovery_text(work));
+    write_file(file_, recovery_text(work), Privacy::own);
 }
 
 void RecoveryCopy::remove() const {

@@ -28,7 +28,7 @@ namespace millwright::project {
 /// together. Nullopt of a point without an entered one: the machine file's own tool is taken.
 [[nodiscard]] std::optional<double> gauge_length_mm(const ToolInput& input);
 
-/// The machine with the tool in its spindle. Throws Error if the head swings and nobody knows the length of
+/// The machine with the tool in its spindle. Throws Error if the head swings and no file gives the length of
 /// its own tool.
 [[nodiscard]] kinematics::MachineModel machine_with(const ToolInput& tool,
                                                     const kinematics::MachineModel& machine);

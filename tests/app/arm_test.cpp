@@ -1,11 +1,15 @@
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -46,7 +50,12 @@ TEST(Arm, FindsTheJointsThatReachAPoint) {
 TEST(Arm, SaysWhyNothingReachesAPoint) {
     const auto far = answer_to({"arm", "ik", "1500", "0", "0", "0", "0", "1", "--json"});
     EXPECT_TRUE(far.at("solutions").empty());
-    EXPECT_THAT(far.at("reason").get<std::string>(), HasSubstr("150.000 to 1450.000"));
+    EXPECT_THAT(far.at("reason").get<std::string>(), HasSubstr("291.924 to 1450.000"));
+    // Nearer than joint 3 can bend, though the links alone would reach it.
+    const auto near = answer_to({"arm", "ik", "0", "200", "0", "0", "0", "1", "--json"});
+    EXPECT_TRUE(near.at("solutions").empty());
+    EXPECT_EQ(near.at("reason").get<std::string>(),
+              "the wrist would be 200.000 mm from the shoulder; the arm reaches 291.924 to 1450.000");
     const std::vector<std::string> leaning{"arm", "ik", "800", "100", "0", "0", "0.6", "0.8", "--json"};
     EXPECT_THAT(answer_to(leaning).at("reason").get<std::string>(), HasSubstr("out of the plane"));
     auto projected = leaning;
@@ -63,6 +72,55 @@ TEST(Arm, SolvesOtherArmsToo) {
                   .at("solutions")
                   .size(),
               2U);
+}
+
+/// The arm that ships, but for a joint 6 that hardly turns.
+std::string arm_of_little_roll(const ScratchFolder& scratch) {
+    nlohmann::json arm = nlohmann::json::parse(content_of("assets/arms/six-axis.json"));
+    arm.at("joints").at(5).at("limits") = {-30.0, 30.0};
+    const std::string file = (scratch / "little-roll.json").string();
+    write_content(file, arm.dump());
+    return file;
+}
+
+// The command asked for one roll of all, which nobody had named, and found nothing.
+TEST(Arm, TakesAnyRollUnlessOneIsAskedFor) {
+    const ScratchFolder scratch;
+    const std::string arm = arm_of_little_roll(scratch);
+    const auto number = [](const nlohmann::json& value) {
+        return fmt::format("{:.9f}", value.get<double>());
+    };
+    const std::vector<std::vector<double>> poses{
+        {20, -10, -40, 15, 50, 12}, {-60, 30, -90, -100, 70, -25}, {0, 0, 0, 0, 90, 29}};
+    for (const std::vector<double>& pose : poses) {
+        std::vector<std::string> fk{"arm", "fk"};
+        for (const double joint : pose) {
+            fk.push_back(fmt::format("{}", joint));
+        }
+        fk.insert(fk.end(), {"--arm", arm, "--json"});
+        const auto tool = answer_to(fk);
+        std::vector<std::string> ik{"arm",
+                                    "ik",
+                                    number(tool.at("x")),
+                                    number(tool.at("y")),
+                                    number(tool.at("z")),
+                                    number(tool.at("tool").at(0)),
+                                    number(tool.at("tool").at(1)),
+                                    number(tool.at("tool").at(2)),
+                                    "--arm",
+                                    arm,
+                                    "--json"};
+        EXPECT_FALSE(answer_to(ik).at("solutions").empty());
+        ik.insert(ik.end(), {"--roll", number(tool.at("roll"))});
+        const auto rolled = answer_to(ik).at("solutions");
+        EXPECT_TRUE(std::ranges::any_of(rolled, [&](const nlohmann::json& solution) {
+            double apart = 0.0;
+            for (std::size_t n = 0; n < pose.size(); ++n) {
+                apart = std::max(apart, std::abs(solution.at(n).get<double>() - pose[n]));
+            }
+            return apart < 1e-3;
+        })) << rolled.dump();
+    }
 }
 
 TEST(Arm, SimulatesTheFileOfTheThesis) {

@@ -120,6 +120,18 @@ TEST_F(Emulate, WhoComesSecondIsToldWhoHoldsThePort) {
     }
 }
 
+/// Boards that are wired to DTR reset when somebody opens their port.
+TEST_F(Emulate, AStopThatResetTheBoardSaysSo) {
+    const int number = Socket().free_port();
+    Emulator emulator(port, {"--tcp", std::to_string(number), "--reset-when-opened"});
+    const std::vector<std::string> stop{
+        "stop", "--driver", "grbl", "--port", "tcp:127.0.0.1:" + std::to_string(number), "--log", logs};
+    const Ended stopped = run(stop);
+    EXPECT_EQ(stopped.exit_code, 1);
+    EXPECT_THAT(stopped.err, HasSubstr("opening the port reset the controller"));
+    EXPECT_THAT(stopped.err, HasSubstr("its position is lost"));
+}
+
 TEST_F(Emulate, AMachineGoesWhereACoordinateStreamSaysAndTellsAtItsEnd) {
     Emulator emulator(port, {}, "stream");
     const auto project = small_project(scratch.path(), "two-bell");

@@ -308,8 +308,10 @@ TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
 
     write_content(file, zigzag(3));
     const Ended short_job = run(words());
-    EXPECT_EQ(short_job.exit_code, 0) << short_job.err; // and Grbl stands at Y2, as if nothing had been
+    EXPECT_EQ(short_job.exit_code, 1);
     EXPECT_THAT(short_job.err, HasSubstr("may be lost (the controller was reset)"));
+    EXPECT_THAT(short_job.err, HasSubstr("Every job needs that, or --trust-position"));
+    EXPECT_THAT(short_job.err, HasSubstr("Stored work offsets may lead anywhere"));
 
     auto at_a_line = words();
     at_a_line.insert(at_a_line.end(), {"--from-line", "6", "--clearance", "5"});
@@ -422,6 +424,41 @@ TEST_F(Send, EmulatesNothingThatNobodyCouldReach) {
     const Ended ended = run({"emulate", "grbl", "--pty", port, "--faults", "rust=1"});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_THAT(ended.err, HasSubstr("there is no fault 'rust'"));
+}
+
+TEST_F(Send, ChecksTheTravelInTheModesThatTheControllerIsIn) {
+    const std::string eeprom = (scratch / "eeprom").string();
+    write_content(eeprom, "$N0=G20G54\n");
+    write_content(file, "G90 G54\nG0 X10\nG0 X0\nM30\n");
+    Emulator emulator(port, {"--eeprom", eeprom});
+    const Ended inches = run(words());
+    EXPECT_EQ(inches.exit_code, 1);
+    EXPECT_THAT(inches.err, HasSubstr("254.000 mm, and its whole travel is 200.000 mm"));
+}
+
+TEST_F(Send, SaysWhichAlarmEndedAHoming) {
+    const std::string eeprom = (scratch / "eeprom").string();
+    write_content(eeprom, "$22=1\n$130=20\n$131=20\n$132=20\n$25=3000\n");
+    write_content(file, "G21 G90\nG53 G0 X-5 Y-5 Z-2\nM30\n");
+    Emulator emulator(port, {"--eeprom", eeprom, "--no-switches", "--speed", "10"});
+    auto homing = words();
+    homing.emplace_back("--home");
+    const Ended ended = run(homing);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("alarm 9: homing found no limit switch"));
+}
+
+TEST_F(Send, RefusesMistWhereGrblWasBuiltWithoutIt) {
+    write_content(file, "G21 G90\nM7\nG0 X1\nM30\n");
+    {
+        Emulator emulator(port, {"--speed", "20"});
+        const Ended ended = run(words());
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:2:1: this Grbl has no mist coolant, M7 (error 20)"));
+        (void)emulator.stop();
+    }
+    Emulator emulator(port, {"--speed", "20", "--mist"});
+    EXPECT_EQ(run(words()).exit_code, 0);
 }
 
 } // namespace

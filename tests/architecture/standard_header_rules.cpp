@@ -49,6 +49,7 @@ constexpr std::array declarations = {
     Declared{"numeric_limits", {"limits"}},
     Declared{"optional", {"optional"}},
     Declared{"pair", {"utility", "map"}},
+    Declared{"ptrdiff_t", {"cstddef", "string", "string_view", "vector", "array"}},
     Declared{"ranges", {"algorithm", "ranges"}},
     Declared{"scoped_lock", {"mutex"}},
     Declared{"set", {"set"}},
@@ -109,11 +110,10 @@ bool is_word(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
 }
 
-/// The names behind each std:: of a line, without its comment.
-std::vector<std::string_view> standard_names(std::string_view line) {
+/// The names behind each `prefix` of a line, without its comment.
+std::vector<std::string_view> names_behind(std::string_view prefix, std::string_view line) {
     line = line.substr(0, line.find("//"));
     std::vector<std::string_view> names;
-    constexpr std::string_view prefix = "std::";
     for (auto at = line.find(prefix); at != std::string_view::npos; at = line.find(prefix, at + 1)) {
         const auto rest = line.substr(at + prefix.size());
         const auto end = std::ranges::find_if_not(rest, is_word) - rest.begin();
@@ -133,7 +133,17 @@ std::vector<Finding> check_standard_headers(const std::vector<TextFile>& files) 
         }
         const auto reached = closure.of(path);
         for (const auto& line : lines_of(text)) {
-            for (const auto name : standard_names(line.text)) {
+            for (const std::string_view library : {"fmt", "Eigen"}) {
+                const auto is_of_it = [&](std::string_view header) {
+                    return header.starts_with(std::string(library) + "/");
+                };
+                if (!names_behind(std::string(library) + "::", line.text).empty() &&
+                    std::ranges::none_of(reached, is_of_it)) {
+                    findings.push_back(
+                        {path, line.number, "needs a header of <" + std::string(library) + "/...>"});
+                }
+            }
+            for (const auto name : names_behind("std::", line.text)) {
                 const auto* declared = std::ranges::find(declarations, name, &Declared::name);
                 const auto has = [&](std::string_view header) { return reached.contains(header); };
                 if (declared != declarations.end() && std::ranges::none_of(declared->headers, has)) {

@@ -18,6 +18,14 @@ TEST(StandardHeaders, AreIncludedForWhatAHeaderUses) {
         IsEmpty());
 }
 
+TEST(StandardHeaders, ThoseOfFmtAndEigenAreIncludedToo) {
+    EXPECT_THAT(check_standard_headers({{"core/grid/a.h", "Eigen::Vector3d a(); // fmt::format\n"}}),
+                ElementsAre(Finding{"core/grid/a.h", 1, "needs a header of <Eigen/...>"}));
+    EXPECT_THAT(
+        check_standard_headers({{"core/grid/a.h", "#include <fmt/format.h>\nfmt::memory_buffer a();\n"}}),
+        IsEmpty());
+}
+
 TEST(StandardHeaders, MayComeThroughOurOwnHeaders) {
     const TextFile below{"core/base/b.h", "#include <string>\n"};
     EXPECT_THAT(

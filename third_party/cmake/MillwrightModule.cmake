@@ -2,15 +2,19 @@
 # ones that were forgotten.
 
 # millwright_precompile(TARGET HEADERS...)
-#   Has outside headers precompiled for TARGET and for those that REUSE_FROM it: read once instead of by every unit. None of
-#   ours: each change of it would be a build from nothing. The compiler gives other bytes each time, so ccache is told in a
-#   file beside them what they stand for.
+#   Precompiles outside headers for TARGET and for those that REUSE_FROM it: they are read once instead of by every unit.
+#   None of ours: each change of it would build everything anew. The compiler writes different bytes each time, so a
+#   file beside them says to ccache what they contain.
 function(millwright_precompile target)
     target_precompile_headers(${target} PRIVATE ${ARGN})
     get_target_property(folder ${target} BINARY_DIR)
+    set(versions "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION}")
+    if("<gtest/gtest.h>" IN_LIST ARGN)
+        string(APPEND versions " GoogleTest ${GTest_VERSION}")
+    endif()
     foreach(ending gch pch)
         file(WRITE ${folder}/CMakeFiles/${target}.dir/cmake_pch.hxx.${ending}.sum
-            "${CMAKE_CXX_COMPILER_VERSION} Eigen ${Eigen3_VERSION} fmt ${fmt_VERSION} ${ARGN}\n")
+            "${versions} ${ARGN}\n")
     endforeach()
 endfunction()
 
@@ -107,8 +111,8 @@ endfunction()
 #   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
-#   Those that match ALONE run while no other test runs. Those that match LONG take minutes to look at what a test of the
-#   same program looks at in small; they have the label `long`, which scripts/test leaves out and .ci/run runs last.
+#   Those that match ALONE run while no other test runs. Those that match LONG are the full size of a test that also
+#   exists in small; they have the label `long`, which scripts/test leaves out and .ci/run runs last.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()

@@ -32,9 +32,7 @@ bool reaches_arm(const ControllerView& machine) {
 } // namespace
 
 bool arm_moves(const ControllerView& machine) {
-    const DriverState state = machine.status.state;
-    return reaches_arm(machine) &&
-           (state == DriverState::running || state == DriverState::holding || state == DriverState::stopping);
+    return reaches_arm(machine) && machine::is_at_work(machine.status.state);
 }
 
 bool arm_under_power(const ControllerView& machine) {

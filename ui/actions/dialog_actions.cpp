@@ -23,6 +23,17 @@ Permission can_recover(const Workbench& now) {
     return now.left_behind.front().work() ? Permission{} : Permission::refused("The copy cannot be read.");
 }
 
+Permission is_replacing(const Workbench& now) {
+    return now.session.replacing ? Permission{} : Permission::refused("No file would be replaced.");
+}
+
+Permission can_reload(const Workbench& now) {
+    const auto& asked = now.session.replacing;
+    return asked && asked->what == ReplacedFile::project
+               ? Permission{}
+               : Permission::refused("No project was changed on disk.");
+}
+
 Permission is_quitting(const Workbench& now) {
     return now.session.quit_wanted ? Permission{}
                                    : Permission::refused("Neither a job nor an arm keeps Millwright open.");
@@ -61,6 +72,27 @@ void add_dialog_actions(Actions& actions) {
         {"unsaved.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
         is_leaving,
         [](Hands& hands) { hands.workshop.stay(); });
+    add(actions,
+        {"replace.overwrite", dialog_menu, "Replace", "What is there now is lost.", "", ""},
+        is_replacing,
+        [](Hands& hands) { hands.workshop.replace(); });
+    add(actions,
+        {"replace.elsewhere", dialog_menu, "Save as ...", "Asks for another file.", "", ""},
+        is_replacing,
+        [](Hands& hands) { hands.workshop.write_elsewhere(); });
+    add(actions,
+        {"replace.reload",
+         dialog_menu,
+         "Reload",
+         "Shows what is in the file now; undo brings back what is here.",
+         "",
+         ""},
+        can_reload,
+        [](Hands& hands) { hands.workshop.reload(); });
+    add(actions,
+        {"replace.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
+        is_replacing,
+        [](Hands& hands) { hands.workshop.keep_file(); });
     add(actions,
         {"running_job.stay", dialog_menu, "Stay", "Everything goes on.", "", ""},
         is_quitting,

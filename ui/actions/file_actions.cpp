@@ -1,4 +1,3 @@
-#include "core/base/files.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
@@ -32,18 +31,6 @@ Permission can_change_file(const Workbench& now) {
         return Permission::refused("No G-code file is open.");
     }
     return now.job.running ? Permission::refused("A job is running.") : Permission{};
-}
-
-/// Beside the project file, or in the current folder for a project never saved.
-std::filesystem::path program_file(const Document& document) {
-    std::filesystem::path file = document.file.empty() ? "program.json" : document.file;
-    return file.replace_extension(".ngc");
-}
-
-void write_program(Hands& hands) {
-    const std::filesystem::path file = program_file(hands.document);
-    write_file(file, hands.now.listing()->text);
-    tell(hands.session, widgets::Severity::good, "G-code written.", file.string());
 }
 
 } // namespace
@@ -82,11 +69,11 @@ void add_file_actions(Actions& actions) {
         {"file.write_program",
          "File",
          "Write G-code",
-         "Writes the program beside the project file.",
+         "Asks for a file the first time, then writes to the same one.",
          "Ctrl+E",
          ""},
         has_listing,
-        write_program);
+        [](Hands& hands) { hands.workshop.write_program(); });
     add(actions,
         {"file.read_again",
          "File",

@@ -3,6 +3,9 @@
 #include "core/base/error.h"
 #include "ui/actions/workbench.h"
 
+#include <algorithm>
+#include <string_view>
+
 namespace millwright::actions {
 
 namespace {
@@ -23,6 +26,30 @@ Permission approach_ready(const Workbench& now) {
         return Permission::refused("The approach to the line is being worked out.");
     }
     return now.approach->refusal ? Permission::refused(to_text(*now.approach->refusal)) : Permission{};
+}
+
+/// Letters of the axes that the shown program positions; empty where that is not known.
+std::string moved_axes(const Workbench& now) {
+    if (now.in_file()) {
+        return now.opened->motion ? now.opened->motion->moved_axes : "";
+    }
+    std::string letters;
+    if (const auto program = now.program()) {
+        for (const gcode::ProgramAxis& axis : program->axes) {
+            letters += axis.letter;
+        }
+    }
+    return letters;
+}
+
+/// "X", "X and Y", "X, Y and Z"
+std::string listed(std::string_view letters) {
+    std::string text;
+    for (std::size_t n = 0; n < letters.size(); ++n) {
+        text += n == 0 ? "" : n + 1 == letters.size() ? " and " : ", ";
+        text += letters[n];
+    }
+    return text;
 }
 
 machine::Job file_job(const JobSource& source) {
@@ -66,6 +93,28 @@ Permission program_ready(const Workbench& now) {
         return Permission::refused("There is no program yet.");
     }
     return now.plan->exact ? Permission{} : Permission::refused("The program is still being computed.");
+}
+
+Permission axes_ready(const Workbench& now) {
+    const auto& axes = now.controller.axes;
+    if (!now.controller.connected() || axes.empty()) {
+        return {};
+    }
+    std::string missing, there;
+    for (const char letter : moved_axes(now)) {
+        if (std::ranges::find(axes, letter, &gcode::ProgramAxis::letter) == axes.end()) {
+            missing += letter;
+        }
+    }
+    for (const gcode::ProgramAxis& axis : axes) {
+        there += axis.letter;
+    }
+    return missing.empty()
+               ? Permission{}
+               : Permission::refused("The program moves " + listed(missing) +
+                                     ", and the connected machine has " + listed(there) +
+                                     ". Connect a machine with all of them, make the program for " +
+                                     listed(there) + ", or disconnect to run it on the virtual machine.");
 }
 
 Permission job_ready(const Workbench& now) {

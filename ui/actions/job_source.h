@@ -28,7 +28,11 @@ struct JobSource {
 /// Whether there is a program that can be sent to what is connected, else to a virtual machine.
 [[nodiscard]] widgets::Permission program_ready(const Workbench& now);
 
-/// The same, and where it is to begin at a line, what comes before is known and was shown.
+/// Whether what is connected has every axis that the program moves, as far as that is known before it is read
+/// for that machine. Else which are missing, and what would help.
+[[nodiscard]] widgets::Permission axes_ready(const Workbench& now);
+
+/// The same as program_ready(), and where it is to begin at a line, what comes before is known and was shown.
 [[nodiscard]] widgets::Permission job_ready(const Workbench& now);
 
 /// Of what is shown. Only where program_ready() says yes.

@@ -5,6 +5,7 @@
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/job_source.h"
+#include "ui/actions/start_question.h"
 #include "ui/actions/workshop.h"
 
 #include <fmt/chrono.h>
@@ -50,18 +51,39 @@ Permission position_ready(const Workbench& now, int from_line) {
                          "The machine does not tell where it stands: read it there, and enter it.")
                    : Permission{};
     }
-    const bool wrong = now.controller.connected() && from_line > 1 && !doubt.empty();
+    const bool wrong =
+        now.controller.connected() &&
+        (from_line > 1 ? !doubt.empty()
+                       : machine::needs_confirmation(now.controller.status, now.controller.offsets));
     return wrong ? Permission::refused(machine::doubt_sentence(doubt) +
                                        " Or say that it stands where the controller says.")
                  : Permission{};
 }
 
+/// Those inside this program are run without a question.
+bool moves_a_machine(const Workbench& now) {
+    const machine::DriverKind kind = now.controller.choice.kind;
+    return now.controller.connected() && kind != machine::DriverKind::virtual_machine &&
+           kind != machine::DriverKind::cordic;
+}
+
+Permission nothing_asked(const Workbench& now) {
+    return now.asks() ? Permission::refused("A question in the window waits for its answer.") : Permission{};
+}
+
 Permission can_run_job(const Workbench& now) {
+    if (const Permission free = nothing_asked(now);
+        !free.allowed || now.session.workspace != Workspace::machine) {
+        return free; // from elsewhere it only goes to the machine, where the reason stands if it cannot
+    }
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
-    const Permission job = job_ready(now);
-    const Permission ready = job.allowed ? machine_ready(now) : job;
+    if (const Permission job = job_ready(now); !job.allowed) {
+        return job;
+    }
+    const Permission machine = machine_ready(now);
+    const Permission ready = machine.allowed ? axes_ready(now) : machine;
     return ready.allowed ? position_ready(now, now.session.begin.on ? now.session.begin.line : 1) : ready;
 }
 
@@ -125,7 +147,6 @@ void start_job(Hands& hands, machine::Job job, const JobRunner::Ended& ended = {
     hands.session.playback.playing = false;
     hands.session.file.step.reset();
     hands.session.begin = {};
-    hands.session.workspace = Workspace::machine;
     if (auto driver = hands.workshop.controller().driver()) {
         driver->check(*job.listing, job.project);
         hands.jobs.start(std::move(job), std::move(driver), ended);
@@ -162,9 +183,23 @@ Permission suits_machine(const Workbench& now, const machine::QueuedJob& job) {
                                      "makes it anew for this one.");
 }
 
+/// From another workspace a key or a command only goes to the machine, so that nothing moves out of sight.
+void run_shown(Hands& hands) {
+    if (hands.session.workspace != Workspace::machine) {
+        hands.session.workspace = Workspace::machine;
+    } else if (moves_a_machine(hands.now)) {
+        hands.workshop.ask_to_start(start_wish(wanted_job(hands.now), {}, hands.now.controller));
+    } else {
+        start_job(hands, wanted_job(hands.now));
+    }
+}
+
 Permission can_run_next(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
+    }
+    if (const Permission free = nothing_asked(now); !free.allowed) {
+        return free;
     }
     const auto next = std::ranges::find_if(
         now.queue, [](const machine::QueuedJob& job) { return job.state != machine::QueueState::done; });
@@ -181,15 +216,60 @@ Permission can_run_next(const Workbench& now) {
 }
 
 /// The queue hears how it ends; what keeps it from starting holds the queue, too.
-void run_next(Hands& hands) {
+void begin_queued(Hands& hands, machine::QueuedJobId id) {
     StoredQueue& stored = hands.workshop.queue();
     machine::JobQueue& queue = stored.open();
-    machine::Job job = queue.begin(queue.next().value().id);
+    machine::Job job = queue.begin(id);
     try {
         start_job(hands, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
     } catch (const Error& error) {
         queue.failed(error.what());
         throw;
+    }
+}
+
+void run_next(Hands& hands) {
+    if (hands.session.workspace != Workspace::machine) {
+        hands.session.workspace = Workspace::machine;
+        hands.session.lower_tab_now() = LowerTab::queue;
+        return;
+    }
+    machine::JobQueue& queue = hands.workshop.queue().open();
+    const machine::QueuedJobId id = queue.next().value().id;
+    if (!moves_a_machine(hands.now)) {
+        begin_queued(hands, id);
+    } else if (const auto job = queue.program_of(id)) {
+        hands.workshop.ask_to_start(start_wish(*job, id, hands.now.controller));
+    }
+}
+
+/// What was asked may have come to nothing meanwhile: the link, the machine's state, its position.
+Permission can_start(const Workbench& now) {
+    if (!now.session.start) {
+        return Permission::refused("No job waits to be started.");
+    }
+    if (!moves_a_machine(now)) {
+        return Permission::refused("The machine is not connected any more.");
+    }
+    if (now.job.running) {
+        return Permission::refused("A job is running.");
+    }
+    if (!now.start_check || now.start_check->wish != now.session.start) {
+        return Permission::refused("The program is being checked.");
+    }
+    if (!now.start_check->faults.empty()) {
+        return Permission::refused(to_text(now.start_check->faults.front()));
+    }
+    const Permission ready = machine_ready(now);
+    return ready.allowed ? position_ready(now, now.session.start->job->from_line) : ready;
+}
+
+void start_asked(Hands& hands) {
+    const auto wish = std::exchange(hands.session.start, nullptr);
+    if (wish->queued) {
+        begin_queued(hands, *wish->queued);
+    } else {
+        start_job(hands, *wish->job);
     }
 }
 
@@ -248,11 +328,19 @@ void add_machine_actions(Actions& actions) {
         {"machine.run",
          "Machine",
          "Run the program",
-         "Checks the program and sends it to the connected machine, else to a virtual one.",
+         "Sends the program to the connected machine, after a question, else to a virtual one. In other "
+         "workspaces it goes to the machine.",
          "F9",
          icons::play},
         can_run_job,
-        [](Hands& hands) { start_job(hands, wanted_job(hands.now)); });
+        run_shown);
+    add(actions,
+        {"start.go", dialog_menu, "Start", "The machine moves. Enter does the same.", "", icons::play},
+        can_start,
+        start_asked);
+    add(actions, {"start.cancel", dialog_menu, "Cancel", "Nothing moves.", "", ""}, always, [](Hands& hands) {
+        hands.session.start.reset();
+    });
     add(actions,
         {"machine.hold",
          "Machine",

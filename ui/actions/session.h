@@ -7,6 +7,7 @@
 #include "core/project/project.h"
 #include "ui/actions/approach.h"
 #include "ui/actions/hand_settings.h"
+#include "ui/actions/start_question.h"
 #include "ui/render/camera.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
@@ -89,7 +90,16 @@ enum class FileQuestion {
     save_motion_program,
     open_arm,         ///< a file of one's own
     play_motion_file, ///< of the thesis's kind: lines and arcs of the tool
-    load_card_settings
+    load_card_settings,
+    write_program ///< of the project, as G-code
+};
+
+enum class ReplacedFile { project, program };
+
+/// A file that would be replaced, and that is not what this program read or wrote there last.
+struct Replacing {
+    ReplacedFile what = ReplacedFile::project;
+    std::filesystem::path file;
 };
 
 /// What the window of help shows; none: it is closed.
@@ -161,7 +171,9 @@ struct Session {
     widgets::Theme theme = widgets::Theme::dark;
     double machine_speed = 1.0; ///< of the virtual machine, times real time
     FileQuestion question = FileQuestion::none;
+    std::optional<Replacing> replacing; ///< waits for the person's word
     HelpPage help = HelpPage::none;
+    std::shared_ptr<const StartWish> start;          ///< a job that waits for a person's word; null: none
     bool search_wanted = false;                      ///< open the palette in the next frame
     bool fit_wanted = true;                          ///< fit the view in the next frame
     std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame

@@ -206,16 +206,25 @@ std::shared_ptr<const kinematics::MachineModel> Workbench::machine() const {
                      : nullptr;
 }
 
+bool Workbench::draws_another_machine() const {
+    const auto model = machine();
+    return controller.connected() && model && !controller.axes.empty() &&
+           !std::ranges::equal(controller.axes,
+                               model->axes(),
+                               {},
+                               &gcode::ProgramAxis::letter,
+                               &kinematics::MachineAxis::letter);
+}
+
 /// A controller that plans for itself knows its work offsets, and programs are written in those.
 kinematics::AxisPositions Workbench::connected_axes() const {
     const auto model = machine();
-    if (session.workspace != Workspace::machine || !controller.connected() || !model) {
+    if (session.workspace != Workspace::machine || !controller.connected() || !model ||
+        controller.axes.empty() || draws_another_machine()) {
         return {};
     }
-    const bool same = std::ranges::equal(
-        controller.axes, model->axes(), {}, &gcode::ProgramAxis::letter, &kinematics::MachineAxis::letter);
     const machine::DriverStatus& status = controller.status;
-    if (!same || status.position.size() != model->axis_count()) {
+    if (status.position.size() != model->axis_count()) {
         return {};
     }
     return controller.can.plans ? status.work_position() : status.position;

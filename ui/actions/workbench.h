@@ -63,6 +63,7 @@ struct Workbench {
     std::shared_ptr<const project::SetUpResult> set_up; ///< of the last search; null before the first
     const std::optional<Diagnostic>&
         queue_problem; ///< why its file is not open; nothing: it is, or there is none
+    std::shared_ptr<const StartCheck> start_check; ///< of Session::start; null before the first
 
     /// The connected controller moves an arm.
     [[nodiscard]] bool arm_connected() const {
@@ -99,12 +100,15 @@ struct Workbench {
     [[nodiscard]] std::string failure() const;
     /// Something is asked or told over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
-        return session.question != FileQuestion::none || session.help != HelpPage::none ||
-               session.quit_wanted || !leaving_to.empty() || !left_behind.empty() || !broken_jobs->empty();
+        return session.question != FileQuestion::none || session.replacing || session.start ||
+               session.help != HelpPage::none || session.quit_wanted || !leaving_to.empty() ||
+               !left_behind.empty() || !broken_jobs->empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.
     [[nodiscard]] std::shared_ptr<const kinematics::MachineModel> machine() const;
+    /// The connected machine has other axes than machine(): its bodies are not those of machine().
+    [[nodiscard]] bool draws_another_machine() const;
     /// Where the connected machine stands, in the axes of machine(); empty outside of the Machine workspace,
     /// or where its axes are others.
     [[nodiscard]] kinematics::AxisPositions connected_axes() const;

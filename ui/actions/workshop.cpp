@@ -79,6 +79,7 @@ Workshop::Workshop(WorkshopOptions options)
     processor_ = std::make_unique<ProcessorBench>(wake);
     arm_ = std::make_unique<ArmBench>(options_.assets, wake);
     approach_ = std::make_unique<ApproachFinder>(wake);
+    start_ = std::make_unique<StartChecker>(check_start, wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     follow_project();
 }
@@ -117,7 +118,8 @@ Workbench Workshop::look() const {
             queue_.jobs(),
             machine_solids_.bodies(),
             set_up_->latest(),
-            queue_.problem()};
+            queue_.problem(),
+            start_->answer()};
 }
 
 void Workshop::follow_project() {
@@ -165,6 +167,8 @@ void Workshop::guarded(const std::function<void()>& action) {
              error.diagnostic().message + (hint.empty() ? "" : " (" + hint + ")"),
              where.substr(0, where.size() - std::min<std::size_t>(2, where.size())));
         session_.notices.back().passing = dynamic_cast<const MachineError*>(&error) != nullptr;
+    } catch (const std::filesystem::filesystem_error& failure) { // links in a loop, a folder that is gone
+        tell(session_, widgets::Severity::danger, failure.code().message(), failure.path1().string());
     }
 }
 
@@ -302,6 +306,11 @@ void Workshop::follow_begin() {
     approach_->want(ApproachWish{job_source(now), session_.begin, dialect});
 }
 
+void Workshop::ask_to_start(StartWish wish) {
+    session_.start = std::make_shared<const StartWish>(std::move(wish));
+    start_->want(session_.start);
+}
+
 /// So that the timeline stays where the machine came to rest.
 void Workshop::follow_job() {
     const Workbench now = look();
@@ -340,6 +349,7 @@ void Workshop::wait_idle() {
     jobs_->wait();
     follow_begin();
     approach_->wait_idle();
+    start_->wait_idle();
     job_recovery_->wait_idle();
     arm_->wait_idle();
 }

@@ -58,8 +58,20 @@ public:
     /// Files from outside of the window, dropped on it or named on the command line: opens the first one as
     /// soon as nothing asks the person, and says which of several that is.
     void receive(const std::vector<std::filesystem::path>& files);
-    /// Throws Error; the old file then stays as it was. Goes on with what waited for it.
+    /// Throws Error; the old file then stays as it was. Goes on with what waited for it. Asks first, by
+    /// Session::replacing, if the project's file is not what was read or saved there last.
     void save(const std::filesystem::path& file);
+    /// Writes the project's program where it was written last, and asks for a file the first time. Asks, as
+    /// save() does, if something else is there now. Throws Error.
+    void write_program();
+    /// To a file that a person named. Throws Error.
+    void write_program(const std::filesystem::path& file);
+    /// The answers to Session::replacing: replaces the file; gives up what is unsaved for what is there now
+    /// (undo goes back); asks for another file; leaves everything as it is. Throw Error.
+    void replace();
+    void reload();
+    void write_elsewhere();
+    void keep_file();
     /// Reads the opened G-code file once more, by the rules and for the machine of the session.
     void read_again();
     void close_file();
@@ -106,6 +118,8 @@ public:
     void continue_broken_job();
     /// Of jobs that wait for a person's word.
     [[nodiscard]] StoredQueue& queue() { return queue_; }
+    /// Shows a person what the job would do on the connected machine. Nothing moves before "start.go".
+    void ask_to_start(StartWish wish);
     /// Opens the program of a job that waits, and gives it to the job once it is read, made for the machine
     /// that is connected then. Nothing moves. Throws Error if it cannot be opened.
     void open_queued(machine::QueuedJobId id);
@@ -170,6 +184,10 @@ private:
         return documents_[static_cast<std::size_t>(history_.project_number())];
     }
     [[nodiscard]] bool changed() const { return !(history_.current() == document().saved); }
+    /// The document of recovered work: what stands in its file, and whether it was there when the copy was
+    /// made.
+    [[nodiscard]] static Document document_of(const project::UnsavedWork& work);
+    void put_project(const std::filesystem::path& whole);
     void begin(project::Project other, const std::string& title, Document document);
     void look_at_another();
     void open_gcode(const std::filesystem::path& file);
@@ -218,6 +236,7 @@ private:
     std::unique_ptr<SurfaceExport> export_; ///< never null
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
+    std::unique_ptr<StartChecker> start_;
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read

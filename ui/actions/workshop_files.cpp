@@ -1,7 +1,8 @@
-// The part of the workshop that deals with whole files: opening, saving, leaving, recovering.
+// The part of the workshop that deals with whole files: opening, closing, recovering.
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/sentences.h"
+#include "core/machine/job.h"
 #include "core/machine/way_on.h"
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
@@ -33,15 +34,6 @@ std::int64_t seconds_since_1970() {
 
 bool is_project_file(const fs::path& file) {
     return file.extension() == ".json";
-}
-
-/// What stands in `file`, to tell what is unsaved; a project like no other if it cannot be read.
-project::Project on_disk(const fs::path& file) {
-    try {
-        return file.empty() ? project::Project{} : project::read_project(file);
-    } catch (const Error&) {
-        return {};
-    }
 }
 
 /// Beside what it was made of; of what ships with the program, and where nothing can be written, in a folder
@@ -91,9 +83,12 @@ void Workshop::open(const fs::path& file) {
         return;
     }
     const fs::path whole = fs::absolute(file).lexically_normal();
-    project::Project opened = project::read_project(whole);
+    const std::string text = read_file(whole);
+    project::Project opened = project::project_from_text(text, whole);
     show_program_path(session_, opened);
-    begin(opened, "Open " + file.filename().string(), {whole, opened});
+    begin(opened,
+          "Open " + file.filename().string(),
+          {.file = whole, .saved = opened, .hash = machine::program_hash(text), .program = {}});
     remember(file);
 }
 
@@ -313,19 +308,6 @@ void Workshop::follow_file() {
     }
 }
 
-void Workshop::save(const fs::path& file) {
-    const auto leaving = std::exchange(leaving_, std::nullopt); // a failure ends the leaving, too
-    const fs::path whole = fs::absolute(file).lexically_normal();
-    project::write_project(history_.current(), whole);
-    document() = {whole, history_.current()};
-    session_.question = FileQuestion::none;
-    tell(session_, widgets::Severity::good, "Saved.", file.string());
-    remember(file);
-    if (leaving) {
-        leaving->then(*this);
-    }
-}
-
 void Workshop::new_from_preset(std::string_view preset_id) {
     const project::Project made = project::project_from_preset(preset_id);
     begin(made, "New project", {{}, made});
@@ -362,14 +344,6 @@ void Workshop::remember(const fs::path& file) {
     }
 }
 
-void Workshop::leave(std::string to, ActionQueue::Request then) {
-    if (changed()) {
-        leaving_ = Leaving{std::move(to), std::move(then)};
-    } else {
-        then(*this);
-    }
-}
-
 void Workshop::quit() {
     leave("close Millwright", [](Workshop& workshop) {
         Controller& controller = workshop.controller();
@@ -382,24 +356,6 @@ void Workshop::quit() {
         }
         workshop.session().quit = !unsure;
     });
-}
-
-void Workshop::save_and_leave() {
-    if (document().file.empty()) {
-        session_.question = FileQuestion::save_as;
-    } else {
-        save(fs::path(document().file));
-    }
-}
-
-void Workshop::discard_and_leave() {
-    if (const auto leaving = std::exchange(leaving_, std::nullopt)) {
-        leaving->then(*this);
-    }
-}
-
-void Workshop::stay() {
-    leaving_.reset();
 }
 
 void Workshop::start_autosave() {
@@ -436,7 +392,7 @@ void Workshop::recover() {
         throw Error(*left.fault());
     }
     const project::UnsavedWork& work = *left.work();
-    begin(work.project, "Recover " + work.project.name, {work.file, on_disk(work.file)});
+    begin(work.project, "Recover " + work.project.name, document_of(work));
     follow_autosave();
     if (autosave_) {
         autosave_->wait_idle(); // the old copy stays until the new one is there

@@ -25,7 +25,7 @@ bool is_opened(const fs::path& file) {
            project::is_plot_file(file);
 }
 
-constexpr std::array<AskedFile, 11> questions{
+constexpr std::array<AskedFile, 12> questions{
     {{FileQuestion::open,
       "Open a project, G-code, a surface, a plot or a picture",
       true,
@@ -105,7 +105,14 @@ constexpr std::array<AskedFile, 11> questions{
       "",
       "",
       [](actions::Workshop& workshop, const fs::path& file) { workshop.load_card_settings(file); },
-      "No files here."}}};
+      "No files here."},
+     {FileQuestion::write_program,
+      "Write the G-code to",
+      false,
+      ".ngc",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.write_program(file); },
+      "No G-code (.ngc) here."}}};
 
 } // namespace
 

@@ -183,7 +183,9 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
             command(ask, machine::stop_spindle());
         }
     }
-    if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can)) {
+    const Permission can_mist =
+        now.controller.can.mist ? can : Permission::refused("This controller was built without M7.");
+    if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can_mist)) {
         command(ask, machine::set_coolant(*on, status.flood));
     }
     if (const auto on = ui.toggle("flood", "Flood", status.flood, "M8", can)) {

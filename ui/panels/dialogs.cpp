@@ -37,20 +37,57 @@ std::string shortened_path(const std::string& path) {
 
 void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto scope = ui.scope("dialogs");
-    if (now.session.question != actions::FileQuestion::none) {
-        return files_.draw(ui, now, ask);
+    const bool file = now.session.question != actions::FileQuestion::none;
+    if (!file) {
+        files_.close();
     }
-    files_.close();
-    if (now.session.quit_wanted) {
+    if (!now.session.start) {
+        start_.close();
+    }
+    if (now.session.quit_wanted) { // over everything: something moves
         draw_running_job(ui, now, ask);
+    } else if (now.session.replacing) {
+        draw_replacing(ui, now, ask);
+    } else if (file) {
+        files_.draw(ui, now, ask);
     } else if (!now.leaving_to.empty()) {
         draw_unsaved(ui, now, ask);
+    } else if (now.session.start) {
+        start_.draw(ui, now, ask);
     } else if (!now.left_behind.empty()) {
         draw_left_behind(ui, now, ask);
     } else if (!now.broken_jobs->empty()) {
         draw_broken_job(ui, now, ask);
     } else if (now.session.help != actions::HelpPage::none) {
         help_.draw(ui, now, ask);
+    }
+}
+
+void Dialogs::draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const actions::Replacing& asked = *now.session.replacing;
+    const bool project = asked.what == actions::ReplacedFile::project;
+    const auto dialog = ui.dialog("replace",
+                                  project ? "The file was changed on disk" : "Replace the file?",
+                                  ui.px(project ? wide : width));
+    if (!dialog) {
+        return;
+    }
+    ui.text(project
+                ? "Another program, or another window, has written this file since Millwright read or saved "
+                  "it here."
+                : "This file is not what Millwright wrote there last.");
+    ui.gap();
+    ui.note(shortened_path(asked.file.string()));
+    ui.gap();
+    const auto row = ui.row(project ? 4 : 3);
+    action_button(ui, now, ask, catalogue_, "replace.cancel");
+    if (project) {
+        action_button(ui, now, ask, catalogue_, "replace.reload");
+    }
+    action_button(ui, now, ask, catalogue_, "replace.elsewhere", Rank::primary);
+    action_button(ui, now, ask, catalogue_, "replace.overwrite", Rank::danger);
+    if (ui.escape_pressed()) {
+        ask.run("replace.cancel");
     }
 }
 

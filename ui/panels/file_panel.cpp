@@ -92,6 +92,19 @@ bool same_file(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, missing);
 }
 
+/// The project's where the question has none of its own.
+std::string first_name(const Workbench& now, const AskedFile& asked) {
+    if (!asked.first.empty()) {
+        return std::string(asked.first);
+    }
+    if (now.document.file.empty()) {
+        return now.project.name + std::string(asked.ending);
+    }
+    return asked.question == FileQuestion::write_program
+               ? now.document.file.filename().replace_extension(asked.ending).string()
+               : now.document.file.filename().string();
+}
+
 } // namespace
 
 void FilePanel::begin(const Workbench& now) {
@@ -100,9 +113,7 @@ void FilePanel::begin(const Workbench& now) {
     named_.clear();
     answered_ = false;
     enter(starting_folder(now, asked_));
-    name_ = !about(asked_).first.empty() ? std::string(about(asked_).first)
-            : now.document.file.empty()  ? now.project.name + ".json"
-                                         : now.document.file.filename().string();
+    name_ = first_name(now, about(asked_));
 }
 
 void FilePanel::enter(const fs::path& folder) {

@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/machine/hand_lines.h"
+#include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/hand_fields.h"
 #include "ui/panels/internal/pad_axes.h"
 #include "ui/render/imgui_compat.h"
@@ -172,6 +173,11 @@ void pad_wishes(const Workbench& now, Wish& wish, std::vector<double>& before) {
 
 void HandPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_position(ui, now, ask);
+    if (now.arm_connected()) {
+        ui.note("Jogs, taught points and programs of an arm are in the Arm workspace.");
+        action_button(ui, now, ask, catalogue_, "view.arm", Rank::normal, "Arm workspace");
+        return;
+    }
     draw_jog(ui, now, ask);
 }
 
@@ -206,6 +212,13 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
     const std::string system = machine.status.work_system > 0
                                    ? machine::work_system_name(machine.status.work_system) + ", machine"
                                    : std::string("work, machine");
+    if (now.arm_connected()) { // joints have no work offsets
+        for (widgets::AxisReading& reading : axes) {
+            reading.second.reset();
+        }
+        widgets::readout(ui, "axes", axes);
+        return;
+    }
     widgets::readout(ui, "axes", axes, system);
     if (machine.status.link_lost) {
         ui.words("As last told: the link is lost.", widgets::Tone::danger);

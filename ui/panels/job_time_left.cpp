@@ -8,20 +8,21 @@ namespace millwright::panels {
 
 namespace {
 
-/// A controller that plans for itself tells lines and no times: then those of our plan, from the first line
-/// that is not executed for certain.
+/// A controller that plans for itself tells lines and no times: then those of our plan, from the line that it
+/// is at as far as is known.
 std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
     if (!now.job_is_shown() || !now.in_file() || !now.opened->motion || !now.job.listing) {
         return std::nullopt;
     }
     const std::vector<int>& lines = now.job.listing->line_of_block;
-    const auto executed = static_cast<std::size_t>(std::max(0, report.driver.executed_blocks));
-    if (executed >= lines.size()) {
+    const auto at =
+        static_cast<std::size_t>(std::max({0, report.driver.executed_blocks, report.driver.block}));
+    if (at >= lines.size()) {
         return 0.0;
     }
     const project::PlannedMotion& plan = *now.opened->motion;
     const std::vector<int>& planned = plan.listing->line_of_block;
-    const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[executed]; });
+    const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[at]; });
     return next == planned.end() ? 0.0
                                  : plan.trajectory->duration() -
                                        plan.trajectory->start_of(static_cast<int>(next - planned.begin()));

@@ -1,6 +1,7 @@
 #include "ui/panels/machine_panel.h"
 
 #include "core/base/text.h"
+#include "ui/actions/job_source.h"
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
@@ -77,6 +78,9 @@ std::optional<double> spindle_by_hand(const Workbench& now) {
 
 void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
+    if (now.arm_connected()) { // it takes no G-code, and has no spindle and no work offsets
+        return;
+    }
     draw_job(ui, now, ask);
     if (now.controller.connected()) {
         controls_.draw(ui, now, ask);
@@ -176,6 +180,9 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                          *rpm),
              {}});
     }
+    if (const widgets::Permission axes = actions::axes_ready(now); !axes.allowed) {
+        (void)widgets::banner(ui, "axes", {widgets::Severity::warning, axes.reason, {}});
+    }
     draw_findings(ui, now); // below the buttons, which stay where they are whatever is found
     draw_progress(ui, now, ask);
 }
@@ -188,22 +195,14 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
     if (now.job.running && now.job.report) {
         const machine::JobReport& report = *now.job.report;
-        const double fraction =
-            report.blocks > 0 ? static_cast<double>(report.driver.executed_blocks) / report.blocks : 0.0;
         ui.value("state", "State", machine::to_text(report.driver.state));
         const std::optional<double> left = job_time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
         ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
-        const bool told_late = report.driver.sent_blocks > report.driver.executed_blocks;
-        if (told_late) {
-            ui.value("sent", "Sent to it", fmt::format("{} blocks", report.driver.sent_blocks));
+        if (report.driver.sent_blocks > report.driver.executed_blocks) {
+            ui.value("sent", "Blocks sent", fmt::format("{}", report.driver.sent_blocks));
         }
-        if (ui.progress("progress",
-                        fmt::format("Block {} of {}{}",
-                                    report.driver.executed_blocks,
-                                    report.blocks,
-                                    told_late ? " for certain" : ""),
-                        fraction)) {
+        if (ui.progress("progress", report.progress_text(), report.fraction())) {
             ask.run("machine.stop");
         }
     } else if (now.job.outcome) {

@@ -48,8 +48,8 @@ void draw_job(Ui& ui, const machine::JobReport& job) {
     widgets::TimelineView view;
     view.permission = widgets::Permission::refused("A job runs: see the Machine workspace.");
     view.blocks = job.blocks;
-    view.block = std::min(job.driver.executed_blocks + 1, job.blocks);
-    view.fraction = job.blocks > 0 ? static_cast<double>(job.driver.executed_blocks) / job.blocks : 0.0;
+    view.block = std::min(std::max(job.driver.executed_blocks, job.driver.block) + 1, job.blocks);
+    view.fraction = job.fraction();
     view.time_s = job.elapsed;
     view.total_s = std::max(job.planned_time, job.elapsed);
     (void)widgets::timeline(ui, "timeline", view);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace millwright::panels {
@@ -126,6 +127,12 @@ void show_import(const Workbench& now, viewport::Scene& scene) {
 
 } // namespace
 
+/// Also in the Machine workspace, where it is what is connected.
+bool shows_arm(const Workbench& now) {
+    return now.session.workspace == Workspace::arm ||
+           (now.session.workspace == Workspace::machine && now.arm_connected());
+}
+
 bool shows_import(const Workbench& now) {
     return now.session.workspace == Workspace::design && now.import.latest() != nullptr;
 }
@@ -133,11 +140,16 @@ bool shows_import(const Workbench& now) {
 viewport::Scene scene_of(const Workbench& now) {
     viewport::Scene scene;
     scene.layers = now.session.layers_now();
-    if (now.session.workspace == Workspace::arm) {
+    const bool at_machine = now.session.workspace == Workspace::machine;
+    if (shows_arm(now)) {
+        scene.layers = now.session.layers[static_cast<std::size_t>(Workspace::arm)];
         if (now.arm.loaded()) {
             scene.arm = now.arm.scene();
         }
         return scene;
+    }
+    if (at_machine && now.draws_another_machine()) {
+        scene.layers.machine = false;
     }
     scene.selected = now.session.selected;
     scene.symmetry = now.session.symmetry;
@@ -305,7 +317,11 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
     if (now.session.side_wanted) {
         look_from(*now.session.side_wanted, ask);
     }
-    if (now.session.workspace == Workspace::arm) {
+    const bool arm = shows_arm(now) && now.arm.loaded();
+    if (arm != std::exchange(showed_arm_, arm) && now.session.workspace == Workspace::machine) {
+        view_.fit(); // it was connected or disconnected, and is another size than a part
+    }
+    if (shows_arm(now)) {
         if (now.session.fit_wanted && now.arm.loaded()) {
             view_.fit();
             ask.show([](actions::Session& session) { session.fit_wanted = false; });

@@ -34,10 +34,14 @@ private:
     std::optional<render::CameraPose> fitted_;      ///< how the camera stood then
     std::optional<render::CameraPose> plot_fitted_; ///< the same of a plot; none: it is just being fitted
     Box3 plot_box_;                                 ///< where it lay then
+    bool showed_arm_ = false;                       ///< in the last frame
 };
 
 /// What the view shows of the workbench.
 [[nodiscard]] viewport::Scene scene_of(const Workbench& now);
+
+/// The arm is shown in place of everything else.
+[[nodiscard]] bool shows_arm(const Workbench& now);
 
 /// A surface that is being imported stands there in place of the project's, once it is read.
 [[nodiscard]] bool shows_import(const Workbench& now);

@@ -353,6 +353,9 @@ void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) 
         search_.open();
         ask_.show([](actions::Session& session) { session.search_wanted = false; });
     }
+    if (now.asks()) { // what is asked comes first, and has the keys
+        search_.close();
+    }
     dialogs_.draw(ui, now, ask_);
     std::vector<widgets::SearchItem> items;
     std::vector<std::string> ids;

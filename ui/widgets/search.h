@@ -24,6 +24,7 @@ struct SearchItem {
 class Search {
 public:
     void open();
+    void close() { is_open_ = false; }
     [[nodiscard]] bool is_open() const { return is_open_; }
 
     /// Draws the palette over the window while it is open. The index of the item just chosen; it is closed

@@ -75,7 +75,17 @@ CadChild::CadChild(std::vector<std::string> arguments,
     posix_spawn_file_actions_adddup2(&files, heard.number, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files, said[1], STDOUT_FILENO);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    const int fault = ::posix_spawn(&child_, argv.front(), &files, nullptr, argv.data(), environ);
+    // Ends with who reads it, and with a disk that is full, also where this program ignores such signals.
+    posix_spawnattr_t usual{};
+    sigset_t ending{};
+    sigemptyset(&ending);
+    sigaddset(&ending, SIGPIPE);
+    sigaddset(&ending, SIGXFSZ);
+    posix_spawnattr_init(&usual);
+    posix_spawnattr_setflags(&usual, POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigdefault(&usual, &ending);
+    const int fault = ::posix_spawn(&child_, argv.front(), &files, &usual, argv.data(), environ);
+    posix_spawnattr_destroy(&usual);
     posix_spawn_file_actions_destroy(&files);
     ::close(said[1]);
     said_ = said[0];

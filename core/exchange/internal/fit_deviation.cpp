@@ -1,6 +1,7 @@
+#include "core/exchange/internal/fit_deviation.h"
+
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/exchange/internal/fit_deviation.h"
 #include "core/exchange/internal/triangle_search.h"
 #include "core/geometry/closest_point.h"
 

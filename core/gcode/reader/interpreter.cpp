@@ -1,12 +1,14 @@
 #include "core/gcode/reader/interpreter.h"
 
+#include "core/base/numbers.h"
 #include "core/gcode/reader/internal/control_flow.h"
 #include "core/gcode/reader/internal/execute.h"
 #include "core/gcode/reader/internal/expression.h"
-#include "core/gcode/reader/internal/grbl_rules.h"
+#include "core/gcode/reader/internal/grbl_words.h"
 #include "core/gcode/reader/internal/held_moves.h"
 #include "core/gcode/reader/internal/number.h"
 #include "core/gcode/reader/internal/offsets.h"
+#include "core/gcode/reader/internal/start_modes.h"
 #include "core/gcode/reader/word_column.h"
 
 #include <fmt/format.h>
@@ -61,7 +63,9 @@ struct Interpreter::Parts {
           ReaderSettings with,
           CanonSink& sink)
         : settings(std::move(with)), run(settings, sink), files(std::move(source), std::move(folders)),
-          flow(run, files) {}
+          flow(run, files) {
+        settings.any_tool = settings.any_tool || is_grbl(); // which has no tool table
+    }
     Parts(const Parts&) = delete;
     Parts& operator=(const Parts&) = delete;
     ~Parts() = default;
@@ -86,6 +90,7 @@ struct Interpreter::Parts {
     SourceFiles files;
     ControlFlow flow;
     ParsedLine line;
+    std::string grbl_line; ///< as Grbl takes it, where that differs from the text
     std::vector<Diagnostic> errors;
     std::set<std::tuple<int, int, int>> told; ///< file, line and column of each error
     std::int64_t further_errors = 0;
@@ -113,13 +118,20 @@ void Interpreter::Parts::start() {
     if (run.variables.stored(internal::parameter_g92_active) > 0.0) {
         s.g92_offset = run.to_program(run.variables.axes_from(internal::parameter_g92));
     }
+    s.tool_offset[Axis::z] = settings.tool_length * run.machine_to_program();
     s.position = internal::relative_to_system(run.to_program(settings.start), s);
     run.out.send(CommandKind::use_length_units, static_cast<int>(s.unit));
     run.out.send(internal::command_of(CommandKind::set_g5x_offset, s.g5x_offset, s.coordinate_system));
     run.out.send(internal::command_of(CommandKind::set_g92_offset, s.g92_offset));
     run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
+    if (!exactly_equal(settings.tool_length, 0.0)) {
+        run.out.send(internal::command_of(CommandKind::use_tool_length_offset, s.tool_offset));
+    }
     run.out.send(CommandKind::set_feed_reference);
     run.out.send(CommandKind::on_reset);
+    if (!settings.modes.empty()) {
+        internal::take_modes(run, settings.modes);
+    }
 }
 
 bool Interpreter::Parts::step() {
@@ -244,11 +256,11 @@ void Interpreter::Parts::execute(std::string_view text) {
         }
     }
     seen_text = true;
+    if (is_grbl()) {
+        cursor = Cursor(internal::grbl_words(text, settings.mist, grbl_line));
+    }
     if (cursor.take('/') && settings.block_delete) {
         return;
-    }
-    if (is_grbl()) {
-        internal::check_grbl_text(text);
     }
     if (cursor.take('N')) {
         internal::read_line_number(cursor);
@@ -285,9 +297,6 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
     }
     const double code = internal::read_number(ahead);
     if (code > 97.9 && code < 98.1) {
-        if (is_grbl()) {
-            internal::refuse(cursor.column(), "Grbl does not know M98 (error 20)");
-        }
         line.clear();
         internal::parse_words(ahead, run.variables, line);
         flow.call_fanuc(line.block);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace millwright::gcode {
 struct ReaderSettings {
     Dialect dialect = Dialect::linuxcnc;
     LengthUnit machine_unit = LengthUnit::mm; ///< of tool table and of parameters that hold lengths
+    bool mist = false;                        ///< of a Grbl: it was built with M7
     bool block_delete = false;                ///< lines that begin with / are left out
     ToolTable tools;
     bool any_tool = false; ///< a tool that the table lacks is taken for one without length and diameter
@@ -31,6 +33,10 @@ struct ReaderSettings {
     int most_moves_of_a_line = 1'000'000;
     /// Where the axes are at the start, in machine coordinates, machine unit and degrees.
     AxisValues start;
+    double tool_length = 0.0; ///< in force at the start, along Z, machine unit
+    /// In force at the start, as a controller reports it: "G1 G55 G20 G91 M3 F300", F in mm per minute;
+    /// empty: what the dialect begins with.
+    std::string modes;
 };
 
 } // namespace millwright::gcode

@@ -219,9 +219,9 @@ void SessionDriver::trust_position() {
     session().trust_position();
 }
 
-void SessionDriver::doubt_position(std::string why) {
+void SessionDriver::doubt_position(std::string why, bool lost) {
     const Turn turn(*this);
-    session().doubt_position(std::move(why));
+    session().doubt_position(std::move(why), lost);
 }
 
 void SessionDriver::close() noexcept {

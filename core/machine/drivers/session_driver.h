@@ -37,7 +37,7 @@ public:
     /// Makes a lost link again; throws Error as connect() does, and is disconnected then.
     void reset() override;
     void trust_position() override;
-    void doubt_position(std::string why) override;
+    void doubt_position(std::string why, bool lost) override;
     void close() noexcept override;
     void set_overrides(const Overrides& wanted) override;
     void jog(const Jog& jog) override;

@@ -12,6 +12,8 @@ public:
     virtual ~Emulator() = default;
 
     virtual void receive(std::string_view bytes) = 0;
+    /// It has no room for more: whoever sends has to wait.
+    [[nodiscard]] virtual bool full() const { return false; }
     /// Lets `seconds` >= 0 pass.
     virtual void advance(double seconds) = 0;
     /// Takes what it has sent.

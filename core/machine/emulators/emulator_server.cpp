@@ -30,6 +30,11 @@ void EmulatorServer::wait_for_host(std::optional<double> silence) {
     silence_ = owed_ = 0.0;
 }
 
+void EmulatorServer::reset_when_opened(bool on) {
+    const std::scoped_lock lock(mutex_);
+    reset_when_opened_ = on;
+}
+
 void EmulatorServer::run(const std::stop_token& stop) noexcept {
     double last = clock_.now();
     while (!stop.stop_requested()) {
@@ -61,11 +66,18 @@ void EmulatorServer::turn(double& last) {
     owed_ = longest_silence_ ? std::min(due - passes, longest_lap * speed_) : 0.0;
     emulator_->advance(passes);
     silence_ += passes;
+    std::string heard;
+    int visits = 0;
     for (const auto& link : links_) {
-        const std::string bytes = link->read();
-        silence_ = bytes.empty() ? silence_ : 0.0;
-        passed_ += static_cast<std::int64_t>(bytes.size());
-        emulator_->receive(bytes);
+        heard += emulator_->full() ? std::string() : link->read();
+        visits += link->visits();
+    }
+    silence_ = heard.empty() ? silence_ : 0.0;
+    passed_ += static_cast<std::int64_t>(heard.size());
+    if (std::exchange(visits_, visits) != visits && reset_when_opened_) {
+        emulator_->power_cycle(); // and what was said meanwhile went to nobody
+    } else {
+        emulator_->receive(heard);
     }
     happen();
     const std::string said = emulator_->take_output();

@@ -36,6 +36,9 @@ public:
     /// host on a busy computer is not taken for a cut cable; nothing: it never waits, as is the beginning. Of
     /// a host that speaks every few silences it runs at its true speed all the same.
     void wait_for_host(std::optional<double> silence);
+    /// The controller loses its power for a moment whenever a program connects, as boards do that are wired
+    /// to DTR.
+    void reset_when_opened(bool on);
     /// Why it no longer serves; empty while it does.
     [[nodiscard]] std::string failure() const;
 
@@ -61,6 +64,8 @@ private:
     std::optional<double> longest_silence_; ///< of the controller's time
     double owed_ = 0.0;                     ///< of it, that a short wait took, s
     double silence_ = 0.0;
+    bool reset_when_opened_ = false;
+    int visits_ = 0; ///< to all links, so far
     std::jthread thread_;
 };
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,20 +17,10 @@ constexpr double clearance = 1.0;                     // mm: more than any contr
 constexpr double clearance_angle = from_degrees(1.0); // rad
 constexpr double longest_doubt = 0.25;                // s: more than two reports
 
-/// Whether it begins as a survey does: G54, mm, absolute, XY.
-bool begins_plainly(std::string_view modes) {
-    constexpr std::array<std::string_view, 4> needed = {"G54", "G21", "G90", "G17"};
-    const std::string words = fmt::format(" {} ", modes);
-    return std::ranges::all_of(needed, [&words](std::string_view word) {
-        return words.find(fmt::format(" {} ", word)) != std::string::npos;
-    });
-}
-
-/// Grbl keeps the length of a tool as an offset that no survey knows.
-bool knows_offsets(const std::vector<StoredOffset>& offsets) {
-    return !offsets.empty() && std::ranges::none_of(offsets, [](const StoredOffset& offset) {
-        return offset.name == "TLO" && !offset.value.isZero();
-    });
+/// LinuxCNC says that a tool's length is in force, and not how long it is.
+bool knows_tool_length(const DriverStatus& before, const std::vector<StoredOffset>& offsets) {
+    return before.modes.find("G43") == std::string::npos ||
+           std::ranges::any_of(offsets, [](const StoredOffset& offset) { return offset.name == "TLO"; });
 }
 
 } // namespace
@@ -41,7 +30,8 @@ Reach::Reach(const Survey& found,
              const DriverStatus& before,
              const std::vector<StoredOffset>& offsets)
     : axes_(std::move(axes)), doubt_(before.position_doubt) {
-    if (found.errors.empty() && !found.probes && begins_plainly(before.modes) && knows_offsets(offsets)) {
+    if (found.errors.empty() && !found.probes && !before.modes.empty() && !offsets.empty() &&
+        knows_tool_length(before, offsets)) {
         found_ = found;
     }
 }

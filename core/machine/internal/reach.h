@@ -14,9 +14,9 @@ class Reach {
 public:
     /// Knows of nothing.
     Reach() = default;
-    /// `before` and `offsets` as the controller told them, `found` surveyed with them. What cannot be told
-    /// beforehand is not watched: programs that probe, and those that begin with other modes or offsets than
-    /// the survey does.
+    /// `before` and `offsets` as the controller reports them, `found` surveyed with them. What cannot be
+    /// known beforehand is not watched: programs that probe, and controllers that report no modes or no
+    /// offsets.
     Reach(const Survey& found,
           std::vector<gcode::ProgramAxis> axes,
           const DriverStatus& before,

@@ -22,6 +22,7 @@ public:
     void wait(double seconds) override;
     [[nodiscard]] std::optional<std::string> lost() const override;
     void close() noexcept override;
+    [[nodiscard]] int visits() const override { return inner_->visits(); }
 
     /// Bytes that were sent in either direction.
     [[nodiscard]] std::int64_t passed() const;

@@ -20,6 +20,7 @@ void FileLink::write(std::string_view bytes) {
     const std::scoped_lock lock(mutex_);
     if (out_.is_open() && !failed_) {
         out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        out_.flush(); // a disk that is full is told now, not when nobody listens any more
         failed_ = !out_;
     }
 }

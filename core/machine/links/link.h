@@ -28,6 +28,8 @@ public:
     /// Why nothing can be sent or received any more; nothing while the link stands.
     [[nodiscard]] virtual std::optional<std::string> lost() const = 0;
     virtual void close() noexcept = 0;
+    /// How many programs have connected to it so far, where it listens and the system tells; else 0.
+    [[nodiscard]] virtual int visits() const { return 0; }
 };
 
 /// A sentence for people of what Link::lost() says: "the link was lost: WHY", or that it was never ours.

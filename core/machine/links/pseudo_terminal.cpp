@@ -106,7 +106,7 @@ void PseudoTerminal::make_symlink() {
 }
 
 void PseudoTerminal::write(std::string_view bytes) {
-    port_->write(bytes);
+    port_->write_or_drop(bytes);
 }
 
 std::string PseudoTerminal::read() {

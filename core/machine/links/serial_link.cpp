@@ -25,6 +25,24 @@ void lock(int handle) {
     }
 }
 
+[[noreturn]] void throw_last_error() {
+    throw boost::system::system_error(boost::system::error_code(errno, boost::system::system_category()));
+}
+
+/// Closing a port takes DTR back, and many boards (Arduino) are wired to reset when DTR comes again: whoever
+/// opened the port next would cut a moving machine off. It stays on instead, so that only the first opening
+/// after the plug was put in can do so.
+void keep_dtr(int handle) {
+    termios settings{};
+    if (::tcgetattr(handle, &settings) != 0) {
+        throw_last_error();
+    }
+    settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
+    if (::tcsetattr(handle, TCSANOW, &settings) != 0) {
+        throw_last_error();
+    }
+}
+
 std::string held_sentence(const std::string& path) {
     const std::vector<std::string> others = internal::others_with(path);
     if (others.empty()) {
@@ -54,6 +72,7 @@ void SerialLink::open() {
             port.set_option(Base::stop_bits(Base::stop_bits::one));
             port.set_option(Base::flow_control(Base::flow_control::none));
             lock(port.native_handle());
+            keep_dtr(port.native_handle());
             (void)::tcflush(port.native_handle(), TCIFLUSH);
         });
     } catch (const boost::system::system_error& failure) {

@@ -44,12 +44,24 @@ public:
         boost::asio::post(context_, [this, copy = std::string(bytes)] {
             if (client_.is_open()) {
                 waiting_ += copy;
+                if (waiting_.size() > most_waiting) { // of one who does not listen
+                    Failure ignored;
+                    waiting_.clear();
+                    client_.shutdown(tcp::socket::shutdown_both, ignored);
+                }
                 write_more();
             }
         });
     }
+    [[nodiscard]] int visits() const {
+        const std::scoped_lock lock(mutex_);
+        return visits_;
+    }
     [[nodiscard]] std::string read() {
         const std::scoped_lock lock(mutex_);
+        if (std::exchange(full_, false)) {
+            boost::asio::post(context_, [this] { read_more(); });
+        }
         return std::exchange(received_, {});
     }
     void wait(double seconds) {
@@ -59,6 +71,9 @@ public:
     }
 
 private:
+    static constexpr std::size_t most_waiting = std::size_t{1} << 20U;  ///< bytes, 1 MiB
+    static constexpr std::size_t most_received = std::size_t{1} << 20U; ///< then the client has to wait
+
     void accept_more() {
         acceptor_.async_accept(visitor_, [this](const Failure& failure) {
             if (failure == boost::asio::error::operation_aborted) {
@@ -87,6 +102,7 @@ private:
         const auto far_end = client_.remote_endpoint(ignored);
         {
             const std::scoped_lock lock(mutex_);
+            ++visits_;
             holder_ = fmt::format("{}:{}", far_end.address().to_string(), far_end.port());
         }
         read_more();
@@ -127,12 +143,16 @@ private:
                 drop_client();
                 return;
             }
+            bool full = false;
             {
                 const std::scoped_lock lock(mutex_);
                 received_.append(chunk_.data(), n);
+                full = full_ = received_.size() >= most_received;
             }
             changed_.notify_all();
-            read_more();
+            if (!full) {
+                read_more();
+            }
         });
     }
 
@@ -162,8 +182,10 @@ private:
     tcp::socket client_, visitor_;
     std::string waiting_, sending_;
     std::array<char, 4096> chunk_{};
-    mutable std::mutex mutex_; ///< guards holder_ and received_
+    mutable std::mutex mutex_; ///< guards holder_, received_, full_ and visits_
+    int visits_ = 0;
     std::condition_variable changed_;
+    bool full_ = false; ///< nothing is read until what came is taken
     std::string holder_, received_;
     std::jthread thread_; ///< last: ends before what it uses
 };
@@ -178,6 +200,10 @@ std::uint16_t TcpServer::port() const {
 
 std::string TcpServer::holder() const {
     return listener_ ? listener_->holder() : std::string();
+}
+
+int TcpServer::visits() const {
+    return listener_ ? listener_->visits() : 0;
 }
 
 std::string TcpServer::name() const {

@@ -30,6 +30,7 @@ public:
     /// Clients come and go; the link is lost only when nobody listens any more.
     [[nodiscard]] std::optional<std::string> lost() const override;
     void close() noexcept override;
+    [[nodiscard]] int visits() const override;
 
 private:
     class Listener;

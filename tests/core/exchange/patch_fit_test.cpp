@@ -1,5 +1,6 @@
-#include "core/base/error.h"
 #include "core/exchange/patch_fit.h"
+
+#include "core/base/error.h"
 #include "core/geometry/closest_point.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/presets.h"

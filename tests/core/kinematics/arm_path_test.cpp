@@ -67,7 +67,7 @@ TEST(ArmPath, TellsWhereItsReachEnds) {
     ASSERT_EQ(path.findings.size(), 1U);
     const ArmFinding& finding = path.findings.front();
     EXPECT_EQ(finding.trouble, ArmTrouble::out_of_reach);
-    EXPECT_THAT(finding.why, HasSubstr("the arm reaches 150.000 to 1450.000"));
+    EXPECT_THAT(finding.why, HasSubstr("the arm reaches 291.924 to 1450.000"));
     EXPECT_NEAR(1000.0 + 1000.0 * path.points[finding.first].share, 1450.0, 0.5);
     EXPECT_EQ(finding.last, path.points.size() - 1);
 }

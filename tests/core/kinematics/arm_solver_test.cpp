@@ -2,6 +2,7 @@
 
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/tool_roll.h"
 #include "tests/support/arms.h"
 
 #include <gtest/gtest.h>
@@ -89,6 +90,52 @@ TEST(ArmSolverOfTheScara, OneSolutionStandsForEveryRoll) {
     for (const JointPositions& one : found) {
         EXPECT_LT((base_T_tool(arm, one).translation() - goal.translation()).norm(), 1e-6);
     }
+}
+
+/// The tip there and the axis in its direction; the roll is ours.
+Frame goal_of(const ArmModel& arm, const JointPositions& q) {
+    Frame goal = base_T_tool(arm, q);
+    goal.linear() = frame_with_roll(goal.linear().col(2), 0.0);
+    return goal;
+}
+
+// Joint 6 hardly turns: most rolls cannot be had, and some always can.
+TEST(ArmSolverOfSixJoints, EveryPoseOfAnArmIsFoundWhereTheRollIsFree) {
+    ArmDescription description = test::arm("six-axis").description();
+    description.joints[5].min = from_degrees(-30.0);
+    description.joints[5].max = from_degrees(30.0);
+    const ArmModel arm(description);
+    std::mt19937 random(5);
+    for (int n = 0; n < 60; ++n) {
+        const JointPositions q = test::random_joints(random, arm);
+        const Frame goal = goal_of(arm, q);
+        const auto found =
+            solve_arm_from_many_starts(arm, goal, ArmDemand::tip_and_axis, JointPositions::Zero(6), 50);
+        EXPECT_FALSE(found.empty()) << q.transpose();
+        for (const JointPositions& one : found) {
+            EXPECT_EQ(arm.joint_outside(one), -1);
+            EXPECT_LT((base_T_tool(arm, one).translation() - goal.translation()).norm(), 1e-6);
+            EXPECT_LT((base_T_tool(arm, one).linear().col(2) - goal.linear().col(2)).norm(), 1e-8);
+        }
+    }
+}
+
+TEST(ToolRoll, IsThatOfTheFrameWithThatRoll) {
+    std::mt19937 random(2);
+    std::normal_distribution<double> any;
+    for (int n = 0; n < 100; ++n) {
+        const Vec3 axis = n < 2 ? Vec3(0.0, 0.0, n == 0 ? 1.0 : -1.0)
+                                : Vec3(any(random), any(random), any(random)).normalized();
+        const double roll = std::uniform_real_distribution<double>(-3.1, 3.1)(random);
+        const Mat3 frame = frame_with_roll(axis, roll);
+        EXPECT_TRUE(frame.isUnitary(1e-12));
+        EXPECT_NEAR(frame.determinant(), 1.0, 1e-12);
+        EXPECT_LT((frame.col(2) - axis).norm(), 1e-12);
+        EXPECT_NEAR(roll_of(frame), roll, 1e-9);
+    }
+    EXPECT_LT((frame_with_roll(Vec3::UnitX(), 0.0).col(0) - Vec3::UnitZ()).norm(), 1e-12);
+    EXPECT_LT((frame_with_roll(Vec3::UnitZ(), 0.0).col(0) - Vec3::UnitX()).norm(), 1e-12);
+    EXPECT_LT((frame_with_roll(Vec3::UnitZ(), 0.5 * pi).col(0) - Vec3::UnitY()).norm(), 1e-12);
 }
 
 TEST(ArmSolverOfTheL3, SaysThatItFoundNothing) {

@@ -42,7 +42,7 @@ TEST_F(PositionMemoryOf, AnEmptyFolderKnowsOfNoDoubtAndStaysEmptyWithoutOne) {
 }
 
 TEST_F(PositionMemoryOf, AControllerIsRemindedOfWhatWasInDoubt) {
-    driver.doubt_position("the controller was reset");
+    driver.doubt_position("the controller was reset", true);
     memory().keep(driver.status());
     trust(); // as a session that knows nothing of it
     memory("grbl /dev/ttyUSB1").remind(driver);
@@ -52,15 +52,15 @@ TEST_F(PositionMemoryOf, AControllerIsRemindedOfWhatWasInDoubt) {
 }
 
 TEST_F(PositionMemoryOf, WhatHappenedIsToldAndNotHowTheControllerWasFound) {
-    driver.doubt_position("the controller was reset");
+    driver.doubt_position("the controller was reset", true);
     memory().keep(driver.status());
-    driver.doubt_position("Grbl was locked when it was found");
+    driver.doubt_position("Grbl was locked when it was found", true);
     memory().remind(driver);
     EXPECT_EQ(doubt(), "the controller was reset");
 }
 
 TEST_F(PositionMemoryOf, ADoubtThatHasEndedIsForgotten) {
-    driver.doubt_position("the controller was reset");
+    driver.doubt_position("the controller was reset", true);
     PositionMemory now = memory();
     now.keep(driver.status());
     trust();
@@ -72,7 +72,7 @@ TEST_F(PositionMemoryOf, ADoubtThatHasEndedIsForgotten) {
 
 /// Nothing is known of a machine then, and certainly not that all is well.
 TEST_F(PositionMemoryOf, ADisconnectedDriverEndsNoDoubt) {
-    driver.doubt_position("the controller was reset");
+    driver.doubt_position("the controller was reset", true);
     PositionMemory now = memory();
     now.keep(driver.status());
     now.keep(DriverStatus{});
@@ -82,7 +82,7 @@ TEST_F(PositionMemoryOf, ADisconnectedDriverEndsNoDoubt) {
 }
 
 TEST_F(PositionMemoryOf, AFileThatCannotBeReadIsADoubt) {
-    driver.doubt_position("the controller was reset");
+    driver.doubt_position("the controller was reset", true);
     memory().keep(driver.status());
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         write_file(entry.path(), R"({"format": "millwright-position-doubt", "version": 1)");
@@ -98,11 +98,21 @@ TEST_F(PositionMemoryOf, AFileThatCannotBeReadIsADoubt) {
 
 TEST_F(PositionMemoryOf, WhatCannotBeWrittenIsToldOnce) {
     write_file(folder, "a file where the folder should be");
-    driver.doubt_position("the controller was reset");
+    driver.doubt_position("the controller was reset", true);
     PositionMemory now = memory();
     EXPECT_THROW(now.keep(driver.status()), Error);
     EXPECT_NO_THROW(now.keep(driver.status()));
     EXPECT_EQ(doubt(), "the controller was reset");
+}
+
+TEST_F(PositionMemoryOf, ADoubtIsRememberedAsWhatItWas) {
+    for (const bool lost : {true, false}) {
+        driver.doubt_position("Grbl is at zero", lost);
+        memory().keep(driver.status());
+        trust();
+        memory().remind(driver);
+        EXPECT_EQ(wire.session.status().position_lost, lost);
+    }
 }
 
 } // namespace

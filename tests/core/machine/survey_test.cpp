@@ -101,5 +101,38 @@ TEST(Survey, ReportsErrorsWithTheirPlace) {
     EXPECT_EQ(faults_of(found, {}, "a.ngc").front().place.file, "a.ngc");
 }
 
+/// A controller begins with what it has in force.
+TEST(SurveyModes, CountInInchesWhereTheControllerDoes) {
+    SurveySettings settings{Dialect::grbl, xyz, kinematics::AxisPositions::Zero(3), {}};
+    settings.modes = "G0 G54 G17 G20 G90 G94 M5 M9 T0 F0 S0";
+    const Survey found = survey("G90 G54\nG0 X10\nG0 X0\nM30\n", "a.ngc", settings);
+    EXPECT_TRUE(found.errors.empty());
+    EXPECT_NEAR(found.ranges[0].max, 254.0, 1e-9);
+    EXPECT_TRUE(found.tools.empty());
+}
+
+TEST(SurveyModes, GoOnFromWhereTheMachineIsUnderG91) {
+    SurveySettings settings{Dialect::grbl, xyz, kinematics::AxisPositions::Zero(3), {}};
+    settings.modes = "G0 G54 G17 G21 G91 G94 M5 M9 T0 F0 S0";
+    EXPECT_NEAR(survey("G21\nG0 X10\nG0 X20\nG0 X10\n", "a.ngc", settings).ranges[0].max, 40.0, 1e-9);
+}
+
+TEST(SurveyModes, TakeWorkSystemMotionFeedAndToolLength) {
+    const kinematics::AxisPositions offset = Vec3(100.0, 0.0, 0.0);
+    const kinematics::AxisPositions length = Vec3(0.0, 0.0, 7.0);
+    SurveySettings settings{
+        Dialect::grbl, xyz, kinematics::AxisPositions::Zero(3), {{"G55", offset}, {"TLO", length}}};
+    settings.modes = "G1 G55 G18 G21 G90 G94 M3 M8 T1 F300 S1000";
+    const Survey found = survey("X5\nZ1\n", "a.ngc", settings);
+    EXPECT_TRUE(found.errors.empty()) << to_text(found.errors.front());
+    EXPECT_NEAR(found.ranges[0].max, 105.0, 1e-9);
+    EXPECT_NEAR(found.ranges[2].max, 8.0, 1e-9);
+    EXPECT_TRUE(found.spindle_before_cut);
+    settings.modes = "G2 G54 G17 G21 G90 G94 M5 M9 T0 F300 S0";
+    EXPECT_FALSE(survey("X5 Y1\n", "a.ngc", settings).errors.empty()); // an arc without its centre
+    settings.modes = "G1 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0";
+    EXPECT_FALSE(survey("X5\n", "a.ngc", settings).errors.empty()); // without feed
+}
+
 } // namespace
 } // namespace millwright::machine

@@ -19,6 +19,7 @@ protected:
                      .settings = {},
                      .recovery = {},
                      .wake = [] {}}) {
+        workshop_.session().workspace = Workspace::machine;
         workshop_.wait_idle();
     }
     ~WorkshopOnDisk() override { fs::remove_all(folder_); }

@@ -5,6 +5,7 @@
 #include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/line_name.h"
+#include "ui/panels/view_panel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -502,6 +503,35 @@ TEST(ArmAtPmac, TakesNoGCode) {
     bench.person.wait_idle();
     const auto now = bench.person.workshop().look();
     EXPECT_FALSE(bench.person.workshop().catalogue().find("machine.run").permission(now).allowed);
+}
+
+// It spoke of mm/min on joints, sent G10 to the card, and showed the table of another machine.
+TEST(ArmAtPmac, TheMachineWorkspaceShowsTheArmThatIsConnected) {
+    ArmAtPmac bench;
+    bench.connect();
+    bench.person.workshop().run("view.machine");
+    bench.person.frames(4);
+    bench.person.keep("machine-at-arm");
+    for (const char* const of_a_mill : {"hand/jog/speed",
+                                        "hand/position/zero_X",
+                                        "inspector/job/machine_run",
+                                        "inspector/job/speed",
+                                        "inspector/overrides/feed_less"}) {
+        EXPECT_FALSE(bench.person.sees(of_a_mill)) << of_a_mill;
+    }
+    EXPECT_TRUE(bench.person.sees("hand/position/axes/X"));
+    EXPECT_TRUE(bench.person.sees("inspector/connection/machine_disconnect"));
+    EXPECT_TRUE(scene_of(bench.person.workshop().look()).arm.has_value());
+    bench.person.click("hand/view_arm");
+    EXPECT_EQ(bench.person.workshop().session().workspace, actions::Workspace::arm);
+    bench.person.workshop().run("view.machine");
+    bench.person.frames(3);
+    bench.person.click("inspector/connection/machine_disconnect");
+    ASSERT_TRUE(
+        bench.person.live_until([&] { return !bench.person.workshop().look().controller.connected(); }));
+    bench.person.frames(3);
+    EXPECT_FALSE(scene_of(bench.person.workshop().look()).arm.has_value());
+    EXPECT_TRUE(bench.person.sees("inspector/job/machine_run"));
 }
 
 } // namespace

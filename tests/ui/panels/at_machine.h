@@ -31,4 +31,13 @@ inline void connect(Person& person, GrblBench& grbl) {
     connect(person);
 }
 
+/// Runs what is shown, or what waits in the queue, and says yes to the question before a machine moves.
+inline void press_run(Person& person, const std::string& button = "inspector/job/machine_run") {
+    const std::string start = "dialogs/start/start_go";
+    person.click(button);
+    ASSERT_TRUE(person.live_until([&] { return person.sees(start) && person.refusal(start).empty(); }))
+        << (person.sees(start) ? person.refusal(start) : "not asked");
+    person.click(start);
+}
+
 } // namespace millwright::test

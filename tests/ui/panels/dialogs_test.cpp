@@ -151,6 +151,7 @@ TEST(Dialogs, KeysReachTheMachineAlone) {
     Person person;
     person.open(dome_project);
     person.workshop().session().machine_speed = 1.0;
+    person.workshop().run("view.machine");
     person.press_key(render::Key::f9);
     person.frames(3);
     ASSERT_TRUE(person.workshop().look().job.running);

@@ -56,9 +56,9 @@ protected:
 TEST_F(FileDialog, OpensWhatIsClickedTwiceAndShowsItBefore) {
     fs::copy_file("assets/projects/two-bell.json", person_.folder() / "bells.json");
     person_.press_key(render::Key::o, true);
-    const render::Picture before = person_.picture();
+    const render::Picture before = person_.picture_of("dialogs/files/picture");
     person_.click("dialogs/files/entries/bells.json");
-    EXPECT_NE(before, person_.picture());
+    EXPECT_NE(before, person_.picture_of("dialogs/files/picture"));
     EXPECT_EQ(person_.workshop().look().document.file.filename(), "mine.json");
     person_.click("dialogs/files/entries/bells.json");
     person_.frames();

@@ -3,6 +3,7 @@
 
 #include "core/machine/emulators/grbl/grbl_server.h"
 #include "core/machine/links/pseudo_terminal.h"
+#include "tests/core/machine/emulators/grbl/stored_settings.h"
 
 #include <memory>
 #include <string>
@@ -23,7 +24,8 @@ public:
         options.surface = [](double, double) { return part_height; };
         server_ = std::make_unique<machine::GrblServer>(std::move(links), clock_, std::move(options));
         server_->with_controller([](machine::GrblEmulator& grbl) {
-            grbl.receive("$120=500\n$121=500\n$122=500\n$110=3000\n$111=3000\n$112=3000\n$20=0\n");
+            test::store_settings(grbl,
+                                 "$120=500\n$121=500\n$122=500\n$110=3000\n$111=3000\n$112=3000\n$20=0\n");
         });
     }
 
@@ -33,7 +35,7 @@ public:
     /// Homing by switches, of a machine that is small enough not to take long.
     void install_switches() {
         server_->with_controller([](machine::GrblEmulator& grbl) {
-            grbl.receive("$130=30\n$131=30\n$132=30\n$24=300\n$25=1200\n$22=1\n");
+            test::store_settings(grbl, "$130=30\n$131=30\n$132=30\n$24=300\n$25=1200\n$22=1\n");
         });
     }
     /// All that it has accepted so far.

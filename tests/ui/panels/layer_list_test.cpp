@@ -51,15 +51,15 @@ TEST(LayerList, StaysOpenForTheNextLayerAndClosesByAClickElsewhere) {
 TEST(LayerList, AHiddenLayerIsGoneFromThePictureAndComesBack) {
     Person person;
     person.open(dome_project);
-    const render::Picture with = person.picture();
+    const render::Picture with = person.picture_of("view/iso");
     EXPECT_TRUE(person.sees("view/control_point(1,1)"));
     person.workshop().run("view.layer_control_net");
     person.frames();
-    EXPECT_NE(person.picture(), with);
+    EXPECT_NE(person.picture_of("view/iso"), with);
     EXPECT_FALSE(person.sees("view/control_point(1,1)"));
     person.workshop().run("view.layer_control_net");
     person.frames();
-    EXPECT_EQ(person.picture(), with);
+    EXPECT_EQ(person.picture_of("view/iso"), with);
 }
 
 TEST(LayerList, GoesBackToTheUsualLayers) {
@@ -84,14 +84,14 @@ TEST(LayerList, TheWeightIsShownFromTheGridPanelAndFollowsTheFormula) {
     person.click("inspector/elliptic/show_weight");
     EXPECT_TRUE(shown_layers(person).weight);
     EXPECT_TRUE(person.sees("view/weight_legend"));
-    const render::Picture of_error = person.picture();
+    const render::Picture of_error = person.picture_of("view/iso");
     person.keep("weight-of-the-error");
     person.workshop().edit(
         "Choose the weight",
         [](project::Project& p) { p.grid.elliptic.weight = project::WeightSource::expression; },
         {});
     person.wait_idle();
-    EXPECT_NE(person.picture(), of_error);
+    EXPECT_NE(person.picture_of("view/iso"), of_error);
     person.keep("weight-of-a-formula");
     EXPECT_TRUE(person.desktop().ui().cut_texts().empty());
 }

@@ -184,7 +184,7 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     person.open(person.folder() / "part.ngc");
     person.workshop().run("view.machine");
     person.frames(3);
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     ASSERT_TRUE(person.live_until([this] { return grbl.position()[0] > 2.0; }, 60.0));
     person.click("inspector/job/machine_hold");
     ASSERT_TRUE(person.live_until([this] { return is(DriverState::holding) && !grbl.moving(); }));
@@ -215,7 +215,7 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("The position may be lost"));
     person.click("inspector/job/begin/trust");
     ASSERT_TRUE(person.live_until([this] { return person.refusal("inspector/job/machine_run").empty(); }));
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     const auto outcome = [this] { return person.workshop().look().job.outcome; };
     ASSERT_TRUE(person.live_until([&] { return outcome() && outcome()->end != JobEnd::fault; }, 90.0));
     EXPECT_EQ(outcome()->end, JobEnd::done) << outcome()->sentence;

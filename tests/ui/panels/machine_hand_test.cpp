@@ -482,7 +482,7 @@ TEST_F(MachineByHand, RunsAFileHoldsResumesAndEnds) {
     person.open(file);
     person.workshop().run("view.machine");
     person.frames(3);
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     ASSERT_TRUE(live_until([this] { return grbl.position()[0] > 4.0; }));
     person.keep("machine-job");
     person.workshop().run("machine.hold");

@@ -81,7 +81,7 @@ TEST_F(MachineJobs, AreNotEndedByClosingTheWindowUnlessAPersonSaysSo) {
     person.open(person.folder() / "long.ngc");
     person.workshop().run("view.machine");
     person.frames(3);
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return grbl.moving(); }));
     const auto& session = person.workshop().session();
 
@@ -110,7 +110,7 @@ TEST_F(MachineJobs, ThatEndMeanwhileAreNotAskedAbout) {
     person.open(person.folder() / "short.ngc");
     person.workshop().run("view.machine");
     person.frames(3);
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }));
     person.workshop().session().quit_wanted = true; // pressed in the frame before the end was seen
     person.frames(2);
@@ -139,7 +139,7 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     person.keep("machine-from-line-position");
     person.click("inspector/job/begin/trust"); // this Grbl was switched on, and nobody homed it
     ASSERT_TRUE(person.live_until([&] { return !person.sees("inspector/job/begin/trust"); }));
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     double farthest = 0.0;
     int first_line = middle_line;
     ASSERT_TRUE(person.live_until(
@@ -202,7 +202,7 @@ TEST_F(MachineJobs, LogTheOverridesOfAPerson) {
     person.open(program(person.folder()));
     person.workshop().run("view.machine");
     person.frames(3);
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return grbl.position()[0] > 1.0; }));
     actions::ActionQueue ask;
     ask.set_overrides({.feed = 200, .rapid = 50, .spindle = 100});

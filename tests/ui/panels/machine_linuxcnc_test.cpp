@@ -90,7 +90,7 @@ protected:
         person.open(folder / "part.ngc");
         person.workshop().run("view.machine");
         person.frames(3);
-        person.click("inspector/job/machine_run");
+        test::press_run(person);
         ASSERT_TRUE(person.live_until([this] { return linuxcnc.position(0) > 2.0; }, 60.0))
             << (job().failure ? job().failure->message : "");
     }

@@ -82,7 +82,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     EXPECT_EQ(table.records(), 0); // nothing moves by that
     person.wait_idle();
     EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     int first_line = program_lines;
     double most_left = 0.0;
     ASSERT_TRUE(person.live_until(
@@ -107,7 +107,7 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
     connect();
     say_where("hand/messages/stands", 0.0, 0.0, 5.0);
     begin_at(20);
-    person.click("inspector/job/machine_run");
+    test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 26.0; }, 60.0));
     person.workshop().run("machine.stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
@@ -122,8 +122,14 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
 
 TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     connect();
-    person.click("inspector/job/machine_run");
-    ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 8.0; }, 60.0));
+    test::press_run(person);
+    // Within a row: between two rows the table has answered, and its position is known.
+    ASSERT_TRUE(person.live_until(
+        [&] {
+            const machine::DriverStatus status = now().controller.status;
+            return status.position[1] > 8.0 && status.sent_blocks > status.executed_blocks;
+        },
+        60.0));
     person.workshop().run("machine.emergency_stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
     EXPECT_THAT(now().job.outcome->sentence, HasSubstr("was on its way, and nobody knows how far"));

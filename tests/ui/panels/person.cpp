@@ -5,7 +5,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <thread>
 
@@ -239,6 +241,22 @@ render::Picture Person::picture() {
     render::Picture picture = context_.read_back();
     context_.present();
     return picture;
+}
+
+render::Picture Person::picture_of(std::string_view path) {
+    const render::Picture whole = picture();
+    const widgets::Rect rect = place(path);
+    const int left = std::max(0, static_cast<int>(std::ceil(rect.x)));
+    const int top = std::max(0, static_cast<int>(std::ceil(rect.y)));
+    const int right = std::min(whole.size.width, static_cast<int>(rect.right()));
+    const int bottom = std::min(whole.size.height, static_cast<int>(rect.bottom()));
+    render::Picture part{{right - left, bottom - top}, {}};
+    for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) {
+            part.pixels.push_back(whole.at(x, y));
+        }
+    }
+    return part;
 }
 
 void Person::keep(const std::string& name) {

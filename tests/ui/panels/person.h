@@ -74,6 +74,9 @@ public:
     void fill_in(std::string_view path, std::string_view text);
 
     [[nodiscard]] render::Picture picture();
+    /// What a widget shows: its rectangle of the picture. A change elsewhere in the window does not change
+    /// it. Throws Error if the widget was not drawn.
+    [[nodiscard]] render::Picture picture_of(std::string_view path);
     /// For people: the picture as NAME.png in $MILLWRIGHT_PICTURES where it is set.
     void keep(const std::string& name);
     [[nodiscard]] std::filesystem::path folder() const { return folder_; }

@@ -338,7 +338,7 @@ void choose_table(Person& person,
 machine::JobOutcome outcome_of(Person& person, const std::string& button) {
     person.frames(3);
     EXPECT_EQ(person.refusal(button), "");
-    person.click(button);
+    test::press_run(person, button);
     EXPECT_TRUE(person.live_until(
         [&] {
             const actions::JobView job = person.workshop().look().job;
@@ -402,7 +402,7 @@ TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) 
     bench.settle();
     choose_table(bench.person, table.port(), "t {X} {Y} {a} {s}"); // Z is missing
     test::connect(bench.person);
-    bench.person.click("inspector/job/machine_run");
+    test::press_run(bench.person);
     ASSERT_TRUE(
         bench.person.live_until([&] { return bench.person.workshop().look().job.failure.has_value(); }));
     const std::string why = bench.person.workshop().look().job.failure->message;
@@ -435,7 +435,7 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
     bench.person.choose("inspector/connection/driver", "stream");
     bench.person.workshop().session().hand.choice.address = port;
     test::connect(bench.person);
-    bench.person.click("inspector/job/machine_run");
+    test::press_run(bench.person);
     const auto truth = [&] {
         return server.with_emulator([&](machine::Emulator&) { return stream.truth(); });
     };

@@ -59,21 +59,6 @@ void expect_axes(Person& person, const std::vector<double>& wanted, double withi
     }
 }
 
-/// Pixels of the 3D view that differ, as a share of all.
-double difference(Person& person, const render::Picture& a, const render::Picture& b) {
-    const widgets::Rect view = person.place("view/iso");
-    int different = 0;
-    int all = 0;
-    for (int y = static_cast<int>(view.y); y < static_cast<int>(view.bottom()); ++y) {
-        for (int x = static_cast<int>(view.x); x < static_cast<int>(view.right()); ++x) {
-            const auto at = static_cast<std::size_t>(y * a.size.width + x);
-            different += a.pixels[at] == b.pixels[at] ? 0 : 1;
-            ++all;
-        }
-    }
-    return static_cast<double>(different) / all;
-}
-
 TEST(ProgramOnItsMachine, ShowsEveryAxisWhereTheCursorIs) {
     Person person;
     open_for(person, "ac-table", five_axes);
@@ -96,13 +81,13 @@ TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
     layers.machine = true;
     person.workshop().session().fit_wanted = true;
     stand_at(person, 3);
-    const render::Picture before = person.picture();
+    const render::Picture before = person.picture_of("view/iso");
     person.keep("program-machine");
     stand_at(person, 4);
-    const render::Picture after = person.picture();
-    EXPECT_GT(difference(person, before, after), 0.005); // the table turned, the column went sideways
+    EXPECT_GT(render::difference(before, person.picture_of("view/iso"), 0).fraction,
+              0.005); // the table turned, the column went sideways
     stand_at(person, 3);
-    EXPECT_LT(difference(person, before, person.picture()), 1e-9);
+    EXPECT_EQ(person.picture_of("view/iso"), before);
 
     person.workshop().run("view.machine");
     person.frames(4);

@@ -96,9 +96,10 @@ TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     person_.wait_idle();
     const auto weight = person_.workshop().look().plan->plan.weight;
     person_.hover(at(0.5F, 0.5F));
-    const render::Picture with_ring = person_.picture();
+    const render::Picture with_ring = person_.picture_of("view/iso");
     person_.hover(at(0.02F, 0.02F));
-    EXPECT_NE(person_.picture(), with_ring) << "the ring of the brush is gone beside the surface";
+    EXPECT_NE(person_.picture_of("view/iso"), with_ring)
+        << "the ring of the brush is gone beside the surface";
     ASSERT_FALSE(painted());
     person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
     ASSERT_TRUE(painted());

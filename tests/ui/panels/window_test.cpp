@@ -301,6 +301,10 @@ TEST(Workbench, RunsTheProgramOnTheVirtualMachineToItsEnd) {
     Person person;
     person.open(dome_project);
     person.workshop().session().machine_speed = 0.0;
+    person.press_key(render::Key::f9); // goes to the machine, and no further
+    person.wait_idle();
+    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::machine);
+    EXPECT_FALSE(person.workshop().look().job.outcome.has_value());
     person.press_key(render::Key::f9);
     person.wait_idle();
     const auto job = person.workshop().look().job;

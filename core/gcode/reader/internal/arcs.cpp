@@ -32,7 +32,7 @@ CentreWords centre_words(Plane plane) {
     }
 }
 
-void expect_one_form(const Block& block, const ModalState& s) {
+void expect_one_form(const Block& block, const ModalState& s, Dialect dialect) {
     const int column = block.column_of(GGroup::motion);
     const bool by_centre = block.has_any(words_of("IJK"));
     if (!block.has('R') && !by_centre) {
@@ -42,7 +42,7 @@ void expect_one_form(const Block& block, const ModalState& s) {
         refuse(block.column_of('R'), "an arc has either a centre (I J K) or a radius (R)");
     }
     const CentreWords words = centre_words(s.plane);
-    if (by_centre && block.has(words.across)) {
+    if (by_centre && block.has(words.across) && dialect != Dialect::grbl) {
         refuse(block.column_of(words.across),
                fmt::format(
                    "{} does not belong to an arc in the {} plane", words.across, plane_letters(s.plane)));
@@ -85,7 +85,7 @@ void make_arc(Run& run, const Block& block, int motion) {
     if (s.plane > Plane::yz) {
         refuse(column, "no arcs in the planes G17.1, G18.1 and G19.1");
     }
-    expect_one_form(block, s);
+    expect_one_form(block, s, run.settings.dialect);
     expect_feed(run, block, motion);
     const AxisValues end = end_of_move(block, s);
     s.motion = motion;

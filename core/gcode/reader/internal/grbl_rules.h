@@ -4,14 +4,9 @@
 #include "core/gcode/reader/internal/block.h"
 #include "core/gcode/reader/modal_state.h"
 
-#include <string_view>
-
 namespace millwright::gcode::internal {
 
-/// Refuses expressions, parameters, O-words and lines that are too long. Throws Refusal.
-void check_grbl_text(std::string_view line);
-
-/// Refuses codes and words; `state` is in force before the line. Throws Refusal.
+/// Of a line that passed grbl_words; `state` is in force before it. Throws Refusal.
 void apply_grbl_rules(const Block& block, const ModalState& state);
 
 } // namespace millwright::gcode::internal

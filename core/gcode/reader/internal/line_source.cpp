@@ -1,7 +1,11 @@
 #include "core/gcode/reader/internal/line_source.h"
 
 #include "core/base/error.h"
+#include "core/base/file_snapshot.h"
+#include "core/base/files.h"
 #include "core/gcode/reader/line_ends.h"
+
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstring>
@@ -14,6 +18,7 @@ namespace {
 constexpr std::size_t buffer_size = 128 * 1024;
 /// A longer line is cut; every dialect refuses far shorter ones.
 constexpr std::size_t longest_source_line = 64 * 1024;
+constexpr std::size_t longest_skipped_line = std::size_t{16} << 20U;
 
 } // namespace
 
@@ -23,6 +28,8 @@ LineSource::LineSource(std::filesystem::path file)
         throw Error(std::string("cannot be read: ") + std::strerror(errno), name_);
     }
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    struct stat found {};
+    is_stream_ = ::fstat(::fileno(file_.get()), &found) == 0 && !S_ISREG(found.st_mode);
     buffer_.resize(buffer_size);
     data_ = at_ = end_ = buffer_.data();
 }
@@ -33,6 +40,9 @@ LineSource::LineSource(std::string_view text, std::filesystem::path name)
 bool LineSource::fill() {
     if (!file_) {
         return false;
+    }
+    if (is_stream_ && buffer_begin_ > static_cast<std::int64_t>(largest_stream)) {
+        throw Error(too_large_text(largest_stream), name_);
     }
     const auto left = static_cast<std::size_t>(end_ - at_);
     std::memmove(buffer_.data(), at_, left);
@@ -82,7 +92,7 @@ bool LineSource::next(std::string_view& line) {
 }
 
 void LineSource::skip_rest_of_line() {
-    for (;;) {
+    for (std::size_t skipped = 0;;) {
         const std::string_view rest(at_, static_cast<std::size_t>(end_ - at_));
         const std::size_t end = end_of_line(rest);
         at_ += end;
@@ -90,6 +100,10 @@ void LineSource::skip_rest_of_line() {
             const std::size_t found = find_end(); // 0, with what follows it
             at_ += length_of_line_end({at_, static_cast<std::size_t>(end_ - at_)}, found);
             return;
+        }
+        skipped += end;
+        if (skipped > longest_skipped_line) {
+            throw Error("a line is longer than 16 MiB: this is no text", name_);
         }
         if (!fill()) {
             return;

@@ -55,6 +55,7 @@ private:
     std::int64_t buffer_begin_ = 0; ///< where data_ stands in the text
     int line_number_ = 0;
     bool cut_ = false;
+    bool is_stream_ = false; ///< a device or a pipe, of unknown length
 };
 
 } // namespace millwright::gcode::internal

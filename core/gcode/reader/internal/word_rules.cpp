@@ -37,13 +37,11 @@ void expect_offset_axes(const Block& block, int non_modal) {
     }
 }
 
-void check_given_motion(const Block& block, int motion, int non_modal, Dialect dialect) {
+void check_given_motion(const Block& block, int motion, int non_modal) {
     const int column = block.column_of(GGroup::motion);
     constexpr int g80 = 800;
-    constexpr int g43_1 = 431;
     if (motion == g80) {
-        const bool of_length = dialect == Dialect::grbl && block.code(GGroup::tool_length) == g43_1;
-        if (block.moves_axes() && !takes_axes(non_modal) && !of_length) {
+        if (block.moves_axes() && !takes_axes(non_modal)) {
             refuse(column, "G80 takes no axis words");
         }
         expect_offset_axes(block, non_modal);
@@ -78,11 +76,11 @@ int modal_motion(const Block& block, const ModalState& state) {
     return centre_only ? state.motion : no_code;
 }
 
-void find_motion(Block& block, const ModalState& state, Dialect dialect) {
+void find_motion(Block& block, const ModalState& state) {
     const int given = block.code(GGroup::motion);
     const int non_modal = block.code(GGroup::non_modal);
     if (given != no_code) {
-        check_given_motion(block, given, non_modal, dialect);
+        check_given_motion(block, given, non_modal);
         block.motion = given;
     } else if (takes_axes(non_modal)) {
         expect_offset_axes(block, non_modal);
@@ -330,7 +328,7 @@ void apply_word_rules(Block& block, const ModalState& state, Dialect dialect) {
     if (block.polar()) {
         check_polar(block, state);
     }
-    find_motion(block, state, dialect);
+    find_motion(block, state);
     if (block.code(GGroup::non_modal) != no_code) {
         check_non_modal(block, state, dialect);
     }

@@ -25,7 +25,8 @@ Session& GrblDriver::talk() const {
 Capabilities GrblDriver::capabilities() const {
     using kinematics::AxisKind;
     constexpr int homing_cycle = 22;
-    const auto settings = readout().settings;
+    const GrblReadout known = readout();
+    const auto& settings = known.settings;
     const auto cycle = settings.find(homing_cycle);
     const bool homes = cycle == settings.end() || cycle->second > 0.0;
     return {.plans = true,
@@ -40,6 +41,7 @@ Capabilities GrblDriver::capabilities() const {
             .settings = true,
             .single_block = true,
             .piecewise = true,
+            .mist = known.mist,
             .dialect = gcode::Dialect::grbl};
 }
 
@@ -49,7 +51,9 @@ GrblReadout GrblDriver::readout() const {
     return {.version = known.version,
             .settings = known.settings,
             .planner_blocks = known.planner_blocks,
-            .buffer_bytes = known.buffer_bytes};
+            .buffer_bytes = known.buffer_bytes,
+            .mist = known.mist,
+            .began_anew = known.began_anew};
 }
 
 void GrblDriver::check(const gcode::Listing& listing, const std::filesystem::path& file) const {

@@ -23,6 +23,9 @@ struct GrblReadout {
     std::string version;            ///< as 1.1h; empty before there was a link
     std::map<int, double> settings; ///< $$
     int planner_blocks = 15, buffer_bytes = 128;
+    bool mist = false; ///< built with M7
+    /// It greeted when the link was made, or was silent until it was reset: what moved was cut off.
+    bool began_anew = false;
 };
 
 namespace grbl {

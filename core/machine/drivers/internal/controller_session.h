@@ -58,7 +58,7 @@ public:
     virtual void leave(double now) { stop(now); }
     virtual void reset(double now) = 0;
     virtual void trust_position() {}
-    virtual void doubt_position(std::string) {}
+    virtual void doubt_position(std::string, bool) {}
     virtual void stands_at(const kinematics::AxisPositions&) {} ///< asked where the driver can be told alone
     virtual void home(double now) = 0;
     virtual void jog(const Jog& jog, double now) = 0;

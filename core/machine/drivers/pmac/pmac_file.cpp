@@ -1,5 +1,7 @@
 #include "core/machine/drivers/pmac/pmac_file.h"
 
+#include "core/machine/drivers/pmac/guard_rules.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -99,11 +101,10 @@ public:
             const bool blank = c == ' ' || c == '\t';
             tight += blank ? "" : std::string(1, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
         }
-        const auto setting = setting_of(tight);
-        if (setting && is_handshake(setting->variable)) {
-            omit(line, fmt::format("{} is left out: the hand-shake is the driver's", text), {});
+        if (!program_ && is_left_out(text, tight, line)) {
             return;
         }
+        const auto setting = setting_of(tight);
         if (!sets_something(tight)) {
             ++result_.left_out;
             omit(line,
@@ -151,8 +152,27 @@ private:
             "SIZE");
         return std::regex_match(tight, settings);
     }
-    static bool is_handshake(int variable) {
-        return variable == 1 || variable == 3 || variable == 4 || variable == 6 || variable == 9;
+    /// Settings that are the driver's. A program would not be the same without its line: Error.
+    bool is_left_out(const std::string& text, const std::string& tight, int line) {
+        const std::string why = guard_refusal(text);
+        if (!why.empty() && (open_ || tight.starts_with("OPEN"))) {
+            throw Error(Diagnostic{
+                {file_, line, 1},
+                fmt::format("'{}' would weaken the guard that stops the motors when the link is lost", text),
+                why});
+        }
+        if (!why.empty()) {
+            omit(line,
+                 fmt::format(
+                     "{} is left out: it would weaken the guard that stops the motors when the link is lost",
+                     text),
+                 why);
+        } else if (sets_handshake(text)) {
+            omit(line, fmt::format("{} is left out: the hand-shake is the driver's", text), {});
+        } else {
+            return false;
+        }
+        return true;
     }
     void warn(int line, std::string message, std::string hint) {
         result_.warnings.push_back({{file_, line, 1}, std::move(message), std::move(hint)});

@@ -22,9 +22,10 @@ struct PmacFile {
 };
 
 /// Lines end with LF or CR LF, the last one with or without; ';' begins a comment. Settings of the hand-shake
-/// (I1, I3, I4, I6, I9) are left out, since the driver needs its own, and so are lines that set nothing
+/// (I1, I3, I4, I6, I9) are left out, since the driver needs its own, and so are lines that would weaken the
+/// guard of the link (guard_rules.h), and lines that set nothing
 /// (jogs, programs that would run, words that no card knows). Throws Error with the place of a character that
-/// is no text, and of a value beyond 24 bits.
+/// is no text, of a value beyond 24 bits, and of a line in a buffer that would weaken the guard.
 [[nodiscard]] PmacFile read_pmac_file(std::string_view text, const std::filesystem::path& file);
 
 /// The lines of a motion program or of a file with one, as they are; Error as above.

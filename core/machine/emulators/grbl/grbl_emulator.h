@@ -20,6 +20,7 @@ struct GrblEmulatorOptions {
     std::filesystem::path eeprom_file{}; ///< read now, written with each change; empty: neither
     bool line_numbers = false;           ///< built with USE_LINE_NUMBERS
     bool echo = false;                   ///< built with REPORT_ECHO_LINE_RECEIVED
+    bool mist = false;                   ///< built with ENABLE_M7
     bool keep_truth = true;              ///< remembers every line
     /// Height of what a probe touches, in machine coordinates; none: nothing is there.
     std::function<double(double x, double y)> surface{};
@@ -36,7 +37,7 @@ struct Truth {
     std::vector<TruthLine> lines;
     double travelled = 0.0;    ///< way of the tool so far, mm
     double last_motion = -1.0; ///< when it was last moving
-    int lost_bytes = 0;        ///< that found the receive buffer full
+    int lost_bytes = 0;        ///< that found the receive buffer full, or came while the EEPROM was written
 };
 
 class GrblEmulator final : public Emulator {

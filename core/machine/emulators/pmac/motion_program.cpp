@@ -1,6 +1,7 @@
 #include "core/machine/emulators/pmac/motion_program.h"
 
 #include "core/machine/drivers/pmac/arm_axes.h"
+#include "core/machine/drivers/pmac/guard_rules.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
 #include "core/machine/emulators/pmac/internal/program.h"
 #include "core/machine/emulators/pmac/pmac_emulator.h"
@@ -281,6 +282,19 @@ std::vector<Diagnostic> motion_program_faults(std::string_view text, const std::
         }
         for (const Statement& one : *statements) {
             blocks.take(one, line.number, faults);
+        }
+        if (const std::string why = guard_refusal(line.text); !why.empty()) {
+            faults.push_back(
+                at_line(named,
+                        line.number,
+                        fmt::format("'{}' would weaken the guard that stops the motors when the link is lost",
+                                    line.text),
+                        why));
+        } else if (sets_handshake(line.text)) {
+            faults.push_back(
+                at_line(named,
+                        line.number,
+                        fmt::format("'{}' would change the hand-shake, which is the driver's", line.text)));
         }
     }
     blocks.end(faults);

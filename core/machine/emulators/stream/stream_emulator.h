@@ -25,6 +25,7 @@ struct StreamTruth {
 class StreamEmulator final : public Emulator {
 public:
     void receive(std::string_view bytes) override;
+    [[nodiscard]] bool full() const override { return due_.size() >= most_due; }
     void advance(double seconds) override;
     [[nodiscard]] std::string take_output() override { return {}; }
     [[nodiscard]] bool moving() const override { return !due_.empty(); }
@@ -40,6 +41,7 @@ public:
     [[nodiscard]] const std::vector<double>& position() const { return position_; }
 
 private:
+    static constexpr std::size_t most_due = 10'000; ///< samples that wait
     void take(std::string_view line);
     void take_heading(std::string_view line);
     void bad(std::string_view line, std::string_view why);

@@ -15,11 +15,13 @@ TableEmulator::TableEmulator(const RecordFormat& format,
 
 void TableEmulator::receive(std::string_view bytes) {
     inbox_ += bytes;
+    std::size_t begin = 0;
     for (auto end = inbox_.find_first_of("\r\n"); end != std::string::npos;
-         end = inbox_.find_first_of("\r\n")) {
-        take(inbox_.substr(0, end));
-        inbox_.erase(0, end + 1);
+         end = inbox_.find_first_of("\r\n", begin)) {
+        take(inbox_.substr(begin, end - begin));
+        begin = end + 1;
     }
+    inbox_.erase(0, begin);
     constexpr std::size_t longest = 10'000;
     if (inbox_.size() > longest) {
         inbox_.clear(); // nobody's records are that long

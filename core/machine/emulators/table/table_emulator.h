@@ -31,6 +31,7 @@ public:
                   const TableOptions& options = {});
 
     void receive(std::string_view bytes) override;
+    [[nodiscard]] bool full() const override { return due_.size() >= most_due; }
     void advance(double seconds) override;
     [[nodiscard]] std::string take_output() override;
     [[nodiscard]] bool moving() const override { return !due_.empty(); }
@@ -49,6 +50,7 @@ public:
     [[nodiscard]] const std::vector<std::vector<double>>& positions() const { return positions_; }
 
 private:
+    static constexpr std::size_t most_due = 10'000; ///< records that wait
     void take(const std::string& line);
     [[nodiscard]] double time_of(const Record& record) const;
     void obey();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
@@ -33,6 +34,17 @@ public:
         thread_ = std::jthread([this] { context_.run(); });
     }
 
+    /// As a wire to nobody: what would be too much is lost.
+    void write_or_drop(std::string_view bytes) {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (waiting_.size() + bytes.size() > most_waiting) {
+                return;
+            }
+        }
+        write(bytes);
+    }
+
     void write(std::string_view bytes) {
         const std::scoped_lock lock(mutex_);
         if (lost_ || bytes.empty()) {
@@ -48,6 +60,9 @@ public:
 
     [[nodiscard]] std::string read() {
         const std::scoped_lock lock(mutex_);
+        if (std::exchange(full_, false)) {
+            boost::asio::post(context_, [this] { read_more(); });
+        }
         return std::exchange(received_, {});
     }
 
@@ -82,7 +97,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_waiting = std::size_t{1} << 20U;
+    static constexpr std::size_t most_waiting = std::size_t{1} << 20U;  ///< bytes, 1 MiB
+    static constexpr std::size_t most_received = std::size_t{1} << 20U; ///< then the other end has to wait
     static constexpr std::size_t most_of_a_line = 200;
 
     void give_up(std::string why) { // with mutex_ held
@@ -110,7 +126,10 @@ private:
                                         first_line_.append(chunk_.data(), count);
                                     }
                                     changed_.notify_all();
-                                    read_more();
+                                    full_ = received_.size() >= most_received;
+                                    if (!full_) {
+                                        read_more();
+                                    }
                                 });
     }
 
@@ -135,11 +154,14 @@ private:
     }
 
     boost::asio::io_context context_;
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> guard_{
+        context_.get_executor()}; ///< it goes on while nothing is read
     Stream stream_;
     mutable std::mutex mutex_; ///< guards what follows
     std::condition_variable changed_;
     std::string received_, waiting_, sending_, first_line_;
     std::optional<std::string> lost_;
+    bool full_ = false;              ///< nothing is read until what came is taken
     std::array<char, 4096> chunk_{}; ///< of the thread alone
     std::jthread thread_;
 };

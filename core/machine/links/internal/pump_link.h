@@ -22,6 +22,11 @@ public:
             pump->write(bytes);
         }
     }
+    void write_or_drop(std::string_view bytes) const {
+        if (const auto pump = now()) {
+            pump->write_or_drop(bytes);
+        }
+    }
     [[nodiscard]] std::string read() const {
         const auto pump = now();
         return pump ? pump->read() : std::string();

@@ -51,9 +51,9 @@ TEST(Grbl, RefusesWhatItDoesNotKnowByItsOwnErrorNumbers) {
     EXPECT_THAT(grbl_refusal("M98 P1"), HasSubstr("M98 (error 20)"));
     EXPECT_THAT(grbl_refusal("T256"), HasSubstr("(error 38)"));
     EXPECT_THAT(grbl_refusal("G0 A5"), HasSubstr("A words (error 20)"));
-    EXPECT_THAT(grbl_refusal("G0 X[1+1]"), HasSubstr("(error 1)"));
+    EXPECT_THAT(grbl_refusal("G0 X[1+1]"), HasSubstr("(error 2)"));
     EXPECT_THAT(grbl_refusal("#1=5"), HasSubstr("(error 1)"));
-    EXPECT_THAT(grbl_refusal("O1 call"), HasSubstr("(error 1)"));
+    EXPECT_THAT(grbl_refusal("O1 call"), HasSubstr("(error 20)"));
     EXPECT_THAT(grbl_refusal("G1 F1\nG2 I5"), HasSubstr("(error 26)"));
     EXPECT_THAT(grbl_refusal("G1 F1\nG2 X1 Y1 I.5 J.5 P2"), HasSubstr("(error 36)"));
 }
@@ -64,7 +64,7 @@ TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
     EXPECT_THAT(arc("G18 G2 Y1 I1"), HasSubstr("(error 32)"));
     EXPECT_THAT(arc("G2 X1"), HasSubstr("(error 35)"));
     EXPECT_THAT(arc("G2 X1 K1"), HasSubstr("(error 35)"));
-    EXPECT_THAT(arc("G2 X1 Y1 I.5 J.5 K1"), HasSubstr("(error 36)"));
+    EXPECT_EQ(arc("G2 X1 Y1 I.5 J.5 K1"), ""); // it reads over the offset across the plane
     EXPECT_THAT(arc("G2 X1 R1 I1"), HasSubstr("(error 36)"));
     EXPECT_THAT(arc("G2 X2 I1\nX4"), HasSubstr("(error 35)")); // still an arc
     EXPECT_EQ(arc("G2 X2 I1\nG92 X4\nG1 X1"), "");
@@ -76,7 +76,8 @@ TEST(Grbl, RefusesAToolLengthOrTheEndOfG92BesideAMotion) {
     EXPECT_THAT(grbl_refusal("G49 G0"), HasSubstr("(error 24)"));
     EXPECT_THAT(grbl_refusal("G49 X1"), HasSubstr("Grbl does nothing with axis words beside G49"));
     EXPECT_THAT(grbl_refusal("G92 X1\nG92.1 G0 X1"), HasSubstr("Grbl moves by the old G92"));
-    EXPECT_EQ(grbl_refusal("G43.1 G80 Z1\nG49 G80\nG92.1 G80"), "");
+    EXPECT_EQ(grbl_refusal("G92.1 G0 X1"), ""); // where there is no G92, both are the same
+    EXPECT_EQ(grbl_refusal("G49 G80\nG92.1 G80"), "");
 }
 
 TEST(Grbl, RefusesOffsetsByItsOwnErrorNumbers) {
@@ -122,6 +123,33 @@ TEST(Grbl, ReadsOverPercentSigns) {
     EXPECT_THAT(grbl_refusal("G0 X1 %"), HasSubstr("'%' in a program (error 1)"));
     EXPECT_THAT(grbl_refusal("%O1000"), HasSubstr("'%' in a program (error 1)"));
     EXPECT_THAT(grbl_refusal("%\n%\n"), HasSubstr("there is nothing in the program"));
+}
+
+/// Also axis words of codes that move nothing.
+TEST(Grbl, TakesNoAxisWordsWhileMotionIsCancelled) {
+    for (const char* line : {"X1", "G43.1 Z1", "G92 X1", "G10 L20 P1 X0", "G28 X1"}) {
+        EXPECT_THAT(grbl_refusal(std::string("G80\n") + line), HasSubstr("(error 31)")) << line;
+    }
+    EXPECT_THAT(grbl_refusal("G80 G0 X1"), HasSubstr("(error 21)"));
+    EXPECT_EQ(grbl_refusal("G80\nG28\nG0 X1"), "");
+}
+
+TEST(Grbl, HasMistWhereItWasBuiltWithIt) {
+    EXPECT_THAT(grbl_refusal("M7"), HasSubstr("no mist coolant, M7 (error 20)"));
+    ReaderSettings built = grbl();
+    built.mist = true;
+    EXPECT_EQ(test::read_all("M7", built).errors.size(), 0U);
+    EXPECT_THAT(test::read_all("M7 M8", built).errors.at(0).message, HasSubstr("(error 21)"));
+}
+
+TEST(Grbl, ReadsOverWhatTheFirmwareReadsOver) {
+    EXPECT_EQ(grbl_refusal("G0 X1 (open to the end of the line"), "");
+    EXPECT_EQ(grbl_refusal("G0 (a (comment) in a comment X1"), grbl_refusal("G0 in a comment X1"));
+    EXPECT_EQ(read_grbl("G0 (a (b) X1").moves.size(), 1U);
+    EXPECT_EQ(grbl_refusal("G0 X1 N5 / Y2"), "");
+    EXPECT_EQ(read_grbl("T1.9").state.selected_tool, 1);
+    EXPECT_EQ(grbl_refusal("G10 L2.9 P1.5 X1\nG10 L2 P.5 X1"), "");
+    EXPECT_EQ(grbl_refusal("G4 P.5"), "");
 }
 
 TEST(Grbl, CountsTheCharactersThatItKeeps) {

@@ -5,8 +5,10 @@
 #include "tests/core/machine/links/reading.h"
 #include "tests/support/scratch_folder.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -40,6 +42,34 @@ TEST(PseudoTerminal, OutlivesProgramsThatComeAndGo) {
         EXPECT_EQ(test::read_bytes(terminal, 1), "?");
     }
     EXPECT_FALSE(terminal.lost());
+}
+
+/// Boards that reset when DTR comes would be reset by whoever opens the port next.
+TEST(SerialPort, KeepsDtrWhenItIsClosed) {
+    PseudoTerminal terminal;
+    terminal.open();
+    const auto drops_dtr = [&terminal] {
+        const int handle = ::open(terminal.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        termios settings{};
+        EXPECT_EQ(::tcgetattr(handle, &settings), 0);
+        ::close(handle);
+        return (settings.c_cflag & HUPCL) != 0;
+    };
+    {
+        const int handle = ::open(terminal.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        termios settings{};
+        ASSERT_EQ(::tcgetattr(handle, &settings), 0);
+        settings.c_cflag |= HUPCL;
+        ASSERT_EQ(::tcsetattr(handle, TCSANOW, &settings), 0);
+        ::close(handle);
+    }
+    ASSERT_TRUE(drops_dtr());
+    {
+        SerialLink port(terminal.path());
+        port.open();
+        EXPECT_FALSE(drops_dtr());
+    }
+    EXPECT_FALSE(drops_dtr());
 }
 
 TEST(PseudoTerminal, IsFoundByItsSymbolicLinkWhileItIsOpen) {

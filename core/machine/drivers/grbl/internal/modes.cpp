@@ -1,17 +1,21 @@
 #include "core/machine/drivers/grbl/internal/modes.h"
 
+#include "core/base/text.h"
+
 #include <charconv>
 
 namespace millwright::machine::grbl {
 
-Modes read_modes(std::string_view text) {
+Modes read_modes(std::string_view text, double report_unit) {
     using gcode::SpindleTurning;
     Modes modes;
-    modes.text = text;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find(' '), text.size());
         const std::string_view word = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
+        const auto feed = word.starts_with('F') ? read_number(word.substr(1)) : std::nullopt;
+        modes.text += modes.text.empty() ? "" : " ";
+        modes.text += feed ? "F" + shortest(*feed * report_unit) : std::string(word);
         if (word.size() == 3 && word.starts_with("G5") && word[2] >= '4' && word[2] <= '9') {
             modes.work_system = word[2] - '4' + 1;
         } else if (word == "M3" || word == "M4") {

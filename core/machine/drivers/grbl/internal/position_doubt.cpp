@@ -14,9 +14,17 @@ constexpr std::string_view all_axes = "XYZ";
 
 } // namespace
 
-void PositionDoubt::arise(std::string why) {
+void PositionDoubt::arise(std::string why, bool lost) {
     why_ = std::move(why);
+    lost_ = lost;
     zeroed_.clear();
+    confirmed_.clear();
+}
+
+void PositionDoubt::confirm() {
+    std::string why = why_.empty() ? confirmed_ : why_;
+    end();
+    confirmed_ = std::move(why);
 }
 
 void PositionDoubt::zeroed(std::string_view axes) {

@@ -9,18 +9,25 @@ namespace millwright::machine::grbl {
 
 class PositionDoubt {
 public:
-    /// `why`: a part of a sentence, as "the controller was reset". The last reason is the one that is told.
-    void arise(std::string why);
+    /// `why`: a part of a sentence, as "the controller was reset". The last reason is the one that is shown.
+    /// `lost`: something has happened that costs the position; false: nobody has confirmed it so far.
+    void arise(std::string why, bool lost = true);
     /// A person has given these axes a zero where the tool stands. All three end the doubt.
     void zeroed(std::string_view axes);
-    /// The machine was homed, or a person says that it stands where the controller says.
+    /// A person says that the machine is where the controller says.
+    void confirm();
+    /// The machine was homed.
     void end() { *this = {}; }
 
-    /// Empty: nothing speaks against the position.
+    /// Empty: the position is not in doubt.
     [[nodiscard]] const std::string& why() const { return why_; }
+    [[nodiscard]] bool lost() const { return lost_; }
+    /// Why it was in doubt before a person confirmed it; empty: nobody had to.
+    [[nodiscard]] const std::string& confirmed() const { return confirmed_; }
 
 private:
-    std::string why_, zeroed_;
+    std::string why_, zeroed_, confirmed_;
+    bool lost_ = false;
 };
 
 /// Letters of the axes that get their zero by this line, which is without blanks and in capitals: the axes

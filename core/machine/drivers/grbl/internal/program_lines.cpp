@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 
 namespace millwright::machine::grbl {
@@ -108,6 +109,14 @@ private:
     }
 };
 
+bool has_code(const std::vector<Word>& words, char letter, std::initializer_list<int> tenths) {
+    return std::ranges::any_of(words, [&](const Word& word) {
+        constexpr double greatest_code = 1000.0;
+        const long code = std::lround(std::clamp(word.value, 0.0, greatest_code) * 10.0);
+        return word.letter == letter && std::ranges::find(tenths, code) != tenths.end();
+    });
+}
+
 double dwell_in(const std::vector<Word>& words) {
     double seconds = 0.0;
     bool dwells = false;
@@ -116,6 +125,27 @@ double dwell_in(const std::vector<Word>& words) {
         seconds = word.letter == 'P' ? std::max(0.0, word.value) : seconds;
     }
     return dwells ? seconds : 0.0;
+}
+
+/// G10, G28.1, G30.1 and settings; in Grbl's interface documentation under "EEPROM Issues".
+bool writes_eeprom(const std::vector<Word>& words) {
+    return has_code(words, 'G', {100, 281, 301});
+}
+
+/// What Grbl brings to rest before it: G54 to G59, G92, G43.1 and G49, G10, and the end of a program.
+bool moves_zero(const std::vector<Word>& words) {
+    return has_code(words, 'G', {100, 431, 490, 540, 550, 560, 570, 580, 590, 920, 921}) ||
+           has_code(words, 'M', {20, 300});
+}
+
+void classify(ProgramLine& line) {
+    if (line.is_setting()) {
+        line.writes_eeprom = line.text.find('=') != std::string::npos;
+        line.moves_zero = line.writes_eeprom; // $N0= executes what it stores
+    } else if (const auto words = words_of(line.text)) {
+        line.writes_eeprom = writes_eeprom(*words);
+        line.moves_zero = moves_zero(*words);
+    }
 }
 
 /// Why a $ command is not taken as a line; empty if it is.
@@ -176,6 +206,7 @@ program_lines(const gcode::Listing& listing, const std::filesystem::path& file, 
         check_length(text, listing.line(number), place, longest);
         ProgramLine line{.text = std::move(text), .line = number};
         line.block = listing.block_at_line(number);
+        classify(line);
         if (const auto words = words_of(line.text)) {
             line.surely_moves = sure.surely_moves(*words);
             line.dwell = dwell_in(*words);
@@ -203,6 +234,7 @@ ProgramLines command_lines(std::string_view text, std::size_t longest) {
             check_length(bare, line, place, longest);
             result.lines.push_back({.text = std::move(bare), .line = place.line});
             result.lines.back().block = result.blocks++;
+            classify(result.lines.back());
         }
     }
     if (result.lines.empty()) {

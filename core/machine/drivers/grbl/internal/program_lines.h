@@ -11,11 +11,13 @@
 namespace millwright::machine::grbl {
 
 struct ProgramLine {
-    std::string text;          ///< without blanks, comments and N word, in capitals, without its end
-    int block = 0;             ///< of the listing
-    int line = 0;              ///< of its text, from 1
-    bool surely_moves = false; ///< Grbl makes at least one planner block of it
-    double dwell = 0.0;        ///< s, of a G4
+    std::string text;           ///< without blanks, comments and N word, in capitals, without its end
+    int block = 0;              ///< of the listing
+    int line = 0;               ///< of its text, from 1
+    bool surely_moves = false;  ///< Grbl makes at least one planner block of it
+    double dwell = 0.0;         ///< s, of a G4
+    bool writes_eeprom = false; ///< Grbl loses what it is sent meanwhile
+    bool moves_zero = false;    ///< it may change the work offset
 
     [[nodiscard]] bool is_setting() const { return text.starts_with('$'); }
 };

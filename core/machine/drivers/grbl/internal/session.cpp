@@ -77,9 +77,6 @@ void Session::lost(const std::string& why) {
 }
 
 void Session::receive(std::string_view bytes, double now) {
-    if (!bytes.empty()) {
-        last_heard_ = now;
-    }
     constexpr std::size_t longest_line = 1024;
     for (const char byte : bytes) {
         if (byte == '\n') {
@@ -141,8 +138,10 @@ void Session::watch_silence(double now) {
             stage_ = Stage::alarm;
             message_ = "no Grbl answers at this port";
         } else if (stage_ == Stage::greeting && silence > settings_.greeting_time / 2.0) {
-            begin_asking(now,
-                         false); // after a limit switch Grbl is deaf to all but a reset, and stands still
+            // After a limit switch Grbl is deaf to all but a reset, and a board that begins anew waits for a
+            // boot loader. Both stand still.
+            readout_.began_anew = true;
+            begin_asking(now, false);
         }
         return;
     }
@@ -165,6 +164,7 @@ void Session::send_reset(double now) {
     window_.clear();
     proof_.disturbed();
     overrides_.forget();
+    sent_alone_ = zero_moves_ = false; // the first report after it shows the offset
 }
 
 /// Brakes to rest, then empties the controller's buffers by a reset. Nothing else is sent in the meantime.
@@ -181,7 +181,8 @@ void Session::end(bool fault, std::string message, double now) {
     ending_message_ = std::move(message);
     ending_since_ = last_brake_ = now;
     rest_reports_ = 0;
-    output_ = "!"; // whatever was to be sent is not sent any more
+    message_.clear(); // why it paused, or was found moving, is not why it stops
+    output_ = "!";    // whatever was to be sent is not sent any more
     next_poll_ = now;
 }
 
@@ -222,11 +223,30 @@ void Session::finish_ending(double now) {
         begin_asking(now, false);
         return;
     }
-    stage_ = ending_in_fault_ ? Stage::alarm : Stage::stopped;
     message_ = ending_message_;
     hold_wanted_ = held_ = jog_stopping_ = block_wait_ = false;
     window_.clear();
     settle_answer(message_.empty() ? "stopped" : message_);
+    if (ending_in_fault_) {
+        stage_ = Stage::alarm;
+    } else {
+        proof_closed_ = true; // what it had acknowledged, the reset has thrown away
+        ask_again(Stage::stopped, now);
+    }
+}
+
+/// What a program, a command or a reset has changed: stored offsets and modes.
+void Session::ask_again(Stage then, double now, bool settings) {
+    questions_ = {"$G", "$#"}; // the last comes first
+    if (settings) {
+        questions_.emplace_back("$$");
+    }
+    after_asking_ = then;
+    stage_ = Stage::asking_again;
+    window_ = Window(readout_.buffer_bytes, true);
+    last_answer_ = last_heard_ = now;
+    idle_unanswered_ = 0;
+    ask_next();
 }
 
 /// A command that did not get to its end.
@@ -265,6 +285,18 @@ void Session::watch_answers(double now) {
     }
 }
 
+/// Some lines go alone. While Grbl writes its EEPROM it loses what it is sent, so that such a line has the
+/// receive buffer for itself. And work positions count from a new offset at once, while the offset itself is
+/// reported later: where Grbl reports work positions, it changes at rest, and nothing moves before it is
+/// known.
+bool Session::may_send(const ProgramLine& line) const {
+    if ((sent_alone_ && !window_.empty()) || zero_moves_) {
+        return false;
+    }
+    const bool needs_rest = line.moves_zero && reports_work_;
+    return !(line.writes_eeprom || needs_rest) || (window_.empty() && (!needs_rest || proof_.settled()));
+}
+
 /// Sends as much of the program as the controller has room for.
 void Session::pump() {
     if (stage_ != Stage::running || hold_wanted_) {
@@ -276,9 +308,11 @@ void Session::pump() {
         if (readout_.line_numbers && line.block < greatest_line_number && !line.is_setting()) {
             text.insert(0, fmt::format("N{}", line.block + 1));
         }
-        if (!window_.has_room_for(text.size()) || !ahead_.allows(line.block)) {
+        if (!window_.has_room_for(text.size()) || !ahead_.allows(line.block) || !may_send(line)) {
             return;
         }
+        zero_moves_ = line.moves_zero && reports_work_;
+        sent_alone_ = line.writes_eeprom || zero_moves_;
         output_ += text;
         window_.push({LineKind::program, std::move(text), next_line_, line.dwell});
         ++next_line_;

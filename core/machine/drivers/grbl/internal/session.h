@@ -43,6 +43,8 @@ struct Readout {
     std::map<std::string, Axes> offsets; ///< $#: G54 to G59, G28, G30, G92, TLO
     int planner_blocks = 15, buffer_bytes = 128;
     bool line_numbers = false;
+    bool mist = false;       ///< built with M7
+    bool began_anew = false; ///< greeted, or was silent until it was reset, when the link was made
 };
 
 class Session final : public internal::ControllerSession {
@@ -72,8 +74,8 @@ public:
     void break_off(std::string why, double now) override;
     void emergency_stop(double now) override;
     void reset(double now) override;
-    void trust_position() override { doubt_.end(); }
-    void doubt_position(std::string why) override { doubt_.arise(std::move(why)); }
+    void trust_position() override { doubt_.confirm(); }
+    void doubt_position(std::string why, bool lost) override { doubt_.arise(std::move(why), lost); }
     void home(double now) override;
     /// What this link did not begin is left alone.
     void leave(double now) override;
@@ -113,11 +115,13 @@ private:
     void send_reset(double now);
     void end(bool fault, std::string message, double now);
     void finish_ending(double now);
+    void ask_again(Stage then, double now, bool settings = false);
     [[nodiscard]] std::string what_it_may_execute(bool in_program) const;
     void fail(const std::string& message, double now);
     void begin(ProgramLines program, Activity activity, double now);
     void finish(double now);
     void pump();
+    [[nodiscard]] bool may_send(const ProgramLine& line) const;
     void pump_jog();
     void cancel_jog(double now);
     void step_overrides(double now);
@@ -163,6 +167,7 @@ private:
 
     SessionSettings settings_;
     Stage stage_ = Stage::closed;
+    Stage after_asking_ = Stage::ready; ///< or stopped
     Readout readout_;
     std::string output_, input_;
     bool link_lost_ = false;
@@ -173,6 +178,11 @@ private:
     bool proof_closed_ = false; ///< the controller forgot what it had acknowledged
     Window window_;
     int next_line_ = 0;
+    bool sent_alone_ = false;   ///< the line under way: nothing follows it before its answer
+    bool reports_work_ = false; ///< its reports give work positions ($10)
+    /// A change of the work offset was sent and no report has shown the new one: work positions may count
+    /// from either.
+    bool zero_moves_ = false;
     internal::Ahead ahead_;
     std::vector<std::string> questions_; ///< to be asked, the next comes last
     std::string message_;

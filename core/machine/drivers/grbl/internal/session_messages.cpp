@@ -53,7 +53,7 @@ void Session::ask_next() {
     report_.reset(); // the next one tells how the controller is after all of this
     if (questions_.empty()) {
         if (stage_ == Stage::asking_again) {
-            stage_ = Stage::ready;
+            stage_ = after_asking_;
             overrides_.forget(); // those that were set since its end
         }
         return;
@@ -66,23 +66,13 @@ void Session::ask_next() {
 
 /// A program or a command is done; what it changed is asked for before anybody is told.
 void Session::finish(double now) {
-    questions_ = {"$G", "$#"};
-    for (const ProgramLine& line : program_.lines) {
-        if (at_ == Activity::command && line.is_setting()) {
-            questions_.emplace_back("$$");
-            break;
-        }
-    }
     if (answer_.state == CommandAnswer::State::pending) {
         answer_.state = CommandAnswer::State::done;
         take_zeros();
     }
     overrides_.forget(); // they outlast no program, and M2 and M30 have brought them back
-    stage_ = Stage::asking_again;
-    window_ = Window(readout_.buffer_bytes, true);
-    last_answer_ = now;
-    idle_unanswered_ = 0;
-    ask_next();
+    const bool sets = std::ranges::any_of(program_.lines, &ProgramLine::is_setting);
+    ask_again(Stage::ready, now, at_ == Activity::command && sets);
 }
 
 /// A refused command is no longer pending when it comes to its end.
@@ -112,7 +102,9 @@ void Session::doubt_what_was_found(const StatusMessage& report) {
         doubt_.arise("Grbl was locked when it was found: after an alarm, or since it was switched on");
     } else if (std::ranges::all_of(readout_.machine_position,
                                    [](double axis) { return exactly_equal(axis, 0.0); })) {
-        doubt_.arise("Grbl stands at zero in all axes, as it does when it was switched on and not homed");
+        constexpr bool known_loss = false; // where its zero was set since, all is well
+        doubt_.arise("Grbl is at zero in all axes, as it is after it was switched on and not homed",
+                     known_loss);
     }
 }
 
@@ -120,7 +112,11 @@ void Session::handle_line(std::string_view line, double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
-    std::visit([&](const auto& message) { handle(message, now); }, read_message(line));
+    const Message message = read_message(line);
+    if (!std::holds_alternative<Garbage>(message) && !std::holds_alternative<Blank>(message)) { // not noise
+        last_heard_ = now;
+    }
+    std::visit([&](const auto& heard) { handle(heard, now); }, message);
 }
 
 void Session::handle(const Blank&, double) {}
@@ -246,6 +242,7 @@ void Session::handle(const Welcome& welcome, double now) {
     report_.reset();
     switch (stage_) {
     case Stage::greeting:
+        readout_.began_anew = true;
         doubt_.arise("Grbl began anew when the link was made, and counts from where the machine stood then");
         begin_asking(now, false);
         break;
@@ -259,8 +256,12 @@ void Session::handle(const Welcome& welcome, double now) {
     case Stage::flushing:
         finish_ending(now);
         break;
-    case Stage::running:
     case Stage::asking_again:
+        if (expected) {
+            break; // of a reset that was sent twice
+        }
+        [[fallthrough]];
+    case Stage::running:
     case Stage::jogging:
     case Stage::homing:
     case Stage::braking: // lines that were under way may have set it in motion again
@@ -291,6 +292,7 @@ void Session::handle(const SettingMessage& setting, double) {
 void Session::read_options(std::string_view text) {
     const std::size_t comma = text.find(',');
     readout_.line_numbers = text.substr(0, comma).find('N') != std::string_view::npos;
+    readout_.mist = text.substr(0, comma).find('M') != std::string_view::npos;
     if (comma == std::string_view::npos) {
         return;
     }
@@ -337,7 +339,7 @@ void Session::take_feedback(const Feedback& feedback) {
     if (feedback.tag == "OPT") {
         read_options(feedback.text);
     } else if (feedback.tag == "GC") {
-        readout_.modes = read_modes(feedback.text);
+        readout_.modes = read_modes(feedback.text, report_unit());
     } else if (feedback.tag == "PRB" && stage_ == Stage::running) { // else it was asked for
         if (const auto result = read_probe_result(feedback.text)) {
             readout_.probe = ProbeResult{scaled(result->position), result->touched};

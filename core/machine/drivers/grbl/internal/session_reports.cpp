@@ -30,9 +30,11 @@ double Session::feed() const {
 
 void Session::take_readout(const StatusMessage& report, double now) {
     readout_.offset = report.offset ? scaled(*report.offset) : readout_.offset;
+    zero_moves_ = zero_moves_ && !(report.offset && window_.empty());
+    reports_work_ = report.work_position || (reports_work_ && !report.machine_position);
     if (report.machine_position) {
         readout_.machine_position = scaled(*report.machine_position);
-    } else if (report.work_position) {
+    } else if (report.work_position && (report.offset || !zero_moves_)) {
         const Axes work = scaled(*report.work_position);
         for (std::size_t n = 0; n < work.size(); ++n) {
             readout_.machine_position[n] = work[n] + readout_.offset[n];

@@ -20,6 +20,7 @@ DriverState Session::state() const {
     case Stage::foreign:
         return hold_wanted_ || held_ ? DriverState::holding : DriverState::running;
     case Stage::asking_again:
+        return after_asking_ == Stage::stopped ? DriverState::stopping : DriverState::running;
     case Stage::jogging:
     case Stage::homing:
         return DriverState::running;
@@ -68,6 +69,8 @@ DriverStatus Session::status() const {
     }
     status.activity = activity();
     status.position_doubt = doubt_.why();
+    status.position_lost = doubt_.lost();
+    status.position_confirmed = doubt_.confirmed();
     status.answer = answer_;
     show_machine(status);
     show_program(status);

@@ -107,6 +107,28 @@ bool closes_buffer(std::string_view line) {
     return is(line, close);
 }
 
+bool begins_nothing(std::string_view line) {
+    static const std::regex quiet(
+        " *(CLOSE|CLS|CLEAR|CLR|DEL(ETE)? .*|UNDEF(INE)?.*|(& *[0-9]+ *)?#[0-9]+ *->.*|"
+        "([#&][0-9]+ *)+) *",
+        std::regex::icase);
+    return only_asks(line) || only_sets(line) || is(line, quiet);
+}
+
+bool may_move_later(std::string_view line, int system) {
+    static const std::regex plc("ENA(BLE)? *PLC", std::regex::icase);
+    static const std::regex address("& *([0-9]+)");
+    if (std::regex_search(line.begin(), line.end(), plc)) {
+        return true;
+    }
+    for (std::cregex_iterator at(line.data(), line.data() + line.size(), address), end; at != end; ++at) {
+        if ((*at)[1].str() != std::to_string(system)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool opens_loop(std::string_view line) {
     static const std::regex output("(^|[^A-Z])O *[-+]?[0.]*([1-9(]|[IPQM][0-9])", std::regex::icase);
     return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), output);

@@ -1,5 +1,6 @@
 // Lines that a person types, or has in a file: what may be sent of them, and when.
 #include "core/base/error.h"
+#include "core/machine/drivers/pmac/guard_rules.h"
 #include "core/machine/drivers/pmac/internal/command_kind.h"
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 
@@ -36,6 +37,34 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
                         {},
                         "J:500 goes 500 counts");
         }
+        check_guard(line);
+    }
+}
+
+/// A line of a person, or of a program.
+void PmacSession::check_guard(const std::string& line) {
+    if (const std::string why = guard_refusal(line); !why.empty()) {
+        throw Error(
+            fmt::format("'{}' would weaken the guard that stops the motors when the link is lost", line),
+            {},
+            why);
+    }
+    if (sets_handshake(line)) {
+        throw Error(fmt::format("'{}' would change the hand-shake, which is the driver's", line));
+    }
+}
+
+/// While a buffer is open nobody is heard, and the guard is disarmed: nothing may move then.
+void PmacSession::check_buffers(const std::vector<std::string>& lines) const {
+    bool stored = false, may_move = false;
+    for (const std::string& line : lines) {
+        if (opens_buffer(line) && may_move && any_power()) {
+            throw Error(fmt::format("'{}' would disarm the guard while motors may move", line),
+                        {},
+                        "send it when the lines before it are done");
+        }
+        may_move = may_move || (!stored && !opens_buffer(line) && !begins_nothing(line));
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
     }
 }
 
@@ -138,6 +167,7 @@ int PmacSession::load(const std::vector<std::string>& lines) {
 int PmacSession::command(const std::vector<std::string>& lines, bool all) {
     check_command(lines);
     check_goals(lines);
+    check_buffers(lines);
     if (stopped_by_command(lines) || brakes_instead(lines)) {
         return answer_.number;
     }
@@ -167,6 +197,9 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
     command_refused_ = false;
     command_lines_.assign(lines.begin(), lines.end());
     only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
+    stays_armed_ = stays_armed_ || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+                       return may_move_later(line, settings_.system);
+                   });
     int addressed = 0;
     closes_loops_ = false;
     for (const std::string& line : lines) {

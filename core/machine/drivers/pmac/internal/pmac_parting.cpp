@@ -42,6 +42,7 @@ void PmacSession::leave(double now) {
         farewell_ = any_power() ? "the link is lost, and with it whether the motors still have power" : "";
         return;
     }
+    stays_armed_ = false; // else the guard would take the power of motors that are to keep it
     if (stage_ != Stage::alarm) {
         halt();
     }

@@ -70,6 +70,9 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     if (!position_known()) {
         throw Error("the position is not known, so there is no program", {}, "home first");
     }
+    for (const std::string& line : lines) {
+        check_guard(line);
+    }
     finish(Stage::loading);
     program_lines_ = static_cast<int>(lines.size());
     executed_ = 0;
@@ -133,7 +136,8 @@ void PmacSession::halt() {
         forget_queue();
         ask(every_motor("J/"));
         finish(Stage::stopping);
-    } else if (stage_ == Stage::commanding || stage_ == Stage::astir || (rests() && armed_)) {
+    } else if (stage_ == Stage::commanding || stage_ == Stage::astir ||
+               (rests() && (armed_ || !queue_.empty()))) {
         command_lines_.clear();
         finish(Stage::stopping);
         unbraked_ = true; // the next report tells what the command set going
@@ -213,6 +217,9 @@ void PmacSession::home_axis(std::size_t n) {
 
 void PmacSession::enable(double /*now*/) {
     require_rest("power");
+    if (!guard_.runs()) {
+        throw Error(guard_is_off, {}, "connect again: that writes it anew");
+    }
     gave_power_ = true;
     ask(every_motor("J/"));
     power_polls_ = patient_polls;

@@ -1,5 +1,7 @@
 #include "core/machine/drivers/pmac/internal/pmac_session.h"
 
+#include "core/base/error.h"
+#include "core/machine/drivers/pmac/internal/card_numbers.h"
 #include "core/machine/drivers/pmac/internal/command_kind.h"
 #include "core/machine/drivers/pmac/internal/watchdog.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
@@ -43,7 +45,8 @@ void PmacSession::opened(double now) {
     greet_at_ = opened_at_ = now;
     own_pause_.begin(now);
     buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
-    found_power_ = gave_power_ = false;
+    found_power_ = gave_power_ = stays_armed_ = false;
+    guard_.forget();
     end_leaving();
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
@@ -143,12 +146,24 @@ void PmacSession::greet(double now) {
     } else if (greet_step_ == steps.size()) {
         ++greet_step_;
         ask("TYPE", Kind::greet);
-        for (std::string& line : watchdog_lines(settings_)) {
-            ask(std::move(line), Kind::greet);
-        }
         ask("I9=0", Kind::greet);
+        ask("I10", Kind::greet);
         ask_ratings();
         ask(poll_line(), Kind::poll);
+    }
+}
+
+/// Its lines, before what else is to be asked.
+void PmacSession::make_guard(const std::vector<std::string>& servo_time) {
+    const auto number = servo_time.size() == 1 ? card_number(servo_time.front()) : std::nullopt;
+    try {
+        std::vector<std::string> lines = watchdog_lines(settings_, number.value_or(0.0));
+        for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+            queue_.push_front({std::move(*line), Kind::greet, 0});
+        }
+    } catch (const Error& error) {
+        queue_.clear();
+        finish(Stage::alarm, error.what());
     }
 }
 
@@ -288,6 +303,8 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         if (request.line == "TYPE" && (lines.size() != 1 || !lines.front().starts_with("PMAC"))) {
             queue_.clear();
             finish(Stage::alarm, "this is no PMAC");
+        } else if (request.line == "I10") {
+            make_guard(lines);
         }
         break;
     case Kind::command:
@@ -419,7 +436,7 @@ std::string PmacSession::poll_line() const {
     for (const PmacAxis& axis : settings_.axes) {
         line += fmt::format("#{}?P", axis.motor);
     }
-    return line + fmt::format("&{}??P1000", settings_.system);
+    return line + fmt::format("&{}??P1000P1003", settings_.system);
 }
 
 void PmacSession::ask_ratings() {
@@ -432,7 +449,14 @@ std::optional<std::vector<std::string>> PmacSession::protections_off() const {
     const auto is_rating = [](const Request& request) { return request.kind == Kind::rating; };
     const bool asks =
         (sent_ && is_rating(*sent_)) || std::ranges::any_of(queue_, is_rating) || stage_ == Stage::commanding;
-    return asks ? std::nullopt : std::optional(readings_.protections_off());
+    if (asks) {
+        return std::nullopt;
+    }
+    std::vector<std::string> off = readings_.protections_off();
+    if (!guard_.runs()) {
+        off.emplace_back(guard_is_off);
+    }
+    return off;
 }
 
 /// From now on the card stops by itself when it no longer hears us.

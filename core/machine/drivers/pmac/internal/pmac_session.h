@@ -5,6 +5,7 @@
 #include "core/machine/drivers/internal/controller_session.h"
 #include "core/machine/drivers/internal/own_pause.h"
 #include "core/machine/drivers/pmac/internal/following_watch.h"
+#include "core/machine/drivers/pmac/internal/guard_watch.h"
 #include "core/machine/drivers/pmac/internal/guarded_line.h"
 #include "core/machine/drivers/pmac/internal/motor_readings.h"
 #include "core/machine/drivers/pmac/internal/steady_speed.h"
@@ -122,6 +123,7 @@ private:
 
     // pmac_session.cpp: the conversation
     void greet(double now);
+    void make_guard(const std::vector<std::string>& servo_time);
     void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind, 0}); }
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
@@ -145,6 +147,7 @@ private:
     void watch_motors();
     void watch_killed();
     void watch_power();
+    void watch_guard();
     void watch_following(double now);
     void watch_way_home();
     void watch_limits();
@@ -204,7 +207,9 @@ private:
 
     // pmac_commands.cpp: lines that are typed, or of a file
     void check_command(const std::vector<std::string>& lines) const;
+    static void check_guard(const std::string& line);
     void check_goals(const std::vector<std::string>& lines) const;
+    void check_buffers(const std::vector<std::string>& lines) const;
     void begin_command(const std::vector<std::string>& lines, bool all);
     bool stopped_by_command(const std::vector<std::string>& lines);
     [[nodiscard]] std::optional<std::size_t> given_power(const std::vector<std::string>& lines) const;
@@ -239,6 +244,7 @@ private:
     MotorReadings readings_;
     std::vector<MotorState> motors_;
     FollowingWatch following_;
+    GuardWatch guard_;
     double polled_at_ = 0.0, read_at_ = 0.0;
     std::uint32_t system_1_ = 0, system_2_ = 0;
     double mark_ = 0.0; ///< P1000, which programs and the watchdog set
@@ -246,7 +252,8 @@ private:
     int program_lines_ = 0, executed_ = 0;
     bool marks_tell_ = false; ///< lines are executed in their order
     bool held_ = false;
-    bool armed_ = false; ///< the watchdog in the card
+    bool armed_ = false;       ///< the watchdog in the card
+    bool stays_armed_ = false; ///< at rest, too: something in the card may begin motion that nobody sends
     int quiet_polls_ = 0;
     int astray_polls_ = 0;     ///< a motor stands where it was not sent
     int power_polls_ = 0;      ///< for which power that was given is still waited for

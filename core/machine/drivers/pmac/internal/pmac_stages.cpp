@@ -53,7 +53,7 @@ void PmacSession::watch_stage() {
         break;
     case Stage::ready:
     case Stage::stopped:
-        if (settled && armed_) {
+        if (settled && armed_ && !stays_armed_) {
             rest();
         }
         break;
@@ -125,10 +125,12 @@ std::string PmacSession::unheard() const {
 
 /// Nothing moves: the card need not watch, and no character that was garbled into ^R finds a program.
 void PmacSession::rest() {
-    ask(disarm_watchdog, Kind::watch);
+    if (!stays_armed_) {
+        ask(disarm_watchdog, Kind::watch);
+        armed_ = false;
+    }
     ask(fmt::format("&{}B0", settings_.system), Kind::watch);
     give_jog_speeds_back();
-    armed_ = false;
 }
 
 void PmacSession::watch_program(bool settled) {
@@ -185,9 +187,13 @@ void PmacSession::watch_stopping() {
         } else {
             kill();
         }
-    } else if (quiet_polls_ >= 2 && armed_) {
+    } else if (quiet_polls_ >= 2 && armed_ && !stays_armed_) {
         rest();
-    } else if (quiet_polls_ >= 2) {
+    } else if (quiet_polls_ >= 2 &&
+               queue_.empty()) { // the link may be dropped then, and the guard is disarmed
+        if (armed_) {
+            rest();
+        }
         finish(Stage::stopped, message_);
     }
 }

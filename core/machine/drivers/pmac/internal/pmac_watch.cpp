@@ -40,10 +40,11 @@ std::optional<Words> status_words(std::string_view text) {
 } // namespace
 
 void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
-    const std::size_t expected = 2 + 2 * motors_.size();
-    const auto system = lines.size() == expected ? status_words(lines[expected - 2]) : std::nullopt;
-    const auto mark = system ? card_number(lines.back()) : std::nullopt;
-    if (!mark) {
+    const std::size_t of_motors = 2 * motors_.size();
+    const auto system = lines.size() == of_motors + 3 ? status_words(lines[of_motors]) : std::nullopt;
+    const auto mark = system ? card_number(lines[of_motors + 1]) : std::nullopt;
+    const auto guard = system ? card_number(lines[of_motors + 2]) : std::nullopt;
+    if (!mark || !guard) {
         fail("the card's report is not what was asked for");
         return;
     }
@@ -73,6 +74,10 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     system_1_ = system->first;
     system_2_ = system->second;
     mark_ = *mark;
+    guard_.see(*guard, armed_);
+    if (stage_ == Stage::alarm && !guard_.runs() && guard_.is_disarmed() && !any_power()) {
+        armed_ = false; // it has taken the power while we were not heard, which disarms it
+    }
     polled_ = true;
     unseen_ = false;
     polled_at_ = now;
@@ -110,6 +115,7 @@ void PmacSession::watch(double now) {
     }
     watch_motors();
     watch_power();
+    watch_guard();
     watch_following(now);
     watch_limits();
     watch_rest();
@@ -187,6 +193,13 @@ void PmacSession::watch_power() {
              ? why + ", and it takes no power"
              : fmt::format("motor {} takes no power",
                            settings_.axes[static_cast<std::size_t>(without - motors_.begin())].motor));
+}
+
+/// Without it a link that is lost leaves the motors running.
+void PmacSession::watch_guard() {
+    if (!guard_.runs() && any_power()) {
+        fail(guard_is_off);
+    }
 }
 
 /// By what the card told last of the following errors, if that was just now.

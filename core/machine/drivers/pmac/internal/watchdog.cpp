@@ -1,5 +1,7 @@
 #include "core/machine/drivers/pmac/internal/watchdog.h"
 
+#include "core/base/error.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,8 +9,6 @@
 namespace millwright::machine::pmac {
 
 namespace {
-
-constexpr double cycle = 3'713'707.0 / 8'388'608.0 / 1000.0; // s, with the factory's I10
 
 std::string enabled(const PmacSettings& settings) {
     std::string condition;
@@ -20,7 +20,17 @@ std::string enabled(const PmacSettings& settings) {
 
 } // namespace
 
-std::vector<std::string> watchdog_lines(const PmacSettings& settings) {
+std::vector<std::string> watchdog_lines(const PmacSettings& settings, double servo_time) {
+    constexpr double shortest = 232'107.0, longest = 8'388'607.0; // what jumpers give, and 23 bits hold
+    if (!(servo_time >= shortest && servo_time <= longest)) {
+        throw Error(
+            fmt::format("the card says I10 = {:.0f}, which is no servo time of a PMAC", servo_time),
+            {},
+            "it says how long a servo cycle lasts, which the jumpers of the card tell: 3713707 from the "
+            "factory");
+    }
+    constexpr double units_per_ms = 8'388'608.0;
+    const double cycle = servo_time / units_per_ms / 1000.0; // s
     std::vector<std::string> lines{"P1001=0", "CLOSE", "DISABLE PLC 0..31", "I5=2", "M1000->X:$0,0,24"};
     for (const PmacAxis& axis : settings.axes) { // amplifier enabled, in the motors' status words
         constexpr int first = 0x814, step = 0xC0;
@@ -29,6 +39,17 @@ std::vector<std::string> watchdog_lines(const PmacSettings& settings) {
     for (const std::string& line :
          {std::string("OPEN PLC 31"),
           std::string("CLEAR"),
+          // what a report shows of it: it runs, and its clock does; negative while it is disarmed
+          std::string("IF(M1000!=P1004)"),
+          std::string("P1004=M1000"),
+          std::string("P1003=ABS(P1003)+1"),
+          std::string("IF(P1003>9999)"),
+          std::string("P1003=1"),
+          std::string("ENDIF"),
+          std::string("IF(P1001!=1)"),
+          std::string("P1003=0-P1003"),
+          std::string("ENDIF"),
+          std::string("ENDIF"),
           std::string("IF(P1001=1)"),
           std::string("P1005=M1000-P1002"),
           std::string("IF(P1005<0)"),

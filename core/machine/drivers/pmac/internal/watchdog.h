@@ -10,7 +10,9 @@
 namespace millwright::machine::pmac {
 
 /// The lines that make it and start it, disarmed. Every other PLC program is disabled before I5 lets it run.
-[[nodiscard]] std::vector<std::string> watchdog_lines(const PmacSettings& settings);
+/// `servo_time`: I10 of the card, by which it counts time. P1003 tells that it runs (GuardWatch). Throws
+/// Error for a servo time that no card has.
+[[nodiscard]] std::vector<std::string> watchdog_lines(const PmacSettings& settings, double servo_time);
 
 inline constexpr const char* arm_watchdog = "P1002=M1000 P1000=0 P1006=0 P1001=1";
 inline constexpr const char* disarm_watchdog = "P1001=0";

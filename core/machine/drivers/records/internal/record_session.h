@@ -49,7 +49,7 @@ public:
     void emergency_stop(double now) override;
     void reset(double now) override;
     void trust_position() override { stands_at(status_.position); }
-    void doubt_position(std::string why) override { status_.position_doubt = std::move(why); }
+    void doubt_position(std::string why, bool) override { status_.position_doubt = std::move(why); }
     void stands_at(const kinematics::AxisPositions& position) override;
     void home(double now) override;
     void jog(const Jog& jog, double now) override;

@@ -52,6 +52,7 @@ double Controller::next_event() const {
     double next = never;
     const auto consider = [&](double time) { next = time > time_ ? std::min(next, time) : next; };
     consider(busy_until_);
+    consider(writing_until_);
     if (dwell_) {
         consider(*dwell_);
     }
@@ -92,11 +93,11 @@ void Controller::after_motion() {
         if (done.failed()) {
             constexpr int switch_not_found = 9;
             alarm(switch_not_found);
+            reset(); // as the real one does, which greets then
         } else {
             state_ = State::idle;
             report_.show_offset_next();
-            acknowledge(0);
-            run_startup_lines();
+            run_startup_lines(); // the answer to $H follows when these are done
         }
     }
     if (door_restore_ && time_ >= *door_restore_ - rounding) {
@@ -125,7 +126,7 @@ void Controller::after_motion() {
 
 /// Grbl's main loop, until it has nothing to do or has to wait.
 void Controller::work() {
-    while (true) {
+    while (!writing()) {
         if (status_asked_ && !homing_ && !critical_) {
             status_asked_ = false;
             report_status();
@@ -168,6 +169,7 @@ void Controller::execute(const InputLine& line) {
         say(fmt::format("[echo:{}]\r\n", line.text));
     }
     answer_due_ = true;
+    line_arrived_ = line.arrived;
     int error = 0;
     if (line.text.starts_with('$')) {
         error = system_command(line.text);
@@ -182,7 +184,7 @@ void Controller::execute(const InputLine& line) {
 }
 
 int Controller::execute_gcode(const std::string& text) {
-    const Parsed parsed = parse_line(text, modes_, eeprom_);
+    const Parsed parsed = parse_line(text, modes_, eeprom_, options_.mist);
     if (parsed.error != 0) {
         return parsed.error;
     }

@@ -9,6 +9,7 @@
 #include "core/machine/emulators/grbl/internal/parser.h"
 #include "core/machine/emulators/grbl/internal/planner.h"
 #include "core/machine/emulators/grbl/internal/report.h"
+#include "core/machine/emulators/grbl/internal/serial_line.h"
 #include "core/machine/emulators/grbl/internal/stepper.h"
 
 #include <bitset>
@@ -58,6 +59,7 @@ private:
     void greet();
     void run_startup_lines();
     void alarm(int code);
+    void probe_alarm(int code);
     void stop_everything();
 
     // system_commands.cpp: lines that begin with $; each returns 0 or the number of its error
@@ -71,7 +73,8 @@ private:
     [[nodiscard]] int startup_line(std::string_view line);
     [[nodiscard]] int store_setting(std::string_view line);
     [[nodiscard]] int build_info(std::string_view line);
-    void save_eeprom() const;
+    void store(const Eeprom& eeprom);
+    [[nodiscard]] const Eeprom& eeprom_to_be() const { return pending_eeprom_ ? *pending_eeprom_ : eeprom_; }
 
     // tasks.cpp: what a line makes it do
     void take_over(const Parsed& parsed);
@@ -84,6 +87,7 @@ private:
     void finish_probe(bool touched);
     [[nodiscard]] bool inside_travel(const Axes& target) const;
     [[nodiscard]] bool at_rest();
+    [[nodiscard]] bool writing() const;
     void block_done(std::int64_t owner);
 
     // controller.cpp: time and the loop
@@ -101,9 +105,11 @@ private:
 
     GrblEmulatorOptions options_;
     Eeprom eeprom_;
+    std::optional<Eeprom> pending_eeprom_; ///< what a task will store
     Modes modes_;
     Planner planner_;
     Stepper stepper_;
+    SerialLine serial_line_;
     Input input_;
     StatusReport report_;
     Overrides overrides_;
@@ -111,7 +117,9 @@ private:
     Probe probe_;
     State state_ = State::idle;
     double time_ = 0.0;
-    double busy_until_ = 0.0; ///< reading and working out a line takes its time
+    double busy_until_ = 0.0;    ///< reading and working out a line takes its time
+    double line_arrived_ = 0.0;  ///< the line being executed, with its end
+    double writing_until_ = 0.0; ///< the EEPROM
     std::string output_;
 
     std::deque<Task> tasks_;       ///< of the line being executed

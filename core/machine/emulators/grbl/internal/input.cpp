@@ -5,20 +5,25 @@
 
 namespace millwright::machine::emulated {
 
-bool Input::push(char byte) {
+bool Input::push(char byte, double arrived) {
     if (free_bytes() == 0) {
         return false;
     }
-    bytes_.push_back(byte);
+    bytes_.push_back({byte, arrived});
     return true;
+}
+
+int Input::lose(const std::function<bool(double arrived)>& lost) {
+    return static_cast<int>(std::erase_if(bytes_, [&](const Byte& byte) { return lost(byte.arrived); }));
 }
 
 std::optional<InputLine> Input::take_line() {
     while (!bytes_.empty()) {
-        const char byte = bytes_.front();
+        const auto [byte, arrived] = bytes_.front();
         bytes_.pop_front();
         if (byte == '\n' || byte == '\r') {
             comment_ = Comment::none;
+            line_.arrived = arrived;
             return std::exchange(line_, {});
         }
         add(byte);

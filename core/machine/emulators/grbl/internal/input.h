@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,7 @@ namespace millwright::machine::emulated {
 struct InputLine {
     std::string text;      ///< without blanks and comments, in capitals
     bool too_long = false; ///< then the text is cut off
+    double arrived = 0.0;  ///< when its end had arrived, s
 };
 
 class Input {
@@ -19,17 +21,23 @@ public:
 
     [[nodiscard]] int free_bytes() const { return capacity - static_cast<int>(bytes_.size()); }
     [[nodiscard]] bool empty() const { return bytes_.empty(); }
-    /// False if there is no room: the byte is lost.
-    bool push(char byte);
+    /// `arrived`: when, s. False if there is no room: the byte is lost.
+    bool push(char byte, double arrived);
+    /// Takes out the bytes for which `lost` of their time of arrival holds; returns how many.
+    int lose(const std::function<bool(double arrived)>& lost);
     /// Reads until the end of a line, or of what there is.
     [[nodiscard]] std::optional<InputLine> take_line();
     void clear();
 
 private:
     enum class Comment { none, parentheses, to_end };
+    struct Byte {
+        char value = ' ';
+        double arrived = 0.0;
+    };
     void add(char byte);
 
-    std::deque<char> bytes_;
+    std::deque<Byte> bytes_;
     InputLine line_;
     Comment comment_ = Comment::none;
 };

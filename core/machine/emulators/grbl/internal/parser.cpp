@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace millwright::machine::emulated {
@@ -16,7 +17,7 @@ constexpr std::string_view axis_letters = "XYZ";
 
 class Parser {
 public:
-    Parser(const Words& words, const Modes& modes, const Eeprom& eeprom) : words_(words) {
+    Parser(const Words& words, const Modes& modes, const Eeprom& eeprom) : words_(words), before_(modes) {
         result_.modes = modes;
         result_.eeprom = eeprom;
     }
@@ -44,8 +45,8 @@ public:
     Parsed jog() {
         const bool others = words_.motion >= 0 || words_.plane >= 0 || words_.feed_mode >= 0 ||
                             words_.tool_length >= 0 || words_.coordinates >= 0 || words_.flow >= 0 ||
-                            words_.spindle >= 0 || words_.flood || words_.mist || words_.coolant_off ||
-                            words_.cutter_off || words_.exact_path || words_.arc_distance ||
+                            words_.spindle >= 0 || words_.coolant >= 0 || words_.cutter_off ||
+                            words_.exact_path || words_.arc_distance ||
                             (words_.non_modal >= 0 && words_.non_modal != 530);
         const Modes before = result_.modes;
         result_.error = others                                  ? error_code::bad_jog
@@ -68,6 +69,7 @@ public:
 
 private:
     const Words words_;
+    const Modes before_;
     Parsed result_;
     std::string used_;
     Axes target_{};
@@ -80,14 +82,10 @@ private:
     void add(Action action) { result_.tasks.push_back({.action = action}); }
 
     int take_numbers() {
-        constexpr double greatest_line = 9'999'999.0;
-        constexpr double greatest_tool = 255.0;
+        constexpr double greatest_line = 10'000'000.0;
         use("NFST");
         if (words_.value('N').value_or(0.0) > greatest_line) {
             return error_code::bad_line_number;
-        }
-        if (words_.value('T').value_or(0.0) > greatest_tool) {
-            return error_code::no_such_tool;
         }
         result_.line_number = static_cast<int>(words_.value('N').value_or(0.0));
         modes().tool = static_cast<int>(words_.value('T').value_or(modes().tool));
@@ -145,9 +143,10 @@ private:
         }
         modes().spindle = spindle;
         modes().spindle_rpm = rpm;
-        if (words_.flood || words_.mist || words_.coolant_off) {
-            modes().flood = !words_.coolant_off && (modes().flood || words_.flood);
-            modes().mist = !words_.coolant_off && (modes().mist || words_.mist);
+        if (words_.coolant >= 0) {
+            const bool off = words_.coolant == 90;
+            modes().flood = !off && (modes().flood || words_.coolant == 80);
+            modes().mist = !off && (modes().mist || words_.coolant == 70);
             add(Action::coolant);
         }
         return error_code::none;
@@ -201,6 +200,10 @@ private:
     }
 
     int take_non_modal() {
+        if (modes().coordinates != before_.coordinates ||
+            !exactly_equal(modes().tool_length_offset, before_.tool_length_offset)) {
+            add(Action::offset);
+        }
         switch (words_.non_modal) {
         case 100:
             return set_offset();
@@ -220,6 +223,7 @@ private:
             return shift_coordinates();
         case 921:
             modes().g92 = {};
+            add(Action::offset);
             return error_code::none;
         default:
             return error_code::none;
@@ -245,29 +249,33 @@ private:
         if (!words_.has_axes()) {
             return error_code::no_axes;
         }
-        if (!words_.has('P') || !words_.has('L')) {
+        if (!words_.has('P') && !words_.has('L')) { // one of them is enough for the real one, too
             return error_code::value_missing;
         }
-        const double which = *words_.value('P');
-        const double how = *words_.value('L');
-        if (which > 6.0) {
+        constexpr double most = 255.0;
+        const int which = static_cast<int>(std::min(words_.value('P').value_or(0.0), most));
+        const int how = static_cast<int>(std::clamp(words_.value('L').value_or(0.0), 0.0, most));
+        constexpr int last_system = 6;
+        if (which > last_system) {
             return error_code::no_such_offset;
         }
-        const bool known = exactly_equal(how, 2.0) || exactly_equal(how, 20.0);
-        if (!known || words_.has('R')) {
+        if ((how != 2 && how != 20) || (how == 2 && words_.has('R'))) {
             return error_code::unsupported_command;
         }
         use("PL");
-        const int slot = which < 1.0 ? modes().coordinates : static_cast<int>(which) - 1;
+        const int slot = which < 1 ? modes().coordinates : which - 1;
         Axes& offset = eeprom().work_offsets[static_cast<std::size_t>(slot)];
         for (std::size_t n = 0; n < offset.size(); ++n) {
             if (const auto& word = words_.value(axis_letters[n])) {
                 const double value = *word * unit();
                 const double other = modes().g92[n] + (n == 2 ? modes().tool_length_offset : 0.0);
-                offset[n] = how > 2.0 ? modes().position[n] - other - value : value;
+                offset[n] = how > 2 ? modes().position[n] - other - value : value;
             }
         }
         add(Action::store);
+        if (slot == modes().coordinates) {
+            add(Action::offset);
+        }
         return error_code::none;
     }
 
@@ -281,11 +289,12 @@ private:
                 modes().g92[n] += modes().position[n] - offset[n] - *word * unit();
             }
         }
+        add(Action::offset);
         return error_code::none;
     }
 
     int take_motion() {
-        if (modes().motion == 800 && axis_use_ == AxisUse::motion && words_.has_axes()) {
+        if (modes().motion == 800 && words_.has_axes()) { // also beside G10, G92 and G43.1
             return error_code::axes_without_motion;
         }
         if (axis_use_ != AxisUse::motion || modes().motion == 800) {
@@ -313,7 +322,7 @@ private:
             if (points.error != error_code::none) {
                 return points.error;
             }
-            use("IJKR");
+            use(words_.has('R') ? "R" : "IJK"); // a centre beside a radius is of no use
             task.points = points.points;
         }
         result_.tasks.push_back(task);
@@ -368,6 +377,12 @@ Parsed failed(int error, const Modes& modes, const Eeprom& eeprom) {
     return result;
 }
 
+/// Halves up, as Grbl prints.
+double rounded(double value, int decimals) {
+    const double scale = std::pow(10.0, decimals);
+    return std::floor(value * scale + 0.5) / scale;
+}
+
 std::string command_text(char letter, int tenths) {
     return tenths % 10 == 0 ? fmt::format("{}{}", letter, tenths / 10)
                             : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
@@ -384,14 +399,14 @@ Axes work_offset(const Modes& modes, const Eeprom& eeprom) {
     return offset;
 }
 
-Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom) {
-    const ReadWords read = read_words(line);
+Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist) {
+    const ReadWords read = read_words(line, mist);
     return read.error != error_code::none ? failed(read.error, modes, eeprom)
                                           : Parser(read.words, modes, eeprom).line();
 }
 
-Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom) {
-    const ReadWords read = read_words(line);
+Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist) {
+    const ReadWords read = read_words(line, mist);
     return read.error != error_code::none ? failed(read.error, modes, eeprom)
                                           : Parser(read.words, modes, eeprom).jog();
 }
@@ -410,9 +425,9 @@ std::string modes_report(const Modes& modes, bool report_inches) {
                        command_text('M', modes.spindle),
                        coolant,
                        modes.tool,
-                       report_inches ? modes.feed / mm_per_inch : modes.feed,
+                       rounded(report_inches ? modes.feed / mm_per_inch : modes.feed, report_inches ? 1 : 0),
                        report_inches ? 1 : 0,
-                       modes.spindle_rpm);
+                       rounded(modes.spindle_rpm, 0));
 }
 
 } // namespace millwright::machine::emulated

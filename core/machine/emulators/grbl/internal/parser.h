@@ -33,7 +33,9 @@ enum class Action {
     coolant, ///<
     dwell,   ///< `seconds`
     store,   ///< writes the EEPROM
+    offset,  ///< the work offset has changed; waits for rest
     pause,   ///< M0
+    restart, ///< after $RST
     end      ///< M2, M30
 };
 
@@ -59,10 +61,12 @@ struct Parsed {
 /// What is added to work coordinates to get machine coordinates.
 [[nodiscard]] Axes work_offset(const Modes& modes, const Eeprom& eeprom);
 
-/// `line` without blanks and comments, in capitals.
-[[nodiscard]] Parsed parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom);
+/// `line` without blanks and comments, in capitals; `mist`: as in read_words.
+[[nodiscard]] Parsed
+parse_line(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist = false);
 /// What follows `$J=`: one straight move, which changes no mode but the position.
-[[nodiscard]] Parsed parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom);
+[[nodiscard]] Parsed
+parse_jog(std::string_view line, const Modes& modes, const Eeprom& eeprom, bool mist = false);
 
 /// `[GC:...]` without the brackets' line end.
 [[nodiscard]] std::string modes_report(const Modes& modes, bool report_inches);

@@ -37,6 +37,11 @@ int changed(int value, const OverrideFlags& flags, std::size_t first) {
 } // namespace
 
 void Controller::receive(unsigned char byte) {
+    const double arrived = serial_line_.arrival(time_);
+    if (!serial_line_.takes(arrived)) {
+        ++lost_bytes_;
+        return;
+    }
     switch (byte) {
     case reset_byte:
         reset();
@@ -65,7 +70,7 @@ void Controller::receive(unsigned char byte) {
         override_flags_.set(static_cast<std::size_t>(byte - first_override));
     } else if (byte >= first_extended) {
         return; // Grbl knows no more of them
-    } else if (!input_.push(static_cast<char>(byte))) {
+    } else if (!input_.push(static_cast<char>(byte), arrived)) {
         ++lost_bytes_;
     }
 }
@@ -80,6 +85,7 @@ void Controller::stop_everything() {
     planner_.clear();
     planner_.stand_at(stepper_.position());
     tasks_.clear();
+    pending_eeprom_.reset();
     blocks_left_.clear();
     answer_due_ = false;
     dwell_.reset();
@@ -105,6 +111,12 @@ void Controller::alarm(int code) {
     }
 }
 
+/// A probe that fails stops nothing but the motion.
+void Controller::probe_alarm(int code) {
+    say(fmt::format("ALARM:{}\r\n", code));
+    state_ = State::alarm;
+}
+
 void Controller::reset() {
     constexpr int reset_in_motion = 3;
     constexpr int reset_while_homing = 6;
@@ -114,10 +126,9 @@ void Controller::reset() {
         alarm(reset_in_motion);
     }
     stop_everything();
-    const Modes before = modes_;
-    modes_ = {};
-    modes_.position = before.position;
-    modes_.g92 = before.g92;
+    modes_ = {}; // G92 and G43.1 with them
+    modes_.position = stepper_.position();
+    probe_ = {};
     input_.clear();
     overrides_ = {};
     override_flags_.reset();
@@ -158,7 +169,7 @@ void Controller::run_startup_lines() {
         if (line.empty()) {
             continue;
         }
-        const Parsed parsed = parse_line(line, modes_, eeprom_);
+        const Parsed parsed = parse_line(line, modes_, eeprom_to_be(), options_.mist);
         if (parsed.error == 0) {
             line_owner_ = -1;
             take_over(parsed);
@@ -207,6 +218,7 @@ void Controller::open_door() {
     constexpr int door_while_homing = 7;
     if (homing_) {
         alarm(door_while_homing);
+        reset();
         return;
     }
     if (state_ == State::idle || state_ == State::hold || state_ == State::run || state_ == State::jog) {
@@ -272,7 +284,7 @@ void Controller::change_accessory(unsigned char byte) {
         spindle_stopped_ = !spindle_stopped_;
     } else if (byte == toggle_flood && possible) {
         modes_.flood = !modes_.flood;
-    } else if (byte == toggle_mist && possible) {
+    } else if (byte == toggle_mist && options_.mist && possible) {
         modes_.mist = !modes_.mist;
     } else {
         return;

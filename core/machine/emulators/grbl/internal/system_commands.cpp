@@ -1,10 +1,13 @@
 // Lines that begin with $.
 #include "core/machine/emulators/grbl/internal/controller.h"
+#include "core/machine/emulators/grbl/internal/eeprom_image.h"
 #include "core/machine/emulators/grbl/internal/error_codes.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <numeric>
 
 namespace millwright::machine::emulated {
 
@@ -68,7 +71,7 @@ int Controller::named_command(std::string_view line) {
 }
 
 int Controller::jog(std::string_view line) {
-    const Parsed parsed = parse_jog(line, modes_, eeprom_);
+    const Parsed parsed = parse_jog(line, modes_, eeprom_, options_.mist);
     if (parsed.error != error_code::none) {
         return parsed.error;
     }
@@ -125,9 +128,10 @@ int Controller::home(std::string_view line) {
 
 int Controller::build_info(std::string_view line) {
     if (line == "$I") {
-        say(fmt::format("[VER:1.1h.20190825:{}]\r\n[OPT:V{}M,{},{}]\r\n",
+        say(fmt::format("[VER:1.1h.20190825:{}]\r\n[OPT:V{}{},{},{}]\r\n",
                         eeprom_.build_text,
                         options_.line_numbers ? "N" : "",
+                        options_.mist ? "M" : "",
                         Planner::capacity,
                         Input::capacity));
         return error_code::none;
@@ -135,30 +139,32 @@ int Controller::build_info(std::string_view line) {
     if (!line.starts_with("$I=")) {
         return error_code::unknown_command;
     }
-    eeprom_.build_text = line.substr(3);
-    save_eeprom();
+    Eeprom next = eeprom_;
+    next.build_text = line.substr(3);
+    store(next);
     return error_code::none;
 }
 
 int Controller::restore(std::string_view what) {
     const Eeprom fresh = default_eeprom();
+    Eeprom next = eeprom_;
     if (what == "$") {
-        eeprom_.settings = fresh.settings;
+        next.settings = fresh.settings;
     } else if (what == "#") {
-        eeprom_.work_offsets = fresh.work_offsets;
-        eeprom_.g28 = eeprom_.g30 = {};
+        next.work_offsets = fresh.work_offsets;
+        next.g28 = next.g30 = {};
     } else if (what == "*") {
-        eeprom_ = fresh;
+        next = fresh;
     } else {
         return error_code::unknown_command;
     }
-    save_eeprom();
-    say("[MSG:Restoring defaults]\r\n");
-    acknowledge(error_code::none);
-    reset();
+    pending_eeprom_ = next;
+    tasks_.push_back({.action = Action::store});
+    tasks_.push_back({.action = Action::restart});
     return error_code::none;
 }
 
+/// Grbl finds out whether a startup line is right by executing it.
 int Controller::startup_line(std::string_view line) {
     if (line == "$N") {
         say(fmt::format("$N0={}\r\n$N1={}\r\n", eeprom_.startup_lines[0], eeprom_.startup_lines[1]));
@@ -171,11 +177,16 @@ int Controller::startup_line(std::string_view line) {
         return error_code::not_idle;
     }
     const std::string_view code = line.substr(4);
-    if (const int error = parse_line(code, modes_, eeprom_).error; error != error_code::none) {
-        return error;
+    const Parsed parsed = parse_line(code, modes_, eeprom_, options_.mist);
+    if (parsed.error != error_code::none) {
+        return parsed.error;
     }
-    eeprom_.startup_lines[line[2] == '0' ? 0 : 1] = code;
-    save_eeprom();
+    line_owner_ = -1;
+    line_number_ = 0;
+    take_over(parsed);
+    pending_eeprom_ = eeprom_to_be();
+    pending_eeprom_->startup_lines[line[2] == '0' ? 0 : 1] = code;
+    tasks_.push_back({.action = Action::store});
     return error_code::none;
 }
 
@@ -197,17 +208,28 @@ int Controller::store_setting(std::string_view line) {
     if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || !(value > -most && value < most)) {
         return error_code::bad_number;
     }
-    const int error = eeprom_.set(number, value);
+    Eeprom next = eeprom_;
+    const int error = next.set(number, value);
     if (error == error_code::none) {
-        save_eeprom();
+        store(next);
     }
     return error;
 }
 
-void Controller::save_eeprom() const {
+/// An AVR does nothing else meanwhile, and loses most of what comes over its serial line.
+void Controller::store(const Eeprom& eeprom) {
+    const std::vector<double> pauses = eeprom_pauses(eeprom_, eeprom);
+    eeprom_ = eeprom;
     if (!options_.eeprom_file.empty()) {
         write_eeprom(options_.eeprom_file, eeprom_);
     }
+    if (pauses.empty()) {
+        return;
+    }
+    const double begin = std::max(time_, line_arrived_);
+    writing_until_ = std::accumulate(pauses.begin(), pauses.end(), begin);
+    serial_line_.interrupts_off(begin, pauses);
+    lost_bytes_ += input_.lose([this](double arrived) { return !serial_line_.takes(arrived); });
 }
 
 } // namespace millwright::machine::emulated

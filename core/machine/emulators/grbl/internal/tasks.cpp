@@ -2,10 +2,11 @@
 #include "core/base/numbers.h"
 #include "core/machine/emulators/grbl/internal/controller.h"
 
+#include <utility>
+
 namespace millwright::machine::emulated {
 
 void Controller::take_over(const Parsed& parsed) {
-    const Axes offset = work_offset(modes_, eeprom_);
     const Axes position = modes_.position;
     modes_ = parsed.modes;
     if (state_ == State::check) {
@@ -15,25 +16,28 @@ void Controller::take_over(const Parsed& parsed) {
     for (const Task& task : parsed.tasks) {
         tasks_.push_back(task);
         if (task.action == Action::store) {
-            eeprom_ = parsed.eeprom; // nothing is read before this line is done
+            pending_eeprom_ = parsed.eeprom; // nothing is read before this line is done
         }
-    }
-    if (work_offset(modes_, eeprom_) != offset) {
-        report_.show_offset_next();
     }
 }
 
 /// Whether the line is done; then it is acknowledged.
 bool Controller::do_tasks() {
     while (!tasks_.empty()) {
+        if (writing()) {
+            return false;
+        }
         if (!do_task(tasks_.front())) {
             start_cycle();
             return false;
         }
-        if (critical_ || state_ == State::alarm) {
+        if (tasks_.empty()) { // an alarm has taken them away
             return true;
         }
         tasks_.pop_front();
+    }
+    if (writing()) {
+        return false;
     }
     if (answer_due_) {
         acknowledge(0);
@@ -55,7 +59,15 @@ bool Controller::do_task(Task& task) {
         if (!at_rest()) {
             return false;
         }
-        save_eeprom();
+        if (pending_eeprom_) {
+            store(*std::exchange(pending_eeprom_, std::nullopt));
+        }
+        return true;
+    case Action::offset: // the real one counts by it from its parsing on, and says so when it is at rest
+        if (!at_rest()) {
+            return false;
+        }
+        report_.show_offset_next();
         return true;
     case Action::pause:
         if (!at_rest()) {
@@ -64,6 +76,11 @@ bool Controller::do_task(Task& task) {
         paused_ = !paused_;
         state_ = paused_ ? State::hold : state_;
         return !paused_;
+    case Action::restart:
+        say("[MSG:Restoring defaults]\r\n");
+        acknowledge(0);
+        reset();
+        return true;
     case Action::end:
         if (!at_rest()) {
             return false;
@@ -79,6 +96,11 @@ bool Controller::do_task(Task& task) {
         return true;
     }
     return true;
+}
+
+bool Controller::writing() const {
+    constexpr double rounding = 1e-9;
+    return time_ < writing_until_ - rounding;
 }
 
 bool Controller::at_rest() {
@@ -150,10 +172,10 @@ bool Controller::do_probe(const Task& task) {
     const Axes& at = stepper_.position();
     const bool toward = task.probe == 382 || task.probe == 383;
     const bool touching = options_.surface && at[2] <= options_.surface(at[0], at[1]);
-    probe_ = {};
+    probe_.touched = false; // where it touched last is kept
     if (touching == toward) {
         constexpr int wrong_beginning = 4;
-        alarm(wrong_beginning);
+        probe_alarm(wrong_beginning);
         return true;
     }
     probing_ = planner_.add({.target = task.points.front(),
@@ -171,11 +193,11 @@ void Controller::finish_probe(bool touched) {
     const bool must = modes_.motion == 382 || modes_.motion == 384;
     modes_.position = stepper_.position();
     if (!touched) {
-        probe_.position = stepper_.position();
         if (must) {
             constexpr int nothing_touched = 5;
-            alarm(nothing_touched);
-            acknowledge(0);
+            probe_alarm(nothing_touched);
+        } else {
+            probe_.position = stepper_.position();
         }
     }
     say(probe_report(probe_, eeprom_));

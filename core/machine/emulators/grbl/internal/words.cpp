@@ -2,8 +2,10 @@
 
 #include "core/machine/emulators/grbl/internal/error_codes.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace millwright::machine::emulated {
@@ -34,9 +36,25 @@ std::optional<double> take_number(std::string_view& text) {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+constexpr int one_tenth = 10; // of the hundredths of a Code
+
+/// A number as Grbl takes a G or an M apart: the whole part in eight bits, what it then lacks in sixteen. So
+/// M300 is 44 and 256 more.
+struct Code {
+    int whole = 0;
+    int hundredths = 0;
+};
+
+Code code_of(double value) {
+    constexpr double most = 1e9;
+    value = std::clamp(value, -most, most);
+    const auto whole = static_cast<std::uint8_t>(static_cast<std::int64_t>(value));
+    return {whole, static_cast<std::uint16_t>(std::llround(100.0 * (value - whole)))};
+}
+
 class Reader {
 public:
-    explicit Reader(std::string_view line) : rest_(line) {}
+    Reader(std::string_view line, bool mist) : rest_(line), mist_(mist) {}
 
     ReadWords read() {
         while (!rest_.empty() && result_.error == error_code::none) {
@@ -47,6 +65,7 @@ public:
 
 private:
     std::string_view rest_;
+    bool mist_;
     ReadWords result_;
 
     Words& words() { return result_.words; }
@@ -62,15 +81,7 @@ private:
             return error_code::bad_number;
         }
         if (letter == 'G' || letter == 'M') {
-            constexpr double most = 1000.0;
-            if (!(*value >= 0.0 && *value < most)) {
-                return error_code::unsupported_command;
-            }
-            const double tenths = *value * 10.0;
-            if (std::abs(tenths - std::round(tenths)) > 1e-3) {
-                return error_code::not_an_integer;
-            }
-            const int code = static_cast<int>(std::lround(tenths));
+            const Code code = code_of(*value);
             return letter == 'G' ? read_g(code) : read_m(code);
         }
         return read_value(letter, *value);
@@ -105,94 +116,127 @@ private:
         return conflict != error_code::none ? conflict : set(group, code);
     }
 
-    int read_g(int code) {
-        switch (code) {
-        case 0:
+    /// What must be a whole number of `group`.
+    static int set_whole(int& group, const Code& code) {
+        return code.hundredths == 0 ? set(group, 10 * code.whole) : error_code::not_an_integer;
+    }
+
+    int read_g(const Code& code) {
+        const int tenths = 10 * code.whole;
+        switch (code.whole) {
         case 10:
-        case 20:
+            return code.hundredths == 0 ? set_with_axes(words().non_modal, tenths, AxisUse::non_modal)
+                                        : error_code::not_an_integer;
+        case 28:
         case 30:
-        case 382:
-        case 383:
-        case 384:
-        case 385:
-            return set_with_axes(words().motion, code, AxisUse::motion);
-        case 800:
-            return set(words().motion, code);
-        case 100:
-        case 280:
-        case 300:
-        case 920:
-            return set_with_axes(words().non_modal, code, AxisUse::non_modal);
-        case 40:
-        case 530:
-        case 281:
-        case 301:
-        case 921:
-            return set(words().non_modal, code);
-        case 431:
-        case 490: // which makes nothing of them
-            return set_with_axes(words().tool_length, code, AxisUse::tool_length);
+        case 92:
+            return code.hundredths == 0 ? set_with_axes(words().non_modal, tenths, AxisUse::non_modal)
+                   : code.hundredths == one_tenth ? set(words().non_modal, tenths + 1)
+                                                  : error_code::unsupported_command;
+        case 4:
+        case 53:
+            return set_whole(words().non_modal, code);
+        case 0:
+        case 1:
+        case 2:
+        case 3:
+        case 38:
+            return read_motion(code);
+        case 80:
+            return set_whole(words().motion, code);
+        case 43:
+        case 49: // of which it reads no fraction
+            return read_tool_length(code);
         default:
             return read_mode(code);
         }
     }
 
-    int read_mode(int code) {
-        switch (code) {
-        case 170:
-        case 180:
-        case 190:
-            return set(words().plane, code);
-        case 900:
-        case 910:
-            return set(words().distance, code);
-        case 911:
-            return set(words().arc_distance);
-        case 930:
-        case 940:
-            return set(words().feed_mode, code);
-        case 200:
-        case 210:
-            return set(words().units, code);
-        case 400:
-            return set(words().cutter_off);
-        case 610:
-            return set(words().exact_path);
-        case 540:
-        case 550:
-        case 560:
-        case 570:
-        case 580:
-        case 590:
-            return set(words().coordinates, code);
-        case 591:
-        case 592:
-        case 593:
-            return error_code::no_such_offset;
+    int read_motion(const Code& code) {
+        const int conflict = use_axes(AxisUse::motion);
+        if (conflict != error_code::none) {
+            return conflict;
+        }
+        constexpr int probe = 38;
+        if (code.whole != probe) {
+            return set_whole(words().motion, code);
+        }
+        const bool known = code.hundredths >= 2 * one_tenth && code.hundredths <= 5 * one_tenth &&
+                           code.hundredths % one_tenth == 0;
+        return known ? set(words().motion, 10 * probe + code.hundredths / one_tenth)
+                     : error_code::unsupported_command;
+    }
+
+    int read_tool_length(const Code& code) {
+        constexpr int cancels = 49;
+        const int conflict = use_axes(AxisUse::tool_length);
+        if (conflict != error_code::none) {
+            return conflict;
+        }
+        if (code.whole == cancels) {
+            return set(words().tool_length, 10 * cancels); // and makes nothing of axis words
+        }
+        return code.hundredths == one_tenth ? set(words().tool_length, 10 * code.whole + 1)
+                                            : error_code::unsupported_command;
+    }
+
+    int read_mode(const Code& code) {
+        const bool whole = code.hundredths == 0;
+        switch (code.whole) {
+        case 17:
+        case 18:
+        case 19:
+            return set_whole(words().plane, code);
+        case 90:
+        case 91:
+            if (whole) {
+                return set(words().distance, 10 * code.whole);
+            }
+            return code.whole == 91 && code.hundredths == one_tenth ? set(words().arc_distance)
+                                                                    : error_code::unsupported_command;
+        case 93:
+        case 94:
+            return set_whole(words().feed_mode, code);
+        case 20:
+        case 21:
+            return set_whole(words().units, code);
+        case 40:
+            return whole ? set(words().cutter_off) : error_code::not_an_integer;
+        case 61:
+            return whole ? set(words().exact_path) : error_code::unsupported_command;
+        case 54:
+        case 55:
+        case 56:
+        case 57:
+        case 58:
+        case 59:
+            return set_whole(words().coordinates, code);
         default:
             return error_code::unsupported_command;
         }
     }
 
-    int read_m(int code) {
-        switch (code) {
+    int read_m(const Code& code) {
+        if (code.hundredths != 0) {
+            return error_code::not_an_integer;
+        }
+        switch (code.whole) {
         case 0:
-        case 10:
-        case 20:
-        case 300:
-            return set(words().flow, code);
+        case 1:
+        case 2:
         case 30:
-        case 40:
-        case 50:
-            return set(words().spindle, code);
-        case 70:
-            return set(words().mist);
-        case 80:
-            return set(words().flood);
-        case 90:
-            return set(words().coolant_off);
+            return set_whole(words().flow, code);
+        case 3:
+        case 4:
+        case 5:
+            return set_whole(words().spindle, code);
+        case 7:
+            return mist_ ? set_whole(words().coolant, code) : error_code::unsupported_command;
+        case 8:
+        case 9:
+            return set_whole(words().coolant, code);
         default:
-            return code % 10 != 0 ? error_code::not_an_integer : error_code::unsupported_command;
+            return error_code::unsupported_command;
         }
     }
 
@@ -201,6 +245,10 @@ private:
         constexpr std::string_view positive = "FNPST";
         if (known.find(letter) == std::string_view::npos) {
             return error_code::unsupported_command;
+        }
+        constexpr double last_tool = 255.0;
+        if (letter == 'T' && value > last_tool) {
+            return error_code::no_such_tool;
         }
         auto& place = words().values[static_cast<std::size_t>(letter - 'A')];
         if (place) {
@@ -216,8 +264,8 @@ private:
 
 } // namespace
 
-ReadWords read_words(std::string_view line) {
-    return Reader(line).read();
+ReadWords read_words(std::string_view line, bool mist) {
+    return Reader(line, mist).read();
 }
 
 } // namespace millwright::machine::emulated

@@ -15,9 +15,8 @@ enum class AxisUse { none, motion, non_modal, tool_length };
 struct Words {
     int motion = -1, plane = -1, distance = -1, feed_mode = -1, units = -1, tool_length = -1,
         coordinates = -1;
-    int non_modal = -1, flow = -1, spindle = -1;
+    int non_modal = -1, flow = -1, spindle = -1, coolant = -1;
     bool arc_distance = false, cutter_off = false, exact_path = false; ///< G91.1, G40, G61
-    bool flood = false, mist = false, coolant_off = false;
     AxisUse axis_use = AxisUse::none;
     std::array<std::optional<double>, 26> values; ///< by letter
 
@@ -33,7 +32,7 @@ struct ReadWords {
     Words words;
 };
 
-/// `line` without blanks and comments, in capitals.
-[[nodiscard]] ReadWords read_words(std::string_view line);
+/// `line` without blanks and comments, in capitals; `mist`: this Grbl was built with M7.
+[[nodiscard]] ReadWords read_words(std::string_view line, bool mist = false);
 
 } // namespace millwright::machine::emulated

@@ -61,7 +61,9 @@ TEST(GrblCommand, RefusesWhatHasAButtonOfItsOwn) {
 }
 
 TEST(GrblCommand, TellsWhatIsInForce) {
-    GrblWire wire;
+    GrblWire wire({}, {.mist = true});
+    EXPECT_TRUE(wire.session.readout().mist);
+    EXPECT_FALSE(GrblWire().session.readout().mist);
     EXPECT_EQ(wire.session.status().work_system, 1);
     EXPECT_THAT(wire.session.status().modes, HasSubstr("G54"));
     const DriverStatus status = execute(

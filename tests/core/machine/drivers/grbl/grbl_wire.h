@@ -4,6 +4,7 @@
 #include "core/machine/drivers/grbl/internal/session.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
 #include "tests/core/machine/drivers/session_wire.h"
+#include "tests/core/machine/emulators/grbl/stored_settings.h"
 
 #include <string>
 #include <utility>
@@ -38,7 +39,7 @@ public:
         : GrblHolder{machine::GrblEmulator(std::move(options))},
           SessionWire(grbl, machine::grbl::Session(settings), 0.005) {
         greet();
-        grbl.receive(setup);
+        store_settings(grbl, setup);
         run_until([] { return false; }, setup.empty() ? 0.0 : 0.5);
         begin_faults(faults);
     }

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/grbl/codes.h"
+#include "core/machine/job_log.h"
 #include "core/machine/recovery.h"
 #include "core/machine/run_from_line.h"
 #include "tests/core/machine/drivers/grbl/wire_driver.h"
@@ -113,7 +114,7 @@ TEST(GrblPositionDoubt, IsNotEndedByARefusedZero) {
 
 TEST(GrblPositionDoubt, EndsWithHoming) {
     GrblWire wire;
-    wire.grbl.receive("$22=1\n$25=3000\n");
+    test::store_settings(wire.grbl, "$22=1\n$25=3000\n");
     wire.run_until([] { return false; }, 0.5);
     EXPECT_THAT(doubt(wire), Not(IsEmpty()));
     wire.session.home(wire.now);
@@ -200,6 +201,45 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
     EXPECT_EQ(wire.grbl.truth().lines.size(), lines);
     driver.trust_position();
     EXPECT_EQ(dispatcher.run(rest, {}).end, JobEnd::done);
+}
+
+/// Stored offsets count from a position that is lost.
+TEST(GrblPositionDoubt, KeepsWholeProgramsBackUntilAPersonConfirmsThePositionWhichTheLogRecords) {
+    const test::ScratchFolder scratch;
+    GrblWire wire({.reset = 2500});
+    test::WireClock clock(wire, wire.now + long_run);
+    test::WireDriver driver(wire);
+    Dispatcher dispatcher(driver, clock, scratch.path());
+    trust(wire);
+    ASSERT_EQ(dispatcher.run(text_job(zigzag_below_surface(40), "zigzag.ngc"), {}).end, JobEnd::fault);
+    unlock(wire);
+    const Job next = text_job("G21 G90 G94\nG1 X5 F600\nM30\n", "next.ngc");
+    const auto lines = wire.grbl.truth().lines.size();
+    try {
+        (void)dispatcher.run(next, {});
+        FAIL() << "it began although the position is lost";
+    } catch (const Error& error) {
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Stored work offsets may lead anywhere"));
+    }
+    EXPECT_EQ(wire.grbl.truth().lines.size(), lines);
+    driver.trust_position();
+    const JobOutcome outcome = dispatcher.run(next, {});
+    EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(read_job_log(outcome.log_file).start.position_confirmed, "the controller was reset");
+}
+
+TEST(GrblPositionDoubt, OfAControllerJustSwitchedOnMattersWhereItHasStoredOffsets) {
+    const GrblWire wire;
+    DriverStatus status = wire.session.status();
+    ASSERT_THAT(status.position_doubt, Not(IsEmpty()));
+    EXPECT_FALSE(status.position_lost);
+    const StoredOffset park{"G28", kinematics::AxisPositions{Vec3(1.0, 0.0, 0.0)}};
+    const StoredOffset fixture{"G55", kinematics::AxisPositions{Vec3(1.0, 0.0, 0.0)}};
+    EXPECT_FALSE(needs_confirmation(status, {}));
+    EXPECT_FALSE(needs_confirmation(status, {park}));
+    EXPECT_TRUE(needs_confirmation(status, {park, fixture}));
+    status.position_doubt.clear();
+    EXPECT_FALSE(needs_confirmation(status, {fixture}));
 }
 
 } // namespace

@@ -349,7 +349,7 @@ TEST(GrblSession, WaitsForADwellThatIsWrittenWithAPlus) {
 
 TEST(GrblSession, HomesAndUnlocks) {
     GrblWire wire;
-    wire.grbl.receive("$22=1\n$25=3000\n");
+    test::store_settings(wire.grbl, "$22=1\n$25=3000\n");
     wire.run_until([] { return false; }, 0.5);
     wire.session.home(wire.now);
     wire.run_to_end();

@@ -3,11 +3,14 @@
 
 #include "tests/core/machine/drivers/grbl/grbl_wire.h"
 
+#include <optional>
+
 namespace millwright::test {
 
 class WireDriver final : public machine::Driver {
 public:
-    explicit WireDriver(GrblWire& wire) : wire_(wire) {}
+    /// `checks`: a dispatcher reads what it is given before.
+    explicit WireDriver(GrblWire& wire, bool checks = false) : wire_(wire), checks_(checks) {}
 
     [[nodiscard]] std::string name() const override { return "grbl"; }
     [[nodiscard]] machine::DriverStatus status() const override { return wire_.session.status(); }
@@ -15,6 +18,7 @@ public:
         using kinematics::AxisKind;
         machine::Capabilities able;
         able.axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
+        able.dialect = checks_ ? std::optional(gcode::Dialect::grbl) : std::nullopt;
         able.plans = able.overrides = able.single_block = able.piecewise = true;
         return able;
     }
@@ -29,13 +33,16 @@ public:
     void emergency_stop() override { wire_.session.emergency_stop(wire_.now); }
     void reset() override { wire_.session.reset(wire_.now); }
     void trust_position() override { wire_.session.trust_position(); }
-    void doubt_position(std::string why) override { wire_.session.doubt_position(std::move(why)); }
+    void doubt_position(std::string why, bool lost) override {
+        wire_.session.doubt_position(std::move(why), lost);
+    }
     void close() noexcept override {}
     void set_overrides(const machine::Overrides& wanted) override { wire_.session.set_overrides(wanted); }
     void set_single_block(bool on) override { wire_.session.set_single_block(on); }
 
 private:
     GrblWire& wire_;
+    bool checks_;
 };
 
 } // namespace millwright::test

@@ -1,8 +1,8 @@
 // G-code read in Grbl's dialect against the emulated Grbl, two readers that share nothing: they take and
 // refuse the same lines, go to the same places, and have the same feed in force.
-#include "core/gcode/reader/canon_frame.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
+#include "tests/core/machine/emulators/grbl/last_target.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,23 +17,6 @@ namespace millwright::machine {
 namespace {
 
 using gcode::Axis;
-
-/// Where the program takes the machine, in mm.
-class Ends final : public gcode::CanonSink {
-public:
-    void move(const gcode::Move& move, const gcode::SourceLine&) override {
-        at = frame_.to_machine(move.target);
-    }
-    void curve(const gcode::Curve&, const gcode::SourceLine&) override {}
-    void command(const gcode::Command& command, const gcode::SourceLine&) override {
-        frame_.command(command);
-    }
-
-    gcode::AxisValues at;
-
-private:
-    gcode::CanonFrame frame_;
-};
 
 gcode::ReaderSettings grbl_dialect() {
     gcode::ReaderSettings settings;
@@ -90,7 +73,7 @@ void expect_same(const std::vector<std::string>& lines, int& compared) {
     const std::string text = joined(lines);
     SCOPED_TRACE("\n" + text);
     Controller controller;
-    Ends ends;
+    test::LastTarget ends;
     gcode::Interpreter reader(text, "made-up.nc", grbl_dialect(), ends);
     for (const std::string& line : lines) {
         (void)reader.step();

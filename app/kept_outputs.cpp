@@ -1,0 +1,96 @@
+#include "app/kept_outputs.h"
+
+#include "app/written_files.h"
+#include "core/base/error.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+namespace millwright::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The file itself, which a link may lead to; empty unless it has bytes that could be lost.
+fs::path file_to_lose(const fs::path& file) {
+    std::error_code failure;
+    const fs::path real = fs::canonical(file, failure);
+    const bool has_bytes = !failure && fs::is_regular_file(real, failure) && fs::file_size(real, failure) > 0;
+    return has_bytes && !failure ? real : fs::path();
+}
+
+/// Whether `file` has a second name now: that of the same file, or of a copy where files have but one.
+bool named_twice(const fs::path& file, const fs::path& name) {
+    std::error_code failure;
+    fs::create_hard_link(file, name, failure);
+    return !failure || fs::copy_file(file, name, failure);
+}
+
+bool is_untouched(const fs::path& file, const fs::path& name) {
+    std::error_code failure;
+    if (fs::equivalent(file, name, failure)) {
+        return true;
+    }
+    return WrittenFiles::same_bytes(file, name);
+}
+
+} // namespace
+
+fs::path kept_name(const fs::path& file) {
+    std::error_code unknown;
+    constexpr std::size_t longest_stem = 200; // bytes; a name may have 255
+    const std::string stem = file.stem().string().substr(0, longest_stem);
+    for (int n = 1;; ++n) {
+        fs::path name = file.parent_path() / fmt::format("{}-kept-{}{}", stem, n, file.extension().string());
+        if (!fs::exists(fs::symlink_status(name, unknown))) {
+            return name;
+        }
+    }
+}
+
+void say_kept(const fs::path& file, const fs::path& name) {
+    fmt::print(stderr,
+               "millwright: {}\n",
+               to_text(Diagnostic{{file, 0, 0, -1},
+                                  "was not as Millwright wrote it last; what was there is now in " +
+                                      name.filename().string(),
+                                  {}}));
+}
+
+KeptOutputs::KeptOutputs(std::vector<fs::path> files) : files_(std::move(files)) {
+    for (const fs::path& file : files_) {
+        const fs::path real = file_to_lose(file);
+        if (real.empty() || WrittenFiles().holds(real)) {
+            continue;
+        }
+        if (fs::path name = kept_name(real); named_twice(real, name)) {
+            kept_.emplace_back(real, std::move(name));
+        } // else nothing can be written there either
+    }
+}
+
+KeptOutputs::~KeptOutputs() {
+    for (const auto& [file, name] : kept_) {
+        if (is_untouched(file, name)) {
+            std::error_code ignored;
+            fs::remove(name, ignored);
+        } else {
+            say_kept(file, name);
+        }
+    }
+    std::vector<fs::path> written;
+    for (const fs::path& file : files_) {
+        if (fs::path real = file_to_lose(file); !real.empty()) {
+            written.push_back(std::move(real));
+        }
+    }
+    if (!written.empty()) {
+        WrittenFiles().add(written);
+    }
+}
+
+} // namespace millwright::app

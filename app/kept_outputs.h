@@ -1,0 +1,30 @@
+// Files that a command would replace and that Millwright has not written: they stay under another name.
+#pragma once
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace millwright::app {
+
+/// "program-kept-1.ngc", which is free.
+[[nodiscard]] std::filesystem::path kept_name(const std::filesystem::path& file);
+
+/// On standard error.
+void say_kept(const std::filesystem::path& file, const std::filesystem::path& name);
+
+/// While a command runs that writes `files`. At the end those that it replaced, and that were not as a
+/// command had written them last, are there under another name, and what it wrote is remembered.
+class KeptOutputs {
+public:
+    explicit KeptOutputs(std::vector<std::filesystem::path> files);
+    KeptOutputs(const KeptOutputs&) = delete;
+    KeptOutputs& operator=(const KeptOutputs&) = delete;
+    ~KeptOutputs();
+
+private:
+    std::vector<std::filesystem::path> files_;
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> kept_; ///< with a second name each
+};
+
+} // namespace millwright::app

@@ -1,0 +1,285 @@
+#include "core/base/draft.h"
+
+#include "core/base/error.h"
+#include "core/base/internal/write_all.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <mutex>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace millwright {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view draft_begin = ".millwright-";
+constexpr std::string_view draft_end = ".draft";
+constexpr std::size_t random_letters = 16;
+
+[[noreturn]] void fail_to_write(const fs::path& file, int error_number) {
+    throw Error("cannot write: " + std::error_code(error_number, std::generic_category()).message(), file);
+}
+
+/// Short, so that any name that a file may have has room for its draft.
+fs::path random_name(const fs::path& folder) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz234567"; // 5 bits each
+    std::array<unsigned char, random_letters> random{};
+    if (::getrandom(random.data(), random.size(), 0) != static_cast<ssize_t>(random.size())) {
+        fail_to_write(folder, errno);
+    }
+    std::string name(draft_begin);
+    for (const unsigned char byte : random) {
+        name += letters[byte % letters.size()];
+    }
+    return folder / name.append(draft_end);
+}
+
+bool is_draft_name(const std::string& name) {
+    return name.size() == draft_begin.size() + random_letters + draft_end.size() &&
+           name.starts_with(draft_begin) && name.ends_with(draft_end);
+}
+
+/// Of our user, and of no program that still runs.
+void remove_if_abandoned(const fs::path& draft) {
+    const int handle = ::open(draft.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (handle < 0) {
+        return;
+    }
+    struct stat found {};
+    if (::fstat(handle, &found) == 0 && S_ISREG(found.st_mode) && found.st_uid == ::geteuid() &&
+        ::flock(handle, LOCK_EX | LOCK_NB) == 0) {
+        ::unlink(draft.c_str());
+    }
+    ::close(handle);
+}
+
+/// Once for each folder: a program that runs removes its own.
+void remove_abandoned(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> seen;
+    {
+        const std::scoped_lock lock(mutex);
+        if (!seen.insert(folder).second) {
+            return;
+        }
+    }
+    std::error_code failure;
+    for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure)) {
+        if (is_draft_name(entry->path().filename().string())) {
+            remove_if_abandoned(entry->path());
+        }
+    }
+}
+
+/// As the kernel's protected_symlinks, which does not know that we go where the link leads.
+bool is_planted(const fs::path& link) {
+    struct stat of_link {};
+    struct stat of_folder {};
+    const fs::path folder = link.has_parent_path() ? link.parent_path() : fs::path(".");
+    if (::lstat(link.c_str(), &of_link) != 0 || ::stat(folder.c_str(), &of_folder) != 0) {
+        return false;
+    }
+    constexpr mode_t for_everybody = S_ISVTX | S_IWOTH;
+    return (of_folder.st_mode & for_everybody) == for_everybody && of_link.st_uid != ::geteuid() &&
+           of_link.st_uid != of_folder.st_uid;
+}
+
+/// Behind the link, if it is one.
+fs::path resolved(const fs::path& target) {
+    std::error_code failure;
+    if (!fs::is_symlink(fs::symlink_status(target, failure))) {
+        return target;
+    }
+    if (is_planted(target)) {
+        throw Error("cannot write: it is a link of another user in a folder that is open to everybody",
+                    target);
+    }
+    fs::path real = fs::weakly_canonical(target, failure);
+    if (failure) {
+        fail_to_write(target, failure.value());
+    }
+    return real;
+}
+
+} // namespace
+
+Draft::Draft(const fs::path& target, Privacy privacy) : target_(resolved(target)), privacy_(privacy) {
+    struct stat old {};
+    replaces_ = ::stat(target_.c_str(), &old) == 0;
+    if (replaces_ && S_ISDIR(old.st_mode)) {
+        fail_to_write(target_, EISDIR);
+    }
+    constexpr mode_t anybody_writes = S_IWUSR | S_IWGRP | S_IWOTH;
+    if (replaces_ && (old.st_mode & anybody_writes) == 0) {
+        throw Error("cannot write: the file is write-protected", target_, "give it another name");
+    }
+    if (replaces_ && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) {
+        fail();
+    }
+    make();
+}
+
+Draft::~Draft() {
+    close();
+    if (!place_.empty()) {
+        ::unlink(place_.c_str());
+    }
+    if (!old_.empty() && !keeps_) {
+        ::unlink(old_.c_str());
+    }
+}
+
+void Draft::make() {
+    const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+    remove_abandoned(folder);
+    while (handle_ < 0) {
+        fs::path place = random_name(folder);
+        handle_ = ::open(place.c_str(),
+                         O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                         replaces_ || privacy_ == Privacy::own ? 0600 : 0666); // less what the umask takes
+        if (handle_ < 0 && errno != EEXIST) {
+            fail();
+        }
+        if (handle_ < 0) {
+            continue;
+        }
+        place_ = std::move(place);
+        (void)::flock(handle_, LOCK_EX); // without locks on this file system none is taken for abandoned
+        struct stat made {};
+        if (::fstat(handle_, &made) == 0 && made.st_nlink == 0) { // until then it looked abandoned
+            ::close(std::exchange(handle_, -1));
+            place_.clear();
+        }
+    }
+}
+
+void Draft::write(std::string_view bytes) {
+    if (!internal::write_all(handle_, bytes)) {
+        fail();
+    }
+}
+
+/// Owner before mode, which a change of owner may narrow.
+void Draft::take_rights() {
+    struct stat old {};
+    struct stat own {};
+    if (replaces_ && ::stat(target_.c_str(), &old) == 0 && ::fstat(handle_, &own) == 0) {
+        const bool same = old.st_uid == own.st_uid && old.st_gid == own.st_gid;
+        owner_is_lost_ = !same && ::fchown(handle_, old.st_uid, old.st_gid) != 0;
+        const mode_t kept = privacy_ == Privacy::own ? 0700U : 0777U;
+        if (::fchmod(handle_, old.st_mode & kept) != 0) {
+            fail();
+        }
+    }
+    if (::fsync(handle_) != 0) {
+        fail();
+    }
+}
+
+void Draft::finish() {
+    take_rights();
+    if (owner_is_lost_) {
+        copy_into_place();
+    } else if (::rename(place_.c_str(), target_.c_str()) != 0) {
+        fail();
+    } else {
+        place_.clear();
+    }
+    close();
+}
+
+/// A file that others own and we may write keeps its owner only so. Everything is in the draft by then.
+void Draft::copy_into_place() {
+    const int to = ::open(target_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (to < 0) {
+        fail();
+    }
+    std::array<char, 65536> buffer{};
+    off_t at = 0;
+    bool good = true;
+    for (ssize_t count = 1; good && count > 0;) {
+        count = ::pread(handle_, buffer.data(), buffer.size(), at);
+        good = count >= 0 && ::pwrite(to, buffer.data(), static_cast<std::size_t>(count), at) == count;
+        at += good ? count : 0;
+    }
+    good = good && ::ftruncate(to, at) == 0 && ::fsync(to) == 0;
+    const int why = errno;
+    if (::close(to) != 0 || !good) {
+        errno = good ? errno : why;
+        fail();
+    }
+}
+
+void Draft::exchange() {
+    take_rights();
+    if (owner_is_lost_) {
+        throw Error("cannot write: the file belongs to another user", target_, "choose another folder");
+    }
+    if (!replaces_) {
+        if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0 &&
+            (errno == EEXIST || ::rename(place_.c_str(), target_.c_str()) != 0)) {
+            fail();
+        }
+    } else if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
+        old_ = place_;
+    } else { // not on every file system
+        fs::path aside = random_name(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
+        if (::rename(target_.c_str(), aside.c_str()) != 0) {
+            fail();
+        }
+        if (::rename(place_.c_str(), target_.c_str()) != 0) {
+            const int why = errno;
+            ::rename(aside.c_str(), target_.c_str());
+            errno = why;
+            fail();
+        }
+        old_ = std::move(aside);
+    }
+    place_.clear();
+    close();
+}
+
+void Draft::put_back() {
+    if (!place_.empty()) { // it never took its place
+        return;
+    }
+    if (old_.empty() ? ::unlink(target_.c_str()) != 0 : ::rename(old_.c_str(), target_.c_str()) != 0) {
+        fail();
+    }
+    old_.clear();
+}
+
+void Draft::keep_old(const fs::path& name) {
+    if (::renameat2(AT_FDCWD, old_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) != 0 &&
+        (errno == EEXIST || ::rename(old_.c_str(), name.c_str()) != 0)) {
+        fail();
+    }
+    old_ = name;
+    keeps_ = true;
+}
+
+/// What was to last has been synchronised before.
+void Draft::close() {
+    if (handle_ >= 0) {
+        ::close(std::exchange(handle_, -1));
+    }
+}
+
+void Draft::fail() const {
+    fail_to_write(target_, errno);
+}
+
+} // namespace millwright

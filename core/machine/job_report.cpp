@@ -1,0 +1,30 @@
+#include "core/machine/job_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::machine {
+
+double JobReport::fraction() const {
+    return planned_time > 0.0
+               ? driver.planned_time / planned_time
+               : static_cast<double>(std::max(driver.executed_blocks, driver.block)) / std::max(1, blocks);
+}
+
+std::string JobReport::progress_text() const {
+    const std::string sent = driver.sent_blocks > driver.executed_blocks
+                                 ? fmt::format(", {} sent", driver.sent_blocks)
+                                 : std::string();
+    if (line > 0 && driver.block > driver.executed_blocks) {
+        return fmt::format("Block {} of {}, line about {}, {} confirmed{}",
+                           driver.block,
+                           blocks,
+                           line,
+                           driver.executed_blocks,
+                           sent);
+    }
+    return fmt::format("Block {} of {}{}", driver.executed_blocks, blocks, sent);
+}
+
+} // namespace millwright::machine

@@ -1,0 +1,206 @@
+// What commands do with files that are there already, that never end, or whose names are strange.
+#include "tests/app/program.h"
+#include "tests/app/scratch_files.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// What commands remember is in the folder of the test.
+class KeptFiles : public testing::Test {
+protected:
+    void SetUp() override { ::setenv("XDG_STATE_HOME", (scratch / "state").c_str(), 1); }
+    void TearDown() override { ::unsetenv("XDG_STATE_HOME"); }
+
+    ScratchFolder scratch;
+    fs::path out = scratch / "out";
+    fs::path logs = scratch / "logs";
+
+    [[nodiscard]] Ended plan(const fs::path& project) const { return run({"plan", project, "--out", out}); }
+    [[nodiscard]] Ended sent(const fs::path& file) const {
+        return run({"send",
+                    file,
+                    "--driver",
+                    "virtual",
+                    "--machine",
+                    "rotary-tilt-listing",
+                    "--speed",
+                    "0",
+                    "--log",
+                    logs});
+    }
+    [[nodiscard]] std::vector<std::string> drafts() const {
+        std::vector<std::string> found;
+        for (const auto& entry : fs::directory_iterator(out)) {
+            if (entry.path().filename().string().starts_with('.')) {
+                found.push_back(entry.path().filename().string());
+            }
+        }
+        return found;
+    }
+};
+
+TEST_F(KeptFiles, AProgramThatAPersonHasEditedIsKeptUnderAnotherName) {
+    const fs::path project = small_project(scratch.path(), "dome");
+    fs::create_directory(out);
+    write_content(out / "program.ngc", "by hand");
+    const Ended first = plan(project);
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr("what was there is now in program-kept-1.ngc"));
+    EXPECT_EQ(content_of(out / "program-kept-1.ngc"), "by hand");
+    EXPECT_THAT(content_of(out / "program.ngc"), HasSubstr("G93"));
+    const Ended second = plan(small_project(scratch.path(), "dome", "\"nu\": 20", "\"nu\": 7"));
+    EXPECT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_THAT(second.err, Not(HasSubstr("kept"))) << "its own, which may be replaced";
+    EXPECT_FALSE(fs::exists(out / "program-kept-2.ngc"));
+    EXPECT_TRUE(drafts().empty());
+}
+
+TEST_F(KeptFiles, AFileThatAnOptionNamesIsKeptTooUnlessACommandHasWrittenItLast) {
+    const fs::path file = scratch / "in.ngc";
+    const fs::path made = scratch / "made.ngc";
+    write_content(file, "G21 G90 G17\nG1 X1 Y0 Z0 F100\nM2\n");
+    write_content(made, "by hand");
+    const std::vector<std::string> words{
+        "gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--out", made};
+    const Ended first = run(words);
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr("what was there is now in made-kept-1.ngc"));
+    EXPECT_EQ(content_of(scratch / "made-kept-1.ngc"), "by hand");
+    write_content(file, "G21 G90 G17\nG1 X2 Y0 Z0 F100\nM2\n");
+    EXPECT_THAT(run(words).err, Not(HasSubstr("kept")));
+    EXPECT_THAT(content_of(made), HasSubstr("X2"));
+    const std::string before = content_of(made) + "(by hand)\n";
+    write_content(made, before);
+    write_content(file, "nonsense");
+    EXPECT_NE(run(words).exit_code, 0);
+    EXPECT_EQ(content_of(made), before);
+    EXPECT_FALSE(fs::exists(scratch / "made-kept-2.ngc")) << "nothing was replaced";
+}
+
+TEST_F(KeptFiles, TwoAtOnceLeaveTheFilesOfOne) {
+    const fs::path dome = small_project(scratch.path(), "dome");
+    const fs::path bells = small_project(scratch.path(), "two-bell");
+    for (const fs::path& project : {dome, bells}) { // what each writes alone
+        ASSERT_EQ(run({"plan", project, "--out", scratch / project.stem()}).exit_code, 0);
+    }
+    for (int n = 0; n < 5; ++n) {
+        Program first({"plan", dome, "--out", out});
+        Program second({"plan", bells, "--out", out});
+        EXPECT_EQ(first.end().exit_code, 0);
+        EXPECT_EQ(second.end().exit_code, 0);
+        const std::string program = content_of(out / "program.ngc");
+        const bool of_dome = program == content_of(scratch / "dome" / "program.ngc");
+        const fs::path whose = scratch / (of_dome ? "dome" : "two-bell");
+        for (const char* const name : {"program.ngc", "report.json", "preview.png"}) {
+            EXPECT_EQ(content_of(out / name), content_of(whose / name)) << name;
+        }
+        EXPECT_TRUE(drafts().empty());
+    }
+}
+
+TEST_F(KeptFiles, AllAreReplacedOrNone) {
+    const fs::path project = small_project(scratch.path(), "dome");
+    ASSERT_EQ(plan(project).exit_code, 0);
+    const std::string before = content_of(out / "program.ngc");
+    fs::permissions(out / "report.json", fs::perms(0444));
+    const Ended ended = plan(small_project(scratch.path(), "dome", "\"nu\": 20", "\"nu\": 7"));
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("report.json: cannot write: the file is write-protected"));
+    EXPECT_EQ(content_of(out / "program.ngc"), before);
+    EXPECT_TRUE(drafts().empty());
+}
+
+TEST_F(KeptFiles, NoLinkIsFollowedThatSomebodyPutInTheWay) {
+    const fs::path project = small_project(scratch.path(), "dome");
+    fs::create_directory(out);
+    write_content(scratch / "secret", "old");
+    for (const char* const name : {".program.ngc.new", ".report.json.new", ".preview.png.new"}) {
+        fs::create_symlink(scratch / "secret", out / name); // the names that drafts once had
+    }
+    EXPECT_EQ(plan(project).exit_code, 0);
+    EXPECT_EQ(content_of(scratch / "secret"), "old");
+}
+
+TEST_F(KeptFiles, ReadersOfEndlessFilesEndAndSayTheirBound) {
+    write_content(scratch / "sparse.plt", "");
+    fs::resize_file(scratch / "sparse.plt", std::uintmax_t{4} << 30U);
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"plot", "info", "/dev/zero"},
+             {"plot", "info", (scratch / "sparse.plt").string()},
+             {"gcode", "check", (scratch / "sparse.plt").string()},
+             {"plan", "/dev/zero", "--out", out.string()},
+             {"gcode", "check", "/dev/zero"},
+             {"picture", "relief", "/dev/zero", "--depth", "1", "--out", (scratch / "x.ngc").string()}}) {
+        const Ended ended = run(words);
+        EXPECT_NE(ended.exit_code, 0) << words[0];
+        EXPECT_THAT(ended.err,
+                    AllOf(AnyOf(HasSubstr(" GiB"), HasSubstr(" MiB")), Not(HasSubstr("internal error"))))
+            << words[0] << " " << words[1];
+    }
+}
+
+TEST_F(KeptFiles, StrangePathsAreErrorsAndNoInternalOnes) {
+    fs::create_symlink("b", scratch / "a");
+    fs::create_symlink("a", scratch / "b");
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"plan", (scratch / "a").string(), "--out", out.string()},
+             {"gcode", "check", (scratch / "a").string()},
+             {"plan", "assets/projects/dome.json", "--out", (scratch / "a").string()},
+             {"jobs", (scratch / "a").string()}}) {
+        const Ended ended = run(words);
+        EXPECT_THAT(ended.err, Not(HasSubstr("internal error"))) << words[0] << ": " << ended.err;
+    }
+    const Ended gone = Program({"machine", "bodies", "x"},
+                               {},
+                               {"sh",
+                                "-c",
+                                "mkdir " + (scratch / "gone").string() + " && cd " +
+                                    (scratch / "gone").string() + " && rmdir ../gone && \"$0\" \"$@\""})
+                           .end();
+    EXPECT_NE(gone.exit_code, 0);
+    EXPECT_THAT(gone.err, Not(HasSubstr("internal error"))) << gone.err;
+}
+
+TEST_F(KeptFiles, AProgramOfTheLongestNameIsRunAndLogged) {
+    const fs::path file = scratch / (std::string(250, 'n') + ".ngc");
+    write_content(file, "G21 G90 F3000\nG1 X1\nM30\n");
+    const Ended ended = sent(file);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(logs), {}), 1);
+}
+
+TEST_F(KeptFiles, JobsPrintNoControlCharacters) {
+    const fs::path file = scratch / "a\x1b[31m\x07.ngc";
+    write_content(file, "G21 G90 F3000\nG1 X1\nG1 X999999\nM30\n");
+    (void)sent(file);
+    write_content(file, "G21 G90 F3000\nG1 X1\nM30\n");
+    (void)sent(file);
+    const Ended ended = run({"jobs", logs});
+    EXPECT_THAT(ended.out, HasSubstr("\\x1b[31m\\x07"));
+    EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("\x1b")), Not(HasSubstr("\x07"))));
+}
+
+TEST_F(KeptFiles, WithoutAHomeTheSystemKnowsWhereLogsGo) {
+    const Ended ended = Program({"send", "--help"}, {}, {"env", "-u", "HOME", "-u", "XDG_STATE_HOME"}).end();
+    EXPECT_THAT(ended.out, HasSubstr(".local/state/millwright/jobs"));
+}
+
+} // namespace
+} // namespace millwright::test

@@ -1,0 +1,194 @@
+// Before a real machine moves a person is asked, once, in sight of the machine.
+#include "core/base/files.h"
+#include "tests/ui/panels/at_machine.h"
+#include "ui/actions/start_question.h"
+#include "ui/panels/view_panel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using actions::Workspace;
+using test::Person;
+using testing::HasSubstr;
+
+class StartSheetAtGrbl : public ::testing::Test {
+protected:
+    StartSheetAtGrbl() { test::connect(person, grbl); }
+
+    void open(const std::string& program) {
+        write_file(person.folder() / "part.ngc", program);
+        person.open(person.folder() / "part.ngc");
+        person.wait_idle();
+    }
+    void show_machine() {
+        person.workshop().run("view.machine");
+        person.frames(3);
+    }
+    [[nodiscard]] bool is_asked() { return person.sees(start); }
+    void wait_for_check() {
+        ASSERT_TRUE(person.live_until([this] {
+            const auto now = person.workshop().look();
+            return is_asked() && now.start_check && now.start_check->wish == now.session.start;
+        }));
+    }
+    [[nodiscard]] bool has_job() {
+        const auto job = person.workshop().look().job;
+        return job.running || job.outcome || job.failure;
+    }
+
+    const std::string start = "dialogs/start/start_go";
+    const std::string square = "G21 G90 G94\nM3 S800\nG1 X40 F60\nY12.5\nM5\nM2\n";
+    test::GrblBench grbl;
+    Person person;
+};
+
+TEST_F(StartSheetAtGrbl, F9InAnotherWorkspaceGoesToTheMachineAndNoFurther) {
+    open(square);
+    for (const Workspace from : {Workspace::design,
+                                 Workspace::grid,
+                                 Workspace::toolpath,
+                                 Workspace::program,
+                                 Workspace::processor,
+                                 Workspace::plot,
+                                 Workspace::arm}) {
+        person.workshop().session().workspace = from;
+        person.frames(3);
+        person.press_key(render::Key::f9);
+        person.frames(5);
+        EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+        EXPECT_FALSE(is_asked());
+        EXPECT_FALSE(has_job());
+    }
+    person.workshop().run("queue.add");
+    person.workshop().session().workspace = Workspace::program;
+    person.workshop().run("queue.run_next");
+    person.frames(5);
+    EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+    EXPECT_TRUE(person.sees("lower/queue/queue_run_next"));
+    EXPECT_FALSE(is_asked());
+    EXPECT_FALSE(has_job());
+    EXPECT_LT(grbl.last_motion(), 0.0);
+}
+
+TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
+    open(square);
+    show_machine();
+    person.press_key(render::Key::f9);
+    wait_for_check();
+    person.frames(2);
+    for (const char* const row : {"program", "machine", "position", "X", "Y", "spindle", "tool"}) {
+        EXPECT_TRUE(person.sees(std::string("dialogs/start/") + row)) << row;
+    }
+    EXPECT_FALSE(person.sees("dialogs/start/Z"));    // it does not move
+    EXPECT_TRUE(person.sees("dialogs/start/doubt")); // this Grbl was switched on, and nobody homed it
+    const auto check = person.workshop().look().start_check;
+    EXPECT_DOUBLE_EQ(check->survey.ranges[0].max, 40.0);
+    EXPECT_DOUBLE_EQ(check->survey.ranges[1].max, 12.5);
+    EXPECT_DOUBLE_EQ(check->survey.greatest_spindle_rpm, 800.0);
+    person.keep("machine-start");
+
+    person.press_key(render::Key::escape);
+    person.frames(5);
+    EXPECT_FALSE(is_asked());
+    EXPECT_FALSE(has_job());
+
+    person.press_key(render::Key::f9);
+    person.press_key(render::Key::f9); // is no answer
+    wait_for_check();
+    EXPECT_FALSE(has_job());
+    person.press_key(render::Key::enter);
+    EXPECT_FALSE(is_asked());
+    ASSERT_TRUE(person.live_until([this] { return grbl.moving(); }));
+    person.workshop().run("machine.stop");
+    ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().job.running; }));
+}
+
+TEST_F(StartSheetAtGrbl, EnterThatIsHeldFromBeforeStartsNothing) {
+    open(square);
+    show_machine();
+    person.hold_keys({render::Key::enter});
+    person.click("inspector/job/machine_run");
+    wait_for_check();
+    person.frames(90); // as long as a key takes to repeat, and longer
+    EXPECT_TRUE(is_asked());
+    EXPECT_FALSE(has_job());
+    person.hold_keys({});
+    person.frames(2);
+    person.press_key(render::Key::enter);
+    ASSERT_TRUE(person.live_until([this] { return grbl.moving(); }));
+    person.workshop().run("machine.emergency_stop");
+    ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().job.running; }));
+}
+
+TEST_F(StartSheetAtGrbl, AProgramThatLeavesTheTravelCannotBeStarted) {
+    open("G21 G90 G94\nG1 X5000 F600\nM2\n");
+    show_machine();
+    person.click("inspector/job/machine_run");
+    wait_for_check();
+    person.frames(2);
+    EXPECT_THAT(person.refusal(start), HasSubstr("axis X"));
+    EXPECT_TRUE(person.sees("dialogs/start/faults"));
+    person.keep("machine-start-refused");
+    person.press_key(render::Key::enter);
+    person.frames(5);
+    EXPECT_TRUE(is_asked());
+    EXPECT_FALSE(has_job());
+}
+
+TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
+    show_machine();
+    person.wait_idle(); // the sample moves two rotary axes, too
+    person.frames(3);
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"),
+                testing::AllOf(HasSubstr("The program moves A and B, and "),
+                               HasSubstr("the connected machine has X, Y and Z. Connect a machine")));
+    EXPECT_FALSE(scene_of(person.workshop().look()).layers.machine); // that of another machine
+    EXPECT_TRUE(person.sees("inspector/job/axes"));
+    person.keep("machine-other-axes");
+    person.workshop().run("machine.run");
+    EXPECT_FALSE(is_asked());
+    EXPECT_FALSE(has_job());
+    // Where that is known only once the program was read for this machine, the sheet says it.
+    actions::ControllerView grbl_view = person.workshop().look().controller;
+    grbl_view.can.dialect.reset(); // Grbl's own rules do not know the word
+    const auto job = machine::text_job("G21 G90\nG1 X10 A30 F100\nM2\n", "turns.ngc");
+    const auto wish = std::make_shared<const actions::StartWish>(actions::start_wish(job, {}, grbl_view));
+    const actions::StartCheck check = actions::check_start(wish, {});
+    ASSERT_FALSE(check.faults.empty());
+    EXPECT_EQ(check.faults.front().message, "the program moves A, and the machine has XYZ");
+}
+
+TEST_F(StartSheetAtGrbl, AMachineThatIsGoneIsNotReplacedByAVirtualOne) {
+    open(square);
+    show_machine();
+    person.click("inspector/job/machine_run");
+    wait_for_check();
+    person.workshop().controller().disconnect();
+    ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().controller.connected(); }));
+    person.frames(2);
+    EXPECT_THAT(person.refusal(start), HasSubstr("not connected any more"));
+    person.press_key(render::Key::enter);
+    person.frames(5);
+    EXPECT_FALSE(has_job());
+    person.click("dialogs/start/start_cancel");
+    EXPECT_FALSE(is_asked());
+}
+
+TEST_F(StartSheetAtGrbl, F9DoesNothingWhileSomethingElseIsAsked) {
+    open(square);
+    show_machine();
+    person.press_key(render::Key::o, true);
+    ASSERT_TRUE(person.sees("dialogs/files/entries"));
+    person.press_key(render::Key::f9);
+    person.frames(5);
+    EXPECT_FALSE(person.workshop().session().start);
+    EXPECT_FALSE(has_job());
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,162 @@
+// The part of the workshop that writes files of a person's own, and never over what another program has put
+// there meanwhile: saving the project, writing its program, leaving what is unsaved.
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/machine/job.h"
+#include "core/project/project_file.h"
+#include "ui/actions/workshop.h"
+
+#include <sys/stat.h>
+
+#include <system_error>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path whole_path(const fs::path& file) {
+    return fs::absolute(file).lexically_normal();
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    std::error_code missing;
+    return a == b || fs::equivalent(a, b, missing);
+}
+
+/// Whether another program has written there since `known` did. What is gone can be written again.
+bool is_foreign(const KnownFile& known) {
+    std::error_code missing;
+    if (!fs::is_regular_file(known.file, missing)) {
+        return false;
+    }
+    try {
+        return machine::program_hash(read_file(known.file)) != known.hash;
+    } catch (const Error&) {
+        return true;
+    }
+}
+
+} // namespace
+
+void Workshop::save(const fs::path& file) {
+    const fs::path whole = whole_path(file);
+    if (is_same_file(whole, document().file) && is_foreign({whole, document().hash})) {
+        session_.question = FileQuestion::none;
+        session_.replacing = Replacing{ReplacedFile::project, whole};
+        return;
+    }
+    put_project(whole);
+}
+
+void Workshop::put_project(const fs::path& whole) {
+    const auto leaving = std::exchange(leaving_, std::nullopt); // a failure ends the leaving, too
+    const std::string text = project::write_project(history_.current(), whole);
+    Document& now = document();
+    now.file = whole;
+    now.saved = history_.current();
+    now.hash = machine::program_hash(text);
+    session_.question = FileQuestion::none;
+    tell(session_, widgets::Severity::good, "Saved.", whole.string());
+    remember(whole);
+    if (leaving) {
+        leaving->then(*this);
+    }
+}
+
+void Workshop::write_program() {
+    const auto& last = document().program;
+    if (!last) {
+        session_.question = FileQuestion::write_program;
+    } else if (is_foreign(*last)) {
+        session_.replacing = Replacing{ReplacedFile::program, last->file};
+    } else {
+        write_program(fs::path(last->file));
+    }
+}
+
+void Workshop::write_program(const fs::path& file) {
+    const auto listing = look().listing();
+    if (!listing) {
+        throw Error("there is no program yet");
+    }
+    const fs::path whole = whole_path(file);
+    write_file(whole, listing->text);
+    document().program = KnownFile{whole, machine::program_hash(listing->text)};
+    session_.question = FileQuestion::none;
+    tell(session_, widgets::Severity::good, "G-code written.", whole.string());
+}
+
+void Workshop::replace() {
+    const auto asked = std::exchange(session_.replacing, std::nullopt);
+    expects(asked.has_value(), "it is asked whether a file is replaced");
+    if (asked->what == ReplacedFile::project) {
+        put_project(asked->file);
+    } else {
+        write_program(asked->file);
+    }
+}
+
+void Workshop::reload() {
+    session_.replacing.reset();
+    leaving_.reset();
+    open(fs::path(document().file));
+}
+
+void Workshop::write_elsewhere() {
+    const auto asked = std::exchange(session_.replacing, std::nullopt);
+    expects(asked.has_value(), "it is asked whether a file is replaced");
+    session_.question =
+        asked->what == ReplacedFile::project ? FileQuestion::save_as : FileQuestion::write_program;
+}
+
+void Workshop::keep_file() {
+    session_.replacing.reset();
+    leaving_.reset();
+}
+
+void Workshop::leave(std::string to, ActionQueue::Request then) {
+    if (changed()) {
+        session_.question = FileQuestion::none; // what it led to is asked about now
+        leaving_ = Leaving{std::move(to), std::move(then)};
+    } else {
+        then(*this);
+    }
+}
+
+void Workshop::save_and_leave() {
+    if (document().file.empty()) {
+        session_.question = FileQuestion::save_as;
+    } else {
+        save(fs::path(document().file));
+    }
+}
+
+void Workshop::discard_and_leave() {
+    if (const auto leaving = std::exchange(leaving_, std::nullopt)) {
+        leaving->then(*this);
+    }
+}
+
+void Workshop::stay() {
+    leaving_.reset();
+}
+
+Document Workshop::document_of(const project::UnsavedWork& work) {
+    Document made{.file = work.file, .saved = {}, .hash = {}, .program = {}};
+    try {
+        const std::string text = work.file.empty() ? std::string() : read_file(work.file);
+        made.saved = work.file.empty() ? project::Project{} : project::project_from_text(text, work.file);
+        struct stat now {};
+        if (::stat(work.file.c_str(), &now) == 0 && now.st_mtime <= work.time_s) {
+            made.hash = machine::program_hash(text);
+        }
+    } catch (const Error&) {
+        made.saved = {};
+    }
+    return made;
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,167 @@
+#include "ui/panels/start_sheet.h"
+
+#include "core/base/units.h"
+#include "core/gcode/reader/axes.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/render/imgui_compat.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using machine::MachineLimits;
+using machine::Survey;
+
+constexpr float sheet_width = 560.0F;
+
+bool is_rotary_letter(char letter) {
+    return letter >= 'A' && letter <= 'C';
+}
+
+std::string axis_value_text(char letter, double value) {
+    return fmt::format("{:.3f}", is_rotary_letter(letter) ? to_degrees(value) : value);
+}
+
+/// "-300.000 to 0.000", of what is known of it.
+std::string travel_text(const MachineLimits::Axis* axis) {
+    if (axis != nullptr && axis->min && axis->max) {
+        return fmt::format("travel {} to {}",
+                           axis_value_text(axis->letter, *axis->min),
+                           axis_value_text(axis->letter, *axis->max));
+    }
+    if (axis != nullptr && axis->travel) {
+        return fmt::format("travel {} long", axis_value_text(axis->letter, *axis->travel));
+    }
+    return "travel not known";
+}
+
+bool stands_still(const Survey::Range& range, const std::optional<double>& start) {
+    constexpr double still = 1e-9; // mm or rad
+    const double from = start.value_or(range.min);
+    return std::abs(range.min - from) < still && std::abs(range.max - from) < still;
+}
+
+void draw_extents(Ui& ui, const actions::StartCheck& check) {
+    for (const gcode::ProgramAxis& axis : check.wish->survey.axes) {
+        const auto index = std::ranges::find(gcode::axis_letters, axis.letter) - gcode::axis_letters.begin();
+        const Survey::Range& range = check.survey.ranges[static_cast<std::size_t>(index)];
+        const std::optional<double>& start = check.survey.start[static_cast<std::size_t>(index)];
+        if (range.empty() || stands_still(range, start)) {
+            continue;
+        }
+        const double least = std::min(range.min, start.value_or(range.min));
+        const double most = std::max(range.max, start.value_or(range.max));
+        const auto& limits = check.wish->limits.axes;
+        const auto limit = std::ranges::find(limits, axis.letter, &MachineLimits::Axis::letter);
+        ui.value(
+            std::string(1, axis.letter),
+            fmt::format("{} extents", axis.letter),
+            fmt::format("{} to {} {}; {}",
+                        axis_value_text(axis.letter, least),
+                        axis_value_text(axis.letter, most),
+                        is_rotary_letter(axis.letter) ? "\u00b0" : "mm",
+                        travel_text(limit == limits.end() ? nullptr : &*limit)),
+            {},
+            "Machine coordinates, from where the machine stands, by the work offset that is in force now");
+    }
+}
+
+void draw_spindle_and_tool(Ui& ui, const Survey& survey, const machine::DriverStatus& status) {
+    ui.value("spindle",
+             "Spindle",
+             survey.greatest_spindle_rpm > 0.0 ? fmt::format("up to {:.0f} rpm", survey.greatest_spindle_rpm)
+                                               : std::string("no speed is programmed"));
+    std::string tools;
+    for (const int tool : survey.tools) {
+        tools += fmt::format("{}T{}", tools.empty() ? "" : ", ", tool);
+    }
+    tools = tools.empty() ? "the program calls none" : tools;
+    ui.value("tool",
+             "Tool",
+             status.tool > 0 ? fmt::format("{}; T{} is in the spindle", tools, status.tool) : tools);
+}
+
+void draw_check_result(Ui& ui,
+                       std::string_view id,
+                       widgets::Severity severity,
+                       const std::vector<Diagnostic>& found) {
+    if (found.empty()) {
+        return;
+    }
+    const Diagnostic& first = found.front();
+    const std::string where = first.place.line > 0 ? fmt::format("line {}: ", first.place.line) : "";
+    const std::string hint = first.hint.empty() ? "" : " (" + first.hint + ")";
+    const std::string more = found.size() > 1 ? fmt::format(", and {} more", found.size() - 1) : "";
+    (void)widgets::banner(ui, id, {severity, where + first.message + hint + more, {}});
+}
+
+std::string axis_values_text(const actions::ControllerView& machine) {
+    std::string text;
+    const auto& position = machine.status.position;
+    for (Eigen::Index n = 0; n < std::min<Eigen::Index>(position.size(), std::ssize(machine.axes)); ++n) {
+        const char letter = machine.axes[static_cast<std::size_t>(n)].letter;
+        text +=
+            fmt::format("{}{} {}", text.empty() ? "" : "  ", letter, axis_value_text(letter, position[n]));
+    }
+    return text;
+}
+
+} // namespace
+
+void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto dialog = ui.dialog("start", "Start the job?", ui.px(sheet_width));
+    if (!dialog) {
+        return;
+    }
+    const actions::StartWish& wish = *now.session.start;
+    const machine::DriverStatus& status = now.controller.status;
+    {
+        const auto labels = ui.label_share(0.2F);
+        ui.value("program",
+                 "Program",
+                 wish.job->from_line > 1
+                     ? fmt::format("{}, from line {}", wish.job->name, wish.job->from_line)
+                     : fmt::format("{}, {} blocks", wish.job->name, wish.job->block_count()));
+        ui.value("machine", "Machine", wish.machine);
+        const bool verified = status.position_known && status.position_doubt.empty();
+        ui.value(
+            "position",
+            "Position",
+            fmt::format("{} ({})", axis_values_text(now.controller), verified ? "verified" : "not verified"));
+        if (now.start_check && now.start_check->wish == now.session.start) {
+            draw_extents(ui, *now.start_check);
+            draw_spindle_and_tool(ui, now.start_check->survey, status);
+        } else {
+            ui.note("The program is being checked \u2026");
+        }
+    }
+    if (!status.position_doubt.empty()) {
+        (void)widgets::banner(
+            ui, "doubt", {widgets::Severity::warning, machine::doubt_sentence(status.position_doubt), {}});
+        action_button(ui, now, ask, catalogue_, "machine.trust_position");
+    }
+    if (now.start_check && now.start_check->wish == now.session.start) {
+        draw_check_result(ui, "faults", widgets::Severity::danger, now.start_check->faults);
+        draw_check_result(ui, "warnings", widgets::Severity::warning, now.start_check->warnings);
+    }
+    ui.gap();
+    const auto row = ui.row(2);
+    action_button(ui, now, ask, catalogue_, "start.cancel");
+    action_button(ui, now, ask, catalogue_, "start.go", widgets::Rank::primary);
+    if (ui.escape_pressed()) {
+        ask.run("start.cancel");
+    } else if (enter_was_up_ && ui.enter_pressed() && catalogue_.find("start.go").permission(now).allowed) {
+        ask.run("start.go");
+    }
+    enter_was_up_ = enter_was_up_ || !render::key_down(render::Key::enter);
+}
+
+} // namespace millwright::panels
