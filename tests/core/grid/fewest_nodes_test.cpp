@@ -3,12 +3,17 @@
 #include "core/base/error.h"
 #include "core/grid/lattice.h"
 #include "core/grid/track_path.h"
+#include "tests/support/closed_form_error_model.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace millwright::grid {
 namespace {
@@ -75,8 +80,8 @@ TEST(FewestNodes, AreWithinTheToleranceByFineSampling) {
     }
 }
 
-// A straight track took three moves where one will do: longer ones were never tried.
-TEST(FewestNodes, OfAMoveThatIsAllowedAsAWholeAreItsEnds) {
+// A track that one move can follow got three: longer moves were never tried.
+TEST(FewestNodes, OfATrackThatOneMoveFollowsAreItsEnds) {
     const SpikeErrorModel even({.background = 20.0, .height = 0.0, .limit = 1e9});
     for (const auto& [tolerance, nodes] : {std::pair(20.5, 2U), std::pair(7.0, 3U)}) {
         const auto found = fewest_nodes(even, middle_track, 0.0, 1.0, {.tip = tolerance}, {}, {});
@@ -85,22 +90,54 @@ TEST(FewestNodes, OfAMoveThatIsAllowedAsAWholeAreItsEnds) {
     }
 }
 
-/// Against all moves of the lattice, whatever their length.
-TEST(FewestNodes, AreAsFewAsAmongAllMovesOfTheLattice) {
-    for (const double tolerance : {0.02, 0.05, 0.2, 1.0}) {
-        const SpikeErrorModel spike({});
-        const FewestNodesSettings settings{.lattice = 240};
-        const auto found = fewest_nodes(spike, middle_track, 0.0, 1.0, {.tip = tolerance}, settings, {});
-        const MoveTable all(spike,
-                            middle_track,
-                            lattice(spike, {middle_track, {0.0, 1.0}}, {.intervals = 240}, {}),
-                            {0.0, 1.0},
-                            fine,
-                            {});
-        const auto best = shortest_path(all, {}, {.tip = tolerance});
-        ASSERT_EQ(found.has_value(), best.has_value()) << tolerance;
-        if (best) {
-            EXPECT_EQ(found->places.size(), best->nodes.size()) << tolerance;
+/// The nodes of the shortest path over all moves of the lattice, each measured finely. 0 if there is none.
+std::size_t fewest_by_force(const ErrorModel& model, double tolerance, int intervals) {
+    const MoveTable all(model,
+                        middle_track,
+                        lattice(model, {middle_track, {0.0, 1.0}}, {.intervals = intervals}, {}),
+                        {0.0, 1.0},
+                        fine,
+                        {});
+    const auto best = shortest_path(all, {}, {.tip = tolerance});
+    return best ? best->nodes.size() : 0;
+}
+
+std::size_t fewest_found(const ErrorModel& model, double tolerance, int intervals) {
+    const auto found =
+        fewest_nodes(model, middle_track, 0.0, 1.0, {.tip = tolerance}, {.lattice = intervals}, {});
+    return found ? found->places.size() : 0;
+}
+
+TEST(FewestNodes, AreAsFewAsByForce) {
+    const SpikeErrorModel spike({});
+    for (const double tolerance : {0.02, 0.05, 0.2, 1.0, 5.0}) {
+        EXPECT_EQ(fewest_found(spike, tolerance, 1000), fewest_by_force(spike, tolerance, 1000)) << tolerance;
+    }
+}
+
+/// Sampling that is not fine sees moves across the middle wrongly by a factor.
+class MisjudgedErrorModel final : public ClosedFormErrorModel {
+public:
+    explicit MisjudgedErrorModel(double factor) : factor_(factor) {}
+
+    [[nodiscard]] MoveError move(const Vec2& a, const Vec2& b, Sampling sampling) const override {
+        const double h = (b - a).norm();
+        const bool across = std::min(a.y(), b.y()) < 0.5 && std::max(a.y(), b.y()) > 0.5;
+        const double seen = across && sampling != fine ? factor_ : 1.0;
+        return {.tip = (across ? 30.0 : 20.0) * seen * h * h, .length = size * h};
+    }
+
+private:
+    double factor_;
+};
+
+// Where the search saw too little, all moves were held to less; where it saw too much, good ones were lost.
+TEST(FewestNodes, AreAsFewAsByForceWhereTheScreeningErrs) {
+    for (const double factor : {0.4, 0.97, 1.2}) {
+        const MisjudgedErrorModel model(factor);
+        for (const double tolerance : {0.05, 0.3, 0.501}) {
+            EXPECT_EQ(fewest_found(model, tolerance, 200), fewest_by_force(model, tolerance, 200))
+                << factor << ", " << tolerance;
         }
     }
 }
