@@ -226,14 +226,17 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
         return;
     }
     if (const auto& fit = imported.fit) {
-        fmt::print("patch of degree {} x {}: deviation at most {} mm, {} mm on average, {} mm rms; of the "
-                   "patch from the {} at most {} mm, {} mm on average\n",
+        const char* source = exchange::is_mesh_file(options.file) ? "mesh" : "face";
+        fmt::print("patch of degree {} x {}\n"
+                   "{} to patch: at most {} mm, {} mm on average, {} mm rms\n"
+                   "patch to {}: at most {} mm, {} mm on average\n",
                    fit->patch.degree_u(),
                    fit->patch.degree_v(),
+                   source,
                    fixed(fit->deviation.max, 4),
                    fixed(fit->deviation.mean, 4),
                    fixed(fit->deviation.rms, 4),
-                   exchange::is_mesh_file(options.file) ? "mesh" : "face",
+                   source,
                    fixed(fit->deviation.patch_max, 4),
                    fixed(fit->deviation.patch_mean, 4));
     }

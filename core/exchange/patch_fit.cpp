@@ -119,21 +119,28 @@ struct Approach {
     int rounds = 0;
 };
 
-/// Least squares and corrected parameters in turn, as long as each round brings a hundredth.
-Approach
-approach(const LeastSquares& squares, std::vector<Sample> samples, int rounds, const Progress& progress) {
+/// Least squares and corrected parameters in turn, as long as each round brings a hundredth and folds no more
+/// than the round before: points that slide along the sides can turn a corner over.
+Approach approach(const LeastSquares& squares,
+                  std::vector<Sample> samples,
+                  const FitComparison& comparison,
+                  int rounds,
+                  const Progress& progress) {
     constexpr double worth_going_on = 0.99; // of the distance of the round before
     Approach best{squares.solve(by_distance(samples), progress), 1};
+    double folded = comparison.fold_of(best.patch, progress).share;
     double rms = correct(samples, best.patch, progress);
     for (; best.rounds < rounds; ++best.rounds) {
         progress.report(static_cast<double>(best.rounds) / rounds, "fitting the patch");
         BezierPatch next = squares.solve(by_tangents(samples, best.patch), progress);
         const double smaller = correct(samples, next, progress);
-        if (!(smaller < rms)) {
+        const double next_folded = comparison.fold_of(next, progress).share;
+        if (!(smaller < rms) || next_folded > folded) {
             break;
         }
         const bool enough = smaller > worth_going_on * rms;
         best.patch = std::move(next);
+        folded = next_folded;
         rms = smaller;
         if (enough) {
             break;
@@ -176,7 +183,7 @@ geometry::Trim trim_on(const BezierPatch& patch, const CadFace& face, const Prog
     return trim;
 }
 
-/// `seen_from`: the direction that all of it looks along; nullopt for a whole face.
+/// `seen_from`: the unit direction from which the target is seen; nullopt for a whole face.
 MeshFit fitted(FitTarget target,
                const std::optional<SquareMap>& square,
                const FitSettings& settings,
@@ -194,13 +201,15 @@ MeshFit fitted(FitTarget target,
     progress.report(0.1, "fitting the patch");
     const LeastSquares squares(
         settings.degree_u, settings.degree_v, square ? everywhere_filled : partly_empty);
-    Approach fit = approach(squares, std::move(samples), settings.rounds, progress.part(0.1, 0.7));
+    const FitComparison comparison(target, seen_from);
+    Approach fit =
+        approach(squares, std::move(samples), comparison, settings.rounds, progress.part(0.1, 0.7));
     progress.report(0.7, "measuring the deviation");
     constexpr int denser = 4; // than what was fitted, and so other points
     geometry::Trim trim =
         target.face != nullptr ? trim_on(fit.patch, *target.face, progress) : geometry::Trim{};
-    Deviation deviation = deviation_of_fit(
-        target, fit.patch, trim, seen_from, square.has_value(), denser * settings.points, progress);
+    Deviation deviation =
+        comparison.deviation_of(fit.patch, trim, square.has_value(), denser * settings.points, progress);
     return {std::move(fit.patch),
             std::move(trim),
             std::move(target.side.mesh),

@@ -34,18 +34,20 @@ void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
             "{:.4g} mm2 of the mesh look the other way or sideways and are left out", fit.left_out_area));
     }
     if (!fit.follows_outline) {
-        imported.notes.emplace_back(
-            "the mesh is no sheet with four corners: the patch fills the rectangle around it");
+        imported.notes.push_back(fmt::format("the mesh is no sheet with four corners: the patch fills the "
+                                             "rectangle around it, up to {:.3g} mm from the mesh",
+                                             fit.deviation.patch_max));
     }
     Box3 box;
     for (const Vec3& point : fit.side.points) {
         box.extend(point);
     }
     constexpr double far_off = 0.03; // of the diagonal
-    if (fit.deviation.largest() > far_off * box.diagonal().norm()) {
+    const double off = fit.follows_outline ? fit.deviation.largest() : fit.deviation.max;
+    if (off > far_off * box.diagonal().norm()) {
         imported.notes.push_back(fmt::format("the patch is up to {:.3g} mm off: seen from this side the mesh "
                                              "folds over itself, or the degree is too low",
-                                             fit.deviation.largest()));
+                                             off));
     }
     imported.fit = std::move(fit);
 }
@@ -233,7 +235,7 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
         const exchange::CadModel& model = *source.model;
         if (model.faces.size() > 1) {
             tell(imported,
-                 fmt::format("of {} faces one is taken: the tool is not kept off the others",
+                 fmt::format("one of {} faces is imported: nothing keeps the tool off the others",
                              model.faces.size()));
         }
         imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/exchange/internal/triangle_search.h"
 #include "core/geometry/closest_point.h"
 
 #include <fmt/format.h>
@@ -18,6 +17,8 @@ namespace millwright::exchange {
 namespace {
 
 using geometry::BezierPatch;
+
+// ---- from the target to the patch
 
 Deviation
 deviation_of_points(const std::vector<Vec3>& points, const BezierPatch& patch, const Progress& progress) {
@@ -59,10 +60,9 @@ std::vector<char> insides(const CadFace& face, const std::vector<Vec2>& places) 
     return inside;
 }
 
-/// Of points that are spread over the face, equally many on equal areas, and of the corners of its triangles,
-/// which are on its sides, too: only what its outline leaves, unless that is too little to be met.
+/// Inside the outline of the face; of all corners of its triangles if no point is inside.
 Deviation
-deviation_from(const FitTarget& target, int points, const BezierPatch& patch, const Progress& progress) {
+deviation_of_face(const FitTarget& target, int points, const BezierPatch& patch, const Progress& progress) {
     const CadFace& face = *target.face;
     std::vector<Vec2> places;
     for (const Spread& spread : spread_over(target.side.mesh, target.side.area, points)) {
@@ -89,120 +89,77 @@ deviation_from(const FitTarget& target, int points, const BezierPatch& patch, co
     return result;
 }
 
-// ---- the way back
+// ---- from the patch to the target
 
-/// A point of the patch: how far it is from what was fitted, and whether the patch looks the wrong way there.
-struct PatchPoint {
-    double distance = 0.0;
-    double area = 0.0; ///< |S_u x S_v|
-    bool reversed = false;
-};
-
-/// The part of the patch that looks the wrong way, and the place where it is largest.
-struct Fold {
-    double area = 0.0;
-    double largest = 0.0;
-    Vec2 at = Vec2::Zero();
-
-    void add(const PatchPoint& point, const Vec2& uv) {
-        area += point.area;
-        if (point.area > largest) {
-            largest = point.area;
-            at = uv;
-        }
-    }
-};
-
-/// From a point of the patch to the triangles, or to the face itself near the nearest of them.
-class WayBack {
+/// Equally spaced points over a box of the parameters, its sides included.
+class PatchRaster {
 public:
-    WayBack(const FitTarget& target, const BezierPatch& patch, const std::optional<Vec3>& along)
-        : target_(target), patch_(patch), along_(along), triangles_(target.side.mesh) {}
+    explicit PatchRaster(const Eigen::AlignedBox2d& box) : box_(box) {}
 
-    [[nodiscard]] PatchPoint from(const Vec2& uv) const {
-        const auto at = patch_.derivatives(uv.x(), uv.y());
-        const NearestTriangle nearest = triangles_.nearest(at.position);
-        PatchPoint point{nearest.distance, at.du.cross(at.dv).norm(), false};
-        std::optional<Vec3> outwards = along_;
-        if (target_.face != nullptr) {
-            const Spread spread{target_.side.mesh.triangles[nearest.triangle], nearest.shares};
-            const auto [distance, normal] = to_face(at.position, spread.of(target_.places));
-            point.distance = distance;
-            outwards = along_ ? along_ : normal;
-        }
-        constexpr double backwards = -0.1; // cosine: more than rounding at a side that is seen edge on
-        const std::optional<Vec3> normal = patch_.unit_normal(at);
-        point.reversed = normal && outwards && normal->dot(*outwards) < backwards;
-        return point;
+    [[nodiscard]] std::ptrdiff_t size() const { return std::ptrdiff_t{side} * side; }
+    [[nodiscard]] Vec2 operator[](std::ptrdiff_t n) const {
+        const Vec2 share(static_cast<double>(n / side) / steps, static_cast<double>(n % side) / steps);
+        return box_.min() + box_.sizes().cwiseProduct(share);
     }
 
 private:
-    const FitTarget& target_;
-    const BezierPatch& patch_;
-    const std::optional<Vec3>& along_;
-    TriangleSearch triangles_;
+    static constexpr int steps = 128;
+    static constexpr int side = steps + 1;
 
-    [[nodiscard]] std::pair<double, std::optional<Vec3>> to_face(const Vec3& point, const Vec2& place) const {
-        const CadFace& face = *target_.face;
-        const int row = std::clamp(static_cast<int>(place.x()), 0, face.rows - 1);
-        const int column = std::clamp(static_cast<int>(place.y()), 0, face.columns - 1);
-        const BezierPatch& part = face.patches[static_cast<std::size_t>(row * face.columns + column)];
-        const geometry::ClosestPoint found =
-            geometry::closest_point_near(part, point, Vec2(place.x() - row, place.y() - column));
-        return {found.distance, part.unit_normal(found.parameters.x(), found.parameters.y())};
-    }
+    Eigen::AlignedBox2d box_;
 };
 
-/// Of a raster over the patch, as far as `trim` leaves it.
-void measure_patch(Deviation& deviation,
-                   const WayBack& way,
-                   const geometry::Trim& trim,
-                   const Progress& progress) {
-    constexpr int steps = 128; // both ways
-    constexpr int side = steps + 1;
-    const auto uv_of = [](std::ptrdiff_t n) {
-        return Vec2(static_cast<double>(n / side) / steps, static_cast<double>(n % side) / steps);
-    };
-    std::vector<std::optional<PatchPoint>> points(std::size_t{side} * side);
-    parallel_for(std::ssize(points), 256, [&](std::ptrdiff_t n) {
-        if (!progress.cancelled() && trim.contains(uv_of(n))) {
-            points[static_cast<std::size_t>(n)] = way.from(uv_of(n));
-        }
-    });
-    progress.check();
-    double sum = 0.0;
-    double area = 0.0;
-    int count = 0;
-    Fold fold;
-    for (std::size_t n = 0; n < points.size(); ++n) {
-        if (!points[n]) {
-            continue;
-        }
-        const Vec2 uv = uv_of(static_cast<std::ptrdiff_t>(n));
-        area += points[n]->area;
-        if (points[n]->reversed) {
-            fold.add(*points[n], uv);
-        }
-        sum += points[n]->distance;
-        ++count;
-        if (points[n]->distance > deviation.patch_max) {
-            deviation.patch_max = points[n]->distance;
-            deviation.patch_max_at = uv;
+Eigen::AlignedBox2d box_of(const geometry::Trim& trim) {
+    if (trim.everything()) {
+        return {Vec2(0.0, 0.0), Vec2(1.0, 1.0)};
+    }
+    Eigen::AlignedBox2d box;
+    for (const geometry::Trim::Loop& loop : trim.loops) {
+        for (const Vec2& corner : loop) {
+            box.extend(corner);
         }
     }
-    constexpr double hardly_any = 1e-4; // of the area: at a corner whose sides are nearly in line
-    if (fold.area > hardly_any * area) {
-        throw Error(fmt::format("the fitted patch folds over itself near u {:.2f}, v {:.2f}",
+    return box;
+}
+
+/// Adds up the samples of a patch that face backwards.
+class FoldSum {
+public:
+    void add(const Vec2& uv, double area, bool reversed) {
+        whole_ += area;
+        if (!reversed) {
+            return;
+        }
+        folded_ += area;
+        if (area > largest_) {
+            largest_ = area;
+            at_ = uv;
+        }
+    }
+    [[nodiscard]] Fold fold() const { return {whole_ > 0.0 ? folded_ / whole_ : 0.0, at_}; }
+
+private:
+    double whole_ = 0.0;
+    double folded_ = 0.0;
+    double largest_ = 0.0;
+    Vec2 at_ = Vec2::Zero();
+};
+
+void refuse_fold(const Fold& fold) {
+    constexpr double negligible = 1e-4; // of the area: a corner whose sides are nearly in line turns over
+    if (fold.share > negligible) {
+        throw Error(fmt::format("the fitted patch folds over itself: {:.2g} % of its area faces backwards, "
+                                "mostly near u {:.2f}, v {:.2f}",
+                                100.0 * fold.share,
                                 fold.at.x(),
                                 fold.at.y()),
                     {},
-                    "take another degree, or the side that is seen from another direction");
+                    "choose another degree, or the side seen from another direction");
     }
-    deviation.patch_mean = sum / std::max(count, 1);
 }
 
-/// A patch that goes away from what is fitted bulges where no point holds it. One that fills a rectangle may
-/// go beyond, as far as across a quarter of the rectangle that is empty.
+/// A patch bulges where no point holds it. One that fills a rectangle may extend beyond its target, for a
+/// quarter of the rectangle can be empty.
 void refuse_leaving(const Deviation& deviation, const FitTarget& target, bool follows_outline) {
     const double far_off = follows_outline ? 0.03 : 0.5; // of the diagonal
     constexpr double times_as_far = 2.0;
@@ -212,34 +169,136 @@ void refuse_leaving(const Deviation& deviation, const FitTarget& target, bool fo
     }
     const double most = std::max(far_off * box.diagonal().norm(), times_as_far * deviation.max);
     if (deviation.patch_max > most) {
-        throw Error(
-            fmt::format("the fitted patch leaves the {}: near u {:.2f}, v {:.2f} it is {:.3g} mm away, "
-                        "though no point of the {} is farther than {:.3g} mm from the patch",
-                        target.face != nullptr ? "face" : "mesh",
-                        deviation.patch_max_at.x(),
-                        deviation.patch_max_at.y(),
-                        deviation.patch_max,
-                        target.face != nullptr ? "face" : "mesh",
-                        deviation.max),
-            {},
-            "take a lower degree");
+        const char* name = target.face != nullptr ? "face" : "mesh";
+        throw Error(fmt::format("the fitted patch leaves the {0}: near u {1:.2f}, v {2:.2f} it is {3:.3g} mm "
+                                "away from it, but no point of the {0} is farther than {4:.3g} mm from the "
+                                "patch",
+                                name,
+                                deviation.patch_max_at.x(),
+                                deviation.patch_max_at.y(),
+                                deviation.patch_max,
+                                deviation.max),
+                    {},
+                    "choose a lower degree");
     }
+}
+
+/// The patch of a face at a place in [0, rows] x [0, columns], and the parameters of the place on it.
+std::pair<const BezierPatch&, Vec2> part_at(const CadFace& face, const Vec2& place) {
+    const int row = std::clamp(static_cast<int>(place.x()), 0, face.rows - 1);
+    const int column = std::clamp(static_cast<int>(place.y()), 0, face.columns - 1);
+    return {face.patches[static_cast<std::size_t>(row * face.columns + column)],
+            Vec2(place.x() - row, place.y() - column)};
 }
 
 } // namespace
 
-Deviation deviation_of_fit(const FitTarget& target,
-                           const BezierPatch& patch,
-                           const geometry::Trim& trim,
-                           const std::optional<Vec3>& along,
-                           bool follows_outline,
-                           int points,
-                           const Progress& progress) {
-    Deviation deviation = target.face != nullptr
-                              ? deviation_from(target, points, patch, progress)
-                              : deviation_of_points(target.side.mesh.points, patch, progress);
-    measure_patch(deviation, WayBack(target, patch, along), trim, progress);
-    refuse_leaving(deviation, target, follows_outline);
+FitComparison::FitComparison(const FitTarget& target, const std::optional<Vec3>& along)
+    : target_(&target), along_(along), triangles_(target.side.mesh) {
+    expects(target.face != nullptr || along_, "a mesh is seen from a direction");
+}
+
+/// `exactly`: the distance from the face itself, not from its triangles.
+FitComparison::PatchPoint
+FitComparison::compared(const BezierPatch& patch, const Vec2& uv, bool exactly) const {
+    constexpr double backwards = -0.1; // cosine: more than rounding where the target is nearly edge on
+    const auto at = patch.derivatives(uv.x(), uv.y());
+    const NearestTriangle nearest = triangles_.nearest(at.position);
+    PatchPoint point{nearest.distance, at.du.cross(at.dv).norm(), false};
+    if (exactly && target_->face != nullptr) {
+        const Spread spread{target_->side.mesh.triangles[nearest.triangle], nearest.shares};
+        const auto [part, start] = part_at(*target_->face, spread.of(target_->places));
+        point.distance = geometry::closest_point_near(part, at.position, start).distance;
+    }
+    if (const std::optional<Vec3> normal = patch.unit_normal(at)) {
+        const Vec3 of_target = target_->side.mesh.doubled_area(nearest.triangle);
+        const bool against_nearest = normal->dot(of_target) < backwards * of_target.norm();
+        point.reversed = against_nearest && faces_away(*normal, uv);
+    }
+    return point;
+}
+
+/// The nearest triangle alone may mislead: a patch that rises beyond a steep rim still faces the viewer, and
+/// the nearest point of a thin blade may lie on its other side.
+bool FitComparison::faces_away(const Vec3& normal, const Vec2& uv) const {
+    if (along_) {
+        return normal.dot(*along_) < 0.0;
+    }
+    const CadFace& face = *target_->face;
+    const auto [part, at] = part_at(face, uv.cwiseProduct(Vec2(face.rows, face.columns)));
+    const std::optional<Vec3> of_face = part.unit_normal(at.x(), at.y());
+    return !of_face || normal.dot(*of_face) < 0.0;
+}
+
+Fold FitComparison::fold_of(const BezierPatch& patch, const Progress& progress) const {
+    const PatchRaster raster(box_of({}));
+    std::vector<PatchPoint> points(static_cast<std::size_t>(raster.size()));
+    parallel_for(raster.size(), 256, [&](std::ptrdiff_t n) {
+        if (!progress.cancelled()) {
+            points[static_cast<std::size_t>(n)] = compared(patch, raster[n], false);
+        }
+    });
+    progress.check();
+    FoldSum sum;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        sum.add(raster[static_cast<std::ptrdiff_t>(n)], points[n].area, points[n].reversed);
+    }
+    return sum.fold();
+}
+
+/// A mean over the area, from the points of the raster; the corners of the trim count for the largest only.
+void FitComparison::measure_patch(Deviation& deviation,
+                                  const BezierPatch& patch,
+                                  const geometry::Trim& trim,
+                                  const Progress& progress) const {
+    const PatchRaster raster(box_of(trim));
+    std::vector<Vec2> places;
+    for (std::ptrdiff_t n = 0; n < raster.size(); ++n) {
+        places.push_back(raster[n]);
+    }
+    for (const geometry::Trim::Loop& loop : trim.loops) {
+        places.insert(places.end(), loop.begin(), loop.end());
+    }
+    std::vector<std::optional<PatchPoint>> points(places.size());
+    parallel_for(std::ssize(places), 256, [&](std::ptrdiff_t n) {
+        const auto at = static_cast<std::size_t>(n);
+        if (!progress.cancelled() && (n >= raster.size() || trim.contains(places[at]))) {
+            points[at] = compared(patch, places[at], true);
+        }
+    });
+    progress.check();
+    double sum = 0.0;
+    double area = 0.0;
+    FoldSum fold;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        if (!points[n]) {
+            continue;
+        }
+        const PatchPoint& point = *points[n];
+        if (point.distance > deviation.patch_max) {
+            deviation.patch_max = point.distance;
+            deviation.patch_max_at = places[n];
+        }
+        if (std::cmp_less(n, raster.size())) {
+            sum += point.area * point.distance;
+            area += point.area;
+            fold.add(places[n], point.area, point.reversed);
+        }
+    }
+    deviation.patch_mean = area > 0.0 ? sum / area : deviation.patch_max;
+    refuse_fold(fold.fold());
+}
+
+Deviation FitComparison::deviation_of(const BezierPatch& patch,
+                                      const geometry::Trim& trim,
+                                      bool follows_outline,
+                                      int points,
+                                      const Progress& progress) const {
+    Deviation deviation = target_->face != nullptr
+                              ? deviation_of_face(*target_, points, patch, progress)
+                              : deviation_of_points(target_->side.mesh.points, patch, progress);
+    measure_patch(deviation, patch, trim, progress);
+    refuse_leaving(deviation, *target_, follows_outline);
     return deviation;
 }
 

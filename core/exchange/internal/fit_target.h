@@ -1,4 +1,5 @@
-// What a patch is fitted to: triangles, or the part of a face that they stand for, and points spread over it.
+// What a patch is fitted to: triangles, or the part of a face that they approximate; and points spread over
+// it.
 #pragma once
 
 #include "core/exchange/cad_file.h"
@@ -25,16 +26,17 @@ struct Spread {
 
 struct FitTarget {
     SeenSide side;
-    const CadFace* face = nullptr; ///< none for a mesh, which is its triangles
-    std::vector<Vec2> places;      ///< on the face, one a point of the side
+    const CadFace* face = nullptr; ///< null for a mesh
+    std::vector<Vec2> places;      ///< on the face, one per point of the side; empty for a mesh
 
     [[nodiscard]] Vec3 at(const Spread& spread) const {
         return face != nullptr ? face->position(spread.of(places)) : spread.of(side.mesh.points);
     }
 };
 
-/// Equally many on equal areas: by steps of equal area along the triangles, inside each by the sequence R2
-/// (Roberts 2018), which leaves no gaps. The same points for the same mesh. `area`: of the mesh, mm^2.
+/// `count` points, equally many on equal areas: by steps of equal area along the triangles, inside each by
+/// the sequence R2 (Roberts 2018), which leaves no gaps. The same points for the same mesh. `area`: of the
+/// mesh, mm^2.
 [[nodiscard]] std::vector<Spread> spread_over(const TriangleMesh& mesh, double area, int count);
 
 } // namespace millwright::exchange

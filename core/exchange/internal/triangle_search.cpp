@@ -10,6 +10,11 @@ namespace millwright::exchange {
 
 namespace {
 
+/// 0 where a triangle without area leaves nothing to divide by.
+double share_of(double part, double whole) {
+    return whole > 0.0 ? part / whole : 0.0;
+}
+
 /// The shares of the corners at the point of the triangle that is nearest to `p`.
 Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a;
@@ -23,7 +28,7 @@ Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) 
     }
     const double vc = d1 * d4 - d3 * d2;
     if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-        const double t = d1 / (d1 - d3);
+        const double t = share_of(d1, d1 - d3);
         return {1.0 - t, t, 0.0};
     }
     const double d5 = ab.dot(p - c), d6 = ac.dot(p - c);
@@ -32,16 +37,17 @@ Vec3 nearest_shares(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) 
     }
     const double vb = d5 * d2 - d1 * d6;
     if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-        const double t = d2 / (d2 - d6);
+        const double t = share_of(d2, d2 - d6);
         return {1.0 - t, 0.0, t};
     }
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-        const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        const double t = share_of(d4 - d3, (d4 - d3) + (d5 - d6));
         return {0.0, 1.0 - t, t};
     }
     const double whole = va + vb + vc;
-    return {va / whole, vb / whole, vc / whole};
+    const double s = share_of(vb, whole), t = share_of(vc, whole);
+    return {1.0 - s - t, s, t};
 }
 
 } // namespace

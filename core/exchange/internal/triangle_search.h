@@ -15,7 +15,7 @@ struct NearestTriangle {
     double distance = 0.0;      ///< mm
 };
 
-/// Const after construction; may be asked from several threads. Refers to the mesh.
+/// Const after construction; may be called from several threads. Refers to the mesh.
 class TriangleSearch {
 public:
     /// Throws Defect for a mesh without triangles.
@@ -24,12 +24,11 @@ public:
     [[nodiscard]] NearestTriangle nearest(const Vec3& point) const;
 
 private:
-    /// Its two halves follow: the first behind it, the second at `second`. A leaf has triangles and no
-    /// second.
+    /// Its first half is the next node, its second half the node `second`.
     struct Node {
         Box3 box;
-        std::size_t first = 0, last = 0; ///< in `order_`
-        std::size_t second = 0;
+        std::size_t first = 0, last = 0; ///< of its triangles in `order_`
+        std::size_t second = 0;          ///< 0 for a leaf
     };
 
     const TriangleMesh* mesh_;

@@ -2,13 +2,14 @@
 #include "core/exchange/internal/fit_deviation.h"
 
 #include "core/base/error.h"
-#include "core/exchange/internal/triangle_search.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <utility>
 
 namespace millwright::exchange {
 namespace {
@@ -48,12 +49,13 @@ ControlNet flat_net(double length) {
     return net;
 }
 
-Deviation measured(const ControlNet& net, bool follows_outline) {
-    return deviation_of_fit(
-        flat_square(), BezierPatch(net), {}, std::optional<Vec3>(Vec3::UnitZ()), follows_outline, 1000, {});
+Deviation measured(const ControlNet& net, bool follows_outline, const geometry::Trim& trim = {}) {
+    const FitTarget square = flat_square();
+    const FitComparison comparison(square, Vec3(Vec3::UnitZ()));
+    return comparison.deviation_of(BezierPatch(net), trim, follows_outline, 1000, {});
 }
 
-// The mesh lies on the patch all over, and the patch goes on 5 mm beyond: that was told as 0.
+// The mesh lies on the patch, and the patch goes on 5 mm beyond: the deviation was 0.
 TEST(FitDeviation, IsMeasuredBothWays) {
     const Deviation deviation = measured(flat_net(15.0), false);
     EXPECT_LT(deviation.max, 1e-9);
@@ -62,6 +64,17 @@ TEST(FitDeviation, IsMeasuredBothWays) {
     EXPECT_NEAR(deviation.patch_max_at.x(), 1.0, 1e-12);
     EXPECT_EQ(deviation.largest(), deviation.patch_max);
     EXPECT_LT(measured(flat_net(10.0), true).largest(), 1e-9);
+}
+
+/// However small it is: a raster over the whole patch would miss it.
+TEST(FitDeviation, OfAPatchIsMeasuredInsideItsTrim) {
+    geometry::Trim trim;
+    trim.loops.push_back({{0.0, 0.0}, {0.8, 0.0}, {0.8, 1.0}, {0.0, 1.0}});
+    EXPECT_NEAR(measured(flat_net(15.0), false, trim).patch_max, 2.0, 1e-9);
+    trim.loops.front() = {{0.899, 0.501}, {0.9, 0.501}, {0.9, 0.502}};
+    const Deviation deviation = measured(flat_net(15.0), false, trim);
+    EXPECT_NEAR(deviation.patch_max, 3.5, 1e-9);
+    EXPECT_NEAR(deviation.patch_mean, 3.49, 0.01);
 }
 
 TEST(FitDeviation, APatchThatLeavesTheOutlineItFollowsIsRefused) {
