@@ -212,7 +212,9 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
                        {"follows_outline", fit->follows_outline},
                        {"max_mm", fit->deviation.max},
                        {"mean_mm", fit->deviation.mean},
-                       {"rms_mm", fit->deviation.rms}};
+                       {"rms_mm", fit->deviation.rms},
+                       {"patch_max_mm", fit->deviation.patch_max},
+                       {"patch_mean_mm", fit->deviation.patch_mean}};
     }
     return json;
 }
@@ -224,12 +226,19 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
         return;
     }
     if (const auto& fit = imported.fit) {
-        fmt::print("patch of degree {} x {}: deviation at most {} mm, {} mm on average, {} mm rms\n",
+        const char* source = exchange::is_mesh_file(options.file) ? "mesh" : "face";
+        fmt::print("patch of degree {} x {}\n"
+                   "{} to patch: at most {} mm, {} mm on average, {} mm rms\n"
+                   "patch to {}: at most {} mm, {} mm on average\n",
                    fit->patch.degree_u(),
                    fit->patch.degree_v(),
+                   source,
                    fixed(fit->deviation.max, 4),
                    fixed(fit->deviation.mean, 4),
-                   fixed(fit->deviation.rms, 4));
+                   fixed(fit->deviation.rms, 4),
+                   source,
+                   fixed(fit->deviation.patch_max, 4),
+                   fixed(fit->deviation.patch_mean, 4));
     }
     fmt::print("{}: {} {}\n",
                options.out,

@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/exchange/internal/fit_deviation.h"
+#include "core/exchange/internal/fit_target.h"
 #include "core/exchange/internal/least_squares.h"
 #include "core/exchange/internal/seen_side.h"
 #include "core/exchange/internal/square_map.h"
@@ -21,56 +23,6 @@ namespace millwright::exchange {
 namespace {
 
 using geometry::BezierPatch;
-
-/// A mix of three points of the mesh.
-struct Spread {
-    std::array<int, 3> corners{};
-    Vec3 shares = Vec3::Zero(); ///< of the corners; their sum is 1
-
-    template <typename Value> [[nodiscard]] Value of(const std::vector<Value>& values) const {
-        Value sum = Value::Zero();
-        for (std::size_t k = 0; k < 3; ++k) {
-            sum += shares[static_cast<Eigen::Index>(k)] * values[static_cast<std::size_t>(corners[k])];
-        }
-        return sum;
-    }
-};
-
-/// What is fitted: triangles, or the part of a face that they stand for.
-struct Target {
-    SeenSide side;
-    const CadFace* face = nullptr; ///< none for a mesh, which is its triangles
-    std::vector<Vec2> places;      ///< on the face, one a point of the side
-
-    [[nodiscard]] Vec3 at(const Spread& spread) const {
-        return face != nullptr ? face->position(spread.of(places)) : spread.of(side.mesh.points);
-    }
-};
-
-/// Equally many on equal areas: by steps of equal area along the triangles, inside each by the sequence R2
-/// (Roberts 2018), which leaves no gaps. The same points for the same mesh.
-std::vector<Spread> spread_over(const TriangleMesh& mesh, double area, int count) {
-    constexpr double plastic = 1.32471795724474602596;
-    const double step = area / count;
-    std::vector<Spread> samples;
-    samples.reserve(static_cast<std::size_t>(count));
-    double passed = 0.0;
-    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-        passed += 0.5 * mesh.doubled_area(n).norm();
-        while ((static_cast<double>(samples.size()) + 0.5) * step < passed && std::ssize(samples) < count) {
-            const double k = static_cast<double>(samples.size()) + 1.0;
-            double whole = 0.0;
-            double s = std::modf(0.5 + k / plastic, &whole);
-            double t = std::modf(0.5 + k / (plastic * plastic), &whole);
-            if (s + t > 1.0) {
-                s = 1.0 - s;
-                t = 1.0 - t;
-            }
-            samples.push_back({mesh.triangles[n], {1.0 - s - t, s, t}});
-        }
-    }
-    return samples;
-}
 
 /// Every direction alike.
 std::vector<Weighted> by_distance(const std::vector<Sample>& samples) {
@@ -126,75 +78,6 @@ double correct(std::vector<Sample>& samples, const BezierPatch& patch, const Pro
     return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
-Deviation deviation_of(const std::vector<Vec3>& points, const BezierPatch& patch, const Progress& progress) {
-    const geometry::ClosestPointSearch search(patch);
-    Deviation result;
-    result.at_points.resize(points.size());
-    parallel_for(std::ssize(points), 256, [&](std::ptrdiff_t n) {
-        if (progress.cancelled()) {
-            return;
-        }
-        const Vec3& point = points[static_cast<std::size_t>(n)];
-        const geometry::ClosestPoint nearest = search.closest(point);
-        const std::optional<Vec3> normal = patch.unit_normal(nearest.parameters.x(), nearest.parameters.y());
-        const bool below = normal && normal->dot(point - nearest.position) < 0.0;
-        result.at_points[static_cast<std::size_t>(n)] = below ? -nearest.distance : nearest.distance;
-    });
-    progress.check();
-    double squares = 0.0;
-    for (const double distance : result.at_points) {
-        result.max = std::max(result.max, std::abs(distance));
-        result.mean += std::abs(distance);
-        squares += distance * distance;
-    }
-    const double count = static_cast<double>(points.size());
-    result.mean /= count;
-    result.rms = std::sqrt(squares / count);
-    return result;
-}
-
-/// Whether each of the places lies inside the outline of the face.
-std::vector<char> insides(const CadFace& face, const std::vector<Vec2>& places) {
-    const geometry::Trim trim = face.trim();
-    const Vec2 whole(face.rows, face.columns);
-    std::vector<char> inside(places.size());
-    parallel_for(std::ssize(places), 256, [&](std::ptrdiff_t n) {
-        const auto at = static_cast<std::size_t>(n);
-        inside[at] = trim.contains(places[at].cwiseQuotient(whole)) ? 1 : 0;
-    });
-    return inside;
-}
-
-/// Of points that are spread over the face, equally many on equal areas, and of the corners of its triangles,
-/// which are on its sides, too: only what its outline leaves, unless that is too little to be met.
-Deviation
-deviation_from(const Target& target, int points, const BezierPatch& patch, const Progress& progress) {
-    const CadFace& face = *target.face;
-    std::vector<Vec2> places;
-    for (const Spread& spread : spread_over(target.side.mesh, target.side.area, points)) {
-        places.push_back(spread.of(target.places));
-    }
-    const std::vector<char> spread_inside = insides(face, places);
-    std::vector<Vec3> inside;
-    for (std::size_t n = 0; n < places.size(); ++n) {
-        if (spread_inside[n] != 0) {
-            inside.push_back(face.position(places[n]));
-        }
-    }
-    Deviation at_corners = deviation_of(target.side.mesh.points, patch, progress);
-    if (inside.empty()) {
-        return at_corners;
-    }
-    Deviation result = deviation_of(inside, patch, progress);
-    const std::vector<char> corner_inside = insides(face, target.places);
-    for (std::size_t n = 0; n < corner_inside.size(); ++n) {
-        result.max =
-            corner_inside[n] != 0 ? std::max(result.max, std::abs(at_corners.at_points[n])) : result.max;
-    }
-    result.at_points = std::move(at_corners.at_points);
-    return result;
-}
-
 void check(const FitSettings& settings) {
     const auto fits = [](int degree) { return degree >= 1 && degree <= max_fit_degree; };
     expects(fits(settings.degree_u) && fits(settings.degree_v), "a degree that can be fitted");
@@ -203,7 +86,7 @@ void check(const FitSettings& settings) {
 }
 
 /// Points on the triangles and on the outline, where the square has them.
-std::vector<Sample> samples_on(const SquareMap& map, const Target& target, int count) {
+std::vector<Sample> samples_on(const SquareMap& map, const FitTarget& target, int count) {
     constexpr int points_an_edge_on_average = 4;
     std::vector<Sample> samples;
     for (const Spread& spread : spread_over(target.side.mesh, target.side.area, count)) {
@@ -222,7 +105,7 @@ std::vector<Sample> samples_on(const SquareMap& map, const Target& target, int c
     return samples;
 }
 
-std::vector<Sample> samples_in(const Rectangle& rectangle, const Target& target, int count) {
+std::vector<Sample> samples_in(const Rectangle& rectangle, const FitTarget& target, int count) {
     std::vector<Sample> samples;
     for (const Spread& spread : spread_over(target.side.mesh, target.side.area, count)) {
         const Vec3 point = target.at(spread);
@@ -236,21 +119,28 @@ struct Approach {
     int rounds = 0;
 };
 
-/// Least squares and corrected parameters in turn, as long as each round brings a hundredth.
-Approach
-approach(const LeastSquares& squares, std::vector<Sample> samples, int rounds, const Progress& progress) {
+/// Least squares and corrected parameters in turn, as long as each round brings a hundredth and folds no more
+/// than the round before: points that slide along the sides can turn a corner over.
+Approach approach(const LeastSquares& squares,
+                  std::vector<Sample> samples,
+                  const FitComparison& comparison,
+                  int rounds,
+                  const Progress& progress) {
     constexpr double worth_going_on = 0.99; // of the distance of the round before
     Approach best{squares.solve(by_distance(samples), progress), 1};
+    double folded = comparison.fold_of(best.patch, progress).share;
     double rms = correct(samples, best.patch, progress);
     for (; best.rounds < rounds; ++best.rounds) {
         progress.report(static_cast<double>(best.rounds) / rounds, "fitting the patch");
         BezierPatch next = squares.solve(by_tangents(samples, best.patch), progress);
         const double smaller = correct(samples, next, progress);
-        if (!(smaller < rms)) {
+        const double next_folded = comparison.fold_of(next, progress).share;
+        if (!(smaller < rms) || next_folded > folded) {
             break;
         }
         const bool enough = smaller > worth_going_on * rms;
         best.patch = std::move(next);
+        folded = next_folded;
         rms = smaller;
         if (enough) {
             break;
@@ -264,9 +154,40 @@ approach(const LeastSquares& squares, std::vector<Sample> samples, int rounds, c
 constexpr double everywhere_filled = 1e-13;
 constexpr double partly_empty = 1e-8;
 
-MeshFit fitted(Target target,
+/// The loop on another patch near the face: each corner goes to the nearest point of that, and long edges get
+/// more corners, because they need not stay straight.
+geometry::Trim::Loop
+moved_onto(const geometry::ClosestPointSearch& patch, const CadFace& face, const geometry::Trim::Loop& loop) {
+    constexpr double longest = 1.0 / 16.0; // of an edge, in patches
+    geometry::Trim::Loop moved;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+        const Vec2& a = loop[n];
+        const Vec2 edge = loop[n + 1 == loop.size() ? 0 : n + 1] - a;
+        const int pieces = std::max(1, static_cast<int>(std::ceil(edge.norm() / longest)));
+        for (int k = 0; k < pieces; ++k) {
+            const Vec2 at = a + static_cast<double>(k) / pieces * edge;
+            const Vec2 start(at.x() / face.rows, at.y() / face.columns);
+            moved.push_back(patch.closest(face.position(at), start).parameters);
+        }
+    }
+    return moved;
+}
+
+geometry::Trim trim_on(const BezierPatch& patch, const CadFace& face, const Progress& progress) {
+    const geometry::ClosestPointSearch search(patch);
+    geometry::Trim trim;
+    for (const geometry::Trim::Loop& loop : face.loops()) {
+        progress.check();
+        trim.loops.push_back(moved_onto(search, face, loop));
+    }
+    return trim;
+}
+
+/// `seen_from`: the unit direction from which the target is seen; nullopt for a whole face.
+MeshFit fitted(FitTarget target,
                const std::optional<SquareMap>& square,
                const FitSettings& settings,
+               const std::optional<Vec3>& seen_from,
                const Progress& progress) {
     const SeenSide& side = target.side;
     std::vector<Sample> samples;
@@ -280,13 +201,17 @@ MeshFit fitted(Target target,
     progress.report(0.1, "fitting the patch");
     const LeastSquares squares(
         settings.degree_u, settings.degree_v, square ? everywhere_filled : partly_empty);
-    Approach fit = approach(squares, std::move(samples), settings.rounds, progress.part(0.1, 0.7));
+    const FitComparison comparison(target, seen_from);
+    Approach fit =
+        approach(squares, std::move(samples), comparison, settings.rounds, progress.part(0.1, 0.7));
     progress.report(0.7, "measuring the deviation");
     constexpr int denser = 4; // than what was fitted, and so other points
-    Deviation deviation = target.face != nullptr
-                              ? deviation_from(target, denser * settings.points, fit.patch, progress)
-                              : deviation_of(side.mesh.points, fit.patch, progress);
+    geometry::Trim trim =
+        target.face != nullptr ? trim_on(fit.patch, *target.face, progress) : geometry::Trim{};
+    Deviation deviation =
+        comparison.deviation_of(fit.patch, trim, square.has_value(), denser * settings.points, progress);
     return {std::move(fit.patch),
+            std::move(trim),
             std::move(target.side.mesh),
             std::move(target.side.left_out),
             side.left_out_area,
@@ -297,7 +222,7 @@ MeshFit fitted(Target target,
 }
 
 /// The side of the target's mesh that is seen, by the way that the settings or the mesh itself say.
-MeshFit fitted_side(Target target,
+MeshFit fitted_side(FitTarget target,
                     const TriangleMesh& mesh,
                     const std::vector<Vec2>& places,
                     FitSettings settings,
@@ -316,7 +241,7 @@ MeshFit fitted_side(Target target,
     }
     const auto rectangle = least_rectangle(target.side.mesh.points, along);
     const auto square = rectangle ? square_map(target.side.mesh, *rectangle) : std::nullopt;
-    return fitted(std::move(target), square, settings, progress);
+    return fitted(std::move(target), square, settings, settings.along, progress);
 }
 
 /// Triangles with corners on a face, and where on it those are.
@@ -365,7 +290,7 @@ MeshFit fit_patch(const TriangleMesh& mesh, const FitSettings& settings, const P
 MeshFit fit_face(const CadFace& face, FitSettings settings, const Progress& progress) {
     check(settings);
     FaceMesh made = triangles_of(face);
-    Target target;
+    FitTarget target;
     target.face = &face;
     if (settings.along) {
         return fitted_side(std::move(target), made.mesh, made.places, settings, progress);
@@ -380,7 +305,7 @@ MeshFit fit_face(const CadFace& face, FitSettings settings, const Progress& prog
     }
     target.side.mesh = std::move(made.mesh);
     target.places = std::move(made.places);
-    return fitted(std::move(target), own, settings, progress);
+    return fitted(std::move(target), own, settings, std::nullopt, progress);
 }
 
 } // namespace millwright::exchange

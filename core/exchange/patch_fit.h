@@ -10,6 +10,7 @@
 #include "core/exchange/triangle_mesh.h"
 #include "core/geometry/bezier_patch.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -29,17 +30,25 @@ struct FitSettings {
     int rounds = 12;    ///< of correcting the parameters, at most
 };
 
-/// Distances of points of the mesh from the patch, mm; above zero on the side of its normal. Of a face the
-/// figures are those of points spread densely over what its outline leaves.
+/// Distances between the patch and its mesh or face, in both directions, mm.
 struct Deviation {
-    std::vector<double> at_points; ///< one a point of `MeshFit::side`
+    // Points of the mesh from the patch. For a face: points spread densely inside its outline.
+    std::vector<double> at_points; ///< one per point of `MeshFit::side`; positive on the side of the normal
     double max = 0.0;              ///< without sign
     double mean = 0.0;             ///< without sign
     double rms = 0.0;
+    // Points of the patch, inside its trim, from the mesh or the face.
+    double patch_max = 0.0;
+    double patch_mean = 0.0;          ///< over the area
+    Vec2 patch_max_at = Vec2::Zero(); ///< (u, v)
+
+    /// The Hausdorff distance, as far as the points show it.
+    [[nodiscard]] double largest() const { return std::max(max, patch_max); }
 };
 
 struct MeshFit {
     geometry::BezierPatch patch;
+    geometry::Trim trim;        ///< the outline of a trimmed face on the patch
     TriangleMesh side;          ///< the part of the mesh that was fitted
     TriangleMesh left_out;      ///< the triangles that look the other way or sideways
     double left_out_area = 0.0; ///< mm^2
@@ -52,7 +61,8 @@ struct MeshFit {
 /// The side of the mesh that is seen from `along` (if not given its mean normal, or +z where the mesh is
 /// closed). Where that is one sheet with four corners and no hole the patch follows its outline; else it
 /// fills the least rectangle around it, and goes on with little bending where that is empty. Throws Error if
-/// no triangle looks that way or they all lie in a line; Cancelled.
+/// no triangle looks that way or they all lie in a line, and if the patch folds or leaves the mesh;
+/// Cancelled.
 [[nodiscard]] MeshFit
 fit_patch(const TriangleMesh& mesh, const FitSettings& settings, const Progress& progress);
 

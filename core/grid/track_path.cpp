@@ -81,7 +81,8 @@ MoveTable::MoveTable(const ErrorModel& model,
                      std::vector<double> places,
                      MoveWindow window,
                      Sampling sampling,
-                     const Progress& progress)
+                     const Progress& progress,
+                     const MoveFilter& filter)
     : places_(std::move(places)) {
     expects(size() >= 2 && std::ranges::is_sorted(places_), "the places of a table ascend");
     std::vector<Vec2> nodes;
@@ -97,11 +98,15 @@ MoveTable::MoveTable(const ErrorModel& model,
             std::lower_bound(after, places_.end(), here + (1.0 - window_slack) * window.shortest);
         const auto beyond =
             std::upper_bound(nearest, places_.end(), here + (1.0 + window_slack) * window.longest);
-        const Row row{static_cast<int>(nearest - places_.begin()),
-                      static_cast<int>(beyond - places_.begin()),
-                      moves_.size()};
+        Row row{static_cast<int>(nearest - places_.begin()),
+                static_cast<int>(beyond - places_.begin()),
+                moves_.size()};
+        while (filter && row.first < row.end && !filter(k, row.end - 1)) {
+            --row.end;
+        }
+        constexpr MoveError not_measured{.tip = infinity, .axis = infinity};
         for (int l = row.first; l < row.end; ++l) {
-            moves_.push_back(errors->between(k, l));
+            moves_.push_back(!filter || filter(k, l) ? errors->between(k, l) : not_measured);
         }
         rows_.push_back(row);
     }
@@ -111,6 +116,12 @@ const MoveError& MoveTable::move(int k, int l) const {
     const Row& row = rows_[static_cast<std::size_t>(k)];
     expects(row.first <= l && l < row.end, "a move of a table is inside its window");
     return moves_[row.offset + static_cast<std::size_t>(l - row.first)];
+}
+
+void MoveTable::replace(int k, int l, const MoveError& error) {
+    const Row& row = rows_[static_cast<std::size_t>(k)];
+    expects(row.first <= l && l < row.end, "a move of a table is inside its window");
+    moves_[row.offset + static_cast<std::size_t>(l - row.first)] = error;
 }
 
 int MoveTable::index_of(double place) const {

@@ -9,6 +9,7 @@
 #include "core/grid/move_cost.h"
 #include "core/grid/track.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,16 +22,21 @@ struct MoveWindow {
     double longest = 1.0;
 };
 
-/// The errors of all moves of a lattice inside a window, [a row a place].
+/// Whether the move from place k to place l > k of a lattice is to be measured.
+using MoveFilter = std::function<bool(int k, int l)>;
+
+/// The errors of all moves of a lattice inside a window, one row per place.
 class MoveTable {
 public:
-    /// `places` ascend. Measures every move once; throws Cancelled within one row.
+    /// `places` ascend. Measures every move that `filter` accepts once; the others count as out of reach.
+    /// Without a filter every move is measured. Throws Cancelled within one row.
     MoveTable(const ErrorModel& model,
               const Track& track,
               std::vector<double> places,
               MoveWindow window,
               Sampling sampling,
-              const Progress& progress);
+              const Progress& progress,
+              const MoveFilter& filter = {});
 
     [[nodiscard]] const std::vector<double>& places() const { return places_; }
     [[nodiscard]] int size() const { return static_cast<int>(std::ssize(places_)); }
@@ -38,6 +44,8 @@ public:
     [[nodiscard]] int first(int k) const { return rows_[static_cast<std::size_t>(k)].first; }
     [[nodiscard]] int end(int k) const { return rows_[static_cast<std::size_t>(k)].end; }
     [[nodiscard]] const MoveError& move(int k, int l) const;
+    /// Puts a better measurement in the place of that of a move inside the window.
+    void replace(int k, int l, const MoveError& error);
     /// The position of `place`, which is one of places().
     [[nodiscard]] int index_of(double place) const;
 

@@ -1,7 +1,6 @@
 #include "core/project/imported_surface.h"
 
 #include "core/base/error.h"
-#include "core/geometry/closest_point.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/settings.h"
 
@@ -35,18 +34,20 @@ void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
             "{:.4g} mm2 of the mesh look the other way or sideways and are left out", fit.left_out_area));
     }
     if (!fit.follows_outline) {
-        imported.notes.emplace_back(
-            "the mesh is no sheet with four corners: the patch fills the rectangle around it");
+        imported.notes.push_back(fmt::format("the mesh is no sheet with four corners: the patch fills the "
+                                             "rectangle around it, up to {:.3g} mm from the mesh",
+                                             fit.deviation.patch_max));
     }
     Box3 box;
     for (const Vec3& point : fit.side.points) {
         box.extend(point);
     }
     constexpr double far_off = 0.03; // of the diagonal
-    if (fit.deviation.max > far_off * box.diagonal().norm()) {
+    const double off = fit.follows_outline ? fit.deviation.largest() : fit.deviation.max;
+    if (off > far_off * box.diagonal().norm()) {
         imported.notes.push_back(fmt::format("the patch is up to {:.3g} mm off: seen from this side the mesh "
                                              "folds over itself, or the degree is too low",
-                                             fit.deviation.max));
+                                             off));
     }
     imported.fit = std::move(fit);
 }
@@ -64,36 +65,11 @@ import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Pr
     return imported;
 }
 
-/// The loop on another patch near the face: each corner goes to the nearest point of that, and long edges get
-/// more corners, because they need not stay straight.
-geometry::Trim::Loop
-moved_onto(const geometry::ClosestPointSearch& patch, const CadFace& face, const geometry::Trim::Loop& loop) {
-    constexpr double longest = 1.0 / 16.0; // of an edge, in patches
-    geometry::Trim::Loop moved;
-    for (std::size_t n = 0; n < loop.size(); ++n) {
-        const Vec2& a = loop[n];
-        const Vec2 edge = loop[n + 1 == loop.size() ? 0 : n + 1] - a;
-        const int pieces = std::max(1, static_cast<int>(std::ceil(edge.norm() / longest)));
-        for (int k = 0; k < pieces; ++k) {
-            const Vec2 at = a + static_cast<double>(k) / pieces * edge;
-            const Vec2 start(at.x() / face.rows, at.y() / face.columns);
-            moved.push_back(patch.closest(face.position(at), start).parameters);
-        }
-    }
-    return moved;
-}
-
 ImportedSurface fitted_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
     take_fit(imported, exchange::fit_face(face, fit_settings(choice), progress));
-    const geometry::ClosestPointSearch search(imported.fit->patch);
-    geometry::Trim trim;
-    for (const geometry::Trim::Loop& loop : face.loops()) {
-        progress.check();
-        trim.loops.push_back(moved_onto(search, face, loop));
-    }
-    if (!trim.everything()) {
-        imported.surface.trims = {std::move(trim)};
+    if (!imported.fit->trim.everything()) {
+        imported.surface.trims = {imported.fit->trim};
     }
     return imported;
 }
@@ -257,6 +233,11 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
     } else {
         imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
         const exchange::CadModel& model = *source.model;
+        if (model.faces.size() > 1) {
+            tell(imported,
+                 fmt::format("one of {} faces is imported: nothing keeps the tool off the others",
+                             model.faces.size()));
+        }
         imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());
         imported.notes.insert(imported.notes.end(), model.left_out.begin(), model.left_out.end());
         check_imported_size(imported, question_of_cad_unit(model), source.file);

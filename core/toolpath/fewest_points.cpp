@@ -61,7 +61,6 @@ std::optional<grid::PlacedTrack> placed(const KinematicError& model,
     const double length = piece.to - piece.from;
     grid::FewestNodesSettings settings;
     settings.lattice = static_cast<int>(std::ceil(std::max(of_a_track * length, fewest)));
-    settings.longest_move = std::min(1.0, settings.longest_move / length);
     for (int n = 0; n <= finer; ++n) {
         if (auto found = grid::fewest_nodes(
                 model, track, piece.from, piece.to, {.tip = tolerance}, settings, progress)) {

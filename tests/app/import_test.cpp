@@ -72,6 +72,8 @@ TEST_F(ImportCommand, MeshIsFittedAndTheDeviationTold) {
     EXPECT_EQ(told.at("fit").at("degree"), (nlohmann::json{3, 3}));
     EXPECT_TRUE(told.at("fit").at("follows_outline"));
     EXPECT_LT(told.at("fit").at("max_mm"), 0.06); // the triangles lie up to 0.02 mm below the points
+    EXPECT_LT(told.at("fit").at("patch_max_mm"), 0.1);
+    EXPECT_GT(told.at("fit").at("patch_max_mm"), told.at("fit").at("patch_mean_mm"));
     EXPECT_THAT(content_of(path("deviation.csv")), ::testing::StartsWith("x_mm,y_mm,z_mm,deviation_mm\n"));
 }
 

@@ -189,7 +189,16 @@ void draw_found(Ui& ui, const ImportResult& found) {
     }
     ui.value("patches", "Patches", std::to_string(found.surface->surface.patches.size()));
     if (const auto& fit = found.surface->fit) {
-        ui.value("max", "Largest deviation", deviation_text(fit->deviation.max), "mm");
+        ui.value("max",
+                 "Largest deviation",
+                 deviation_text(fit->deviation.max),
+                 "mm",
+                 "The largest distance of a point of the mesh or face from the patch");
+        ui.value("patch_max",
+                 "Largest, of the patch",
+                 deviation_text(fit->deviation.patch_max),
+                 "mm",
+                 "The largest distance of a point of the patch from the mesh or face");
         ui.value("mean", "Mean deviation", deviation_text(fit->deviation.mean), "mm");
         ui.value("rms", "RMS deviation", deviation_text(fit->deviation.rms), "mm");
     }

@@ -1,11 +1,16 @@
 // Patches fitted to curved faces, with the distances measured here, by brute force over fine rasters.
 #include "core/base/error.h"
 #include "core/exchange/patch_fit.h"
+#include "core/geometry/closest_point.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace millwright::exchange {
 namespace {
@@ -90,9 +95,74 @@ TEST(FaceFit, TellsTheDistanceFromTheFaceItself) {
         EXPECT_GT(fit.deviation.max, 0.9 * measured) << degree;
         // Sides that end short of the face's are told, too.
         EXPECT_LT(fit.deviation.max, 2.0 * measured + 1e-6) << degree;
+        // Its sides go a little beyond those of the face, which the whole torus does not tell.
+        EXPECT_GT(fit.deviation.patch_max, 0.98 * measured) << degree;
+        EXPECT_LT(fit.deviation.patch_max, 3.0 * measured + 1e-6) << degree;
         EXPECT_LE(fit.deviation.mean, fit.deviation.rms) << degree;
         EXPECT_LE(fit.deviation.rms, fit.deviation.max) << degree;
         EXPECT_TRUE(fit.follows_outline) << degree;
+    }
+}
+
+/// Two rows of a wavy face, the second `length` mm long: little of its area, so that few points hold a patch
+/// over half of its parameters.
+CadFace wavy_face(double length) {
+    CadFace face;
+    face.rows = 2;
+    constexpr double heights[7][4] = {{0.0, 0.0, 0.0, 0.0},
+                                      {9.0, -14.0, 6.0, 11.0},
+                                      {-12.0, 4.0, 13.0, -7.0},
+                                      {2.0, 1.0, -1.0, 0.5},
+                                      {0.3, -0.8, 0.6, 0.1},
+                                      {-0.7, 0.2, 0.9, -0.4},
+                                      {0.2, 0.5, -0.3, 0.6}};
+    for (const int row : {0, 1}) {
+        ControlNet net = ControlNet::sized(4, 4);
+        for (int i = 0; i < 4; ++i) {
+            for (int j = 0; j < 4; ++j) {
+                const double x = row == 0 ? 100.0 * i / 3.0 : 100.0 + length * i / 3.0;
+                const double scale = row == 0 || i == 0 ? 1.0 : 0.3 * length;
+                net.point(i, j) = {x, 20.0 * j, scale * heights[3 * row + i][j]};
+            }
+        }
+        face.patches.emplace_back(net);
+    }
+    return face;
+}
+
+double distance_from(const std::vector<geometry::ClosestPointSearch>& parts, const Vec3& point) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const geometry::ClosestPointSearch& part : parts) {
+        least = std::min(least, part.closest(point).distance);
+    }
+    return least;
+}
+
+// "At most 1.1 mm" was said of a patch that bulged 100 mm away from its face.
+TEST(FaceFit, ReportsHowFarThePatchBulgesOrRefusesIt) {
+    for (const double length : {0.01, 1.0, 20.0}) {
+        const CadFace face = wavy_face(length);
+        std::vector<geometry::ClosestPointSearch> parts;
+        for (const BezierPatch& part : face.patches) {
+            parts.emplace_back(part);
+        }
+        for (const int degree : {3, 5, 9, 12}) {
+            try {
+                const MeshFit fit = fit_face(face, of_degree(degree, degree), {});
+                double measured = 0.0;
+                for (int i = 0; i <= 150; ++i) {
+                    for (int j = 0; j <= 30; ++j) {
+                        measured =
+                            std::max(measured, distance_from(parts, fit.patch.position(i / 150.0, j / 30.0)));
+                    }
+                }
+                EXPECT_GE(1.05 * fit.deviation.patch_max + 1e-6, measured) << length << ", " << degree;
+                EXPECT_LE(fit.deviation.patch_max, 1.05 * measured + 1e-6) << length << ", " << degree;
+            } catch (const Error& error) {
+                EXPECT_NE(std::string(error.what()).find("the fitted patch"), std::string::npos)
+                    << error.what();
+            }
+        }
     }
 }
 

@@ -136,6 +136,21 @@ TEST(PatchFit, HigherDegreesComeNearer) {
     EXPECT_LT(last, 0.01);
 }
 
+// Points that slid along the sides turned a corner of degree 4 over: its second control point went to
+// y = -4.9.
+TEST(PatchFit, DoesNotFoldAtItsCorners) {
+    const auto wave = [](int i, int j) { return 3.0 * std::sin(0.12 * i) * std::cos(0.1 * j); };
+    for (const int degree : {2, 3, 4, 5, 6}) {
+        const BezierPatch patch = fit_patch(sheet(wave), {.degree_u = degree, .degree_v = degree}, {}).patch;
+        for (int i = 0; i <= 60; ++i) {
+            for (int j = 0; j <= 60; ++j) {
+                const auto normal = patch.unit_normal(i / 60.0, j / 60.0);
+                EXPECT_TRUE(normal && normal->z() > 0.0) << degree << ": " << i << ", " << j;
+            }
+        }
+    }
+}
+
 TEST(PatchFit, OfAClosedBodyTakesTheTop) {
     TriangleMesh box;
     for (int n = 0; n < 8; ++n) {

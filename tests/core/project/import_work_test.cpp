@@ -147,6 +147,21 @@ exchange::CadFace plate(const std::vector<Vec2>& holes, int corners) {
     return face;
 }
 
+TEST(ImportOf, OneOfSeveralFacesSaysThatNothingKeepsTheToolOffTheOthers) {
+    exchange::CadFace second = plate({}, 4);
+    second.number = 2;
+    ImportSource source;
+    source.model =
+        exchange::CadModel{.faces = {plate({}, 4), second}, .left_out = {}, .notes = {}, .unit = "mm"};
+    ImportChoice choice;
+    choice.face = 1;
+    const ImportedSurface one_of_two = import_of(source, choice, Progress());
+    ASSERT_EQ(one_of_two.notes.size(), 1U);
+    EXPECT_EQ(one_of_two.notes[0], "one of 2 faces is imported: nothing keeps the tool off the others");
+    source.model->faces.pop_back();
+    EXPECT_TRUE(import_of(source, choice, Progress()).notes.empty());
+}
+
 exchange::TriangleMesh reference_of(std::vector<exchange::CadFace> faces) {
     ImportSource source;
     source.model = exchange::CadModel{.faces = std::move(faces), .left_out = {}, .notes = {}, .unit = "mm"};
