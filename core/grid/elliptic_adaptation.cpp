@@ -306,9 +306,8 @@ std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) con
                            at.round_start,
                            at.state.round == 0 ? std::string(start_name)
                                                : "grid of round " + std::to_string(at.state.round + 1));
-            if (!at.weight_warning.empty()) {
-                at.state.warning = with_sentence(std::move(at.state.warning), at.weight_warning);
-            }
+            at.state.warning += at.state.warning.empty() || at.weight_warning.empty() ? "" : " ";
+            at.state.warning += at.weight_warning;
         }
     }
     NodeArray nodes = to_solver_coordinates(at.round_start.array());

@@ -397,31 +397,6 @@ void PmacSession::refused(const Request& request, int error) {
     fail(why);
 }
 
-/// Whose loop is open, and what helps, where a program was refused for that. `definitions`: of the axes of
-/// motors 1 to 8 in our coordinate system.
-std::string PmacSession::loop_advice(const std::vector<std::string>& definitions) const {
-    for (std::size_t n = 0; n < motors_.size(); ++n) {
-        if (!motors_[n].enabled()) {
-            return fmt::format(
-                "; motor {} ({}) has no power: give the motors power", settings_.axes[n].motor, name_of(n));
-        }
-    }
-    std::string others;
-    for (std::size_t n = 0; n < definitions.size(); ++n) {
-        const int motor = static_cast<int>(n) + 1;
-        if (definitions[n] != "0" && std::ranges::count(settings_.axes, motor, &PmacAxis::motor) == 0) {
-            others += fmt::format("{}motor {} ({})", others.empty() ? "" : ", ", motor, definitions[n]);
-        }
-    }
-    return others.empty()
-               ? std::string()
-               : fmt::format("; the card's settings give coordinate system {} also {}, which is not "
-                             "driven here: connect with its axis (\"Axis 5\", --axes XYZAB), or load "
-                             "settings without it",
-                             settings_.system,
-                             others);
-}
-
 void PmacSession::next_command() {
     if (command_lines_.empty()) {
         if (buffer_open_) {

@@ -144,7 +144,6 @@ private:
     void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind, 0}); }
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
-    [[nodiscard]] std::string loop_advice(const std::vector<std::string>& definitions) const;
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
     [[nodiscard]] static std::string asked(const Request& request);
     void next_command();
@@ -237,6 +236,7 @@ private:
     [[nodiscard]] DriverState state() const;
     [[nodiscard]] Activity activity() const;
     [[nodiscard]] int sent_lines() const;
+    [[nodiscard]] std::string loop_advice(const std::vector<std::string>& definitions) const;
 
     PmacSettings settings_;
     GuardedLine talk_;
