@@ -147,10 +147,11 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
                 HasSubstr("Grbl 1.1 moves X Y Z only, and the program for 'A-on-C table' also moves A C"));
     ended = convert("ac-table", "siemens");
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl-rotary, grbl, heidenhain, linuxcnc-tcp, "
-                          "linuxcnc-xyz, linuxcnc, virtual; or "
-                          "the path of one)"));
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl-rotary, grbl, heidenhain, linuxcnc-tcp, "
+                  "linuxcnc-xyz, linuxcnc, virtual; or "
+                  "the path of one)"));
     ended = convert("ac-table", "heidenhain", {"--arcs", "0.01"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("are written without arcs"));
