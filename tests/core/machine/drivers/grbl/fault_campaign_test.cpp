@@ -182,8 +182,8 @@ struct Verdict {
 class Run {
 public:
     Run(std::uint64_t seed, const std::filesystem::path& logs, EmulatedFirmware firmware)
-        : firmware_(firmware), seed_(seed), logs_(logs), random_(seed), kind_(static_cast<GrblFault>(seed % grbl_fault_count)),
-          program_(random_grbl_program(random_)),
+        : firmware_(firmware), seed_(seed), logs_(logs), random_(seed),
+          kind_(static_cast<GrblFault>(seed % grbl_fault_count)), program_(random_grbl_program(random_)),
           lines_(program_lines(test::listing_of(program_), "campaign.ngc")),
           // half of the controllers tell what is in their buffers
           wire_(faults_of(kind_, random_, seed), options(), {}, pick(random_, 2) == 0 ? "$10=3\n" : "") {}
@@ -228,7 +228,9 @@ private:
     GrblEmulatorOptions options() {
         const bool changed = kind_ == GrblFault::drop_to_grbl || kind_ == GrblFault::garble_to_grbl ||
                              kind_ == GrblFault::duplicate_to_grbl;
-        return {.firmware = firmware_, .line_numbers = pick(random_, 2) == 0, .echo = changed || pick(random_, 4) == 0};
+        return {.firmware = firmware_,
+                .line_numbers = pick(random_, 2) == 0,
+                .echo = changed || pick(random_, 4) == 0};
     }
 
     void wrong(const std::string& what) {
