@@ -33,20 +33,6 @@ void throw_first_with_count(std::vector<Diagnostic> faults) {
     throw Error(std::move(faults.front()));
 }
 
-/// A controller that executes text has axes of its own, in its own order, besides those of the program or in
-/// place of them: what it has to find out by moving is read from the text then.
-Job for_axes_of(const Job& job, const Capabilities& able) {
-    Job result = job;
-    const auto same = [](const gcode::ProgramAxis& a, const gcode::ProgramAxis& b) {
-        return a.letter == b.letter && a.kind == b.kind;
-    };
-    if (job.program != nullptr && able.plans && !able.axes.empty() &&
-        !std::ranges::equal(job.program->axes, able.axes, same)) {
-        result.program = nullptr;
-    }
-    return result;
-}
-
 bool ended(DriverState state) {
     return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm ||
            state == DriverState::disconnected;
@@ -322,7 +308,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
     throw_first_with_count(preflight(asked));
     driver_.connect();
     const Capabilities able = driver_.capabilities();
-    const Job job = for_axes_of(asked, able);
+    const Job job = able.plans ? for_axes_of(asked, able.axes) : asked;
     const DriverStatus before = driver_.status();
     if (before.state != DriverState::idle && before.state != DriverState::stopped) {
         throw Error(

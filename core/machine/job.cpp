@@ -103,6 +103,17 @@ int Job::block_count() const {
     return static_cast<int>(listing->line_of_block.size());
 }
 
+Job for_axes_of(const Job& job, const std::vector<gcode::ProgramAxis>& axes) {
+    Job result = job;
+    const auto same = [](const gcode::ProgramAxis& a, const gcode::ProgramAxis& b) {
+        return a.letter == b.letter && a.kind == b.kind;
+    };
+    if (job.program != nullptr && !axes.empty() && !std::ranges::equal(job.program->axes, axes, same)) {
+        result.program = nullptr;
+    }
+    return result;
+}
+
 Job text_job(std::string text, const std::filesystem::path& file) {
     gcode::Listing listing;
     text = gcode::with_newlines(std::string(gcode::program_text(text)));

@@ -35,6 +35,10 @@ struct Job {
 /// A job of the lines of a G-code file, each that is not empty being a block. Throws Error if there is none.
 [[nodiscard]] Job text_job(std::string text, const std::filesystem::path& file);
 
+/// The job for a controller that executes its text: without its program where that is not for `axes`, those
+/// of the controller, in their order. Empty: those of any program.
+[[nodiscard]] Job for_axes_of(const Job& job, const std::vector<gcode::ProgramAxis>& axes);
+
 /// A job of a G-code file, by LinuxCNC's rules, whose motion is planned here for `machine`, which stands at
 /// `start` (not given: at zero, or at its nearest limits). Throws Error with the first thing that is wrong
 /// with it, or that this machine cannot do.
