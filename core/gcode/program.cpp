@@ -47,11 +47,14 @@ kinematics::AxisPositions programmed(const Program& program, kinematics::AxisPos
 std::vector<int> blocks_of_points(const Program& program, int point_count) {
     std::vector<int> blocks(static_cast<std::size_t>(point_count), -1);
     for (int n = 0; n < program.block_count(); ++n) {
-        const int point = program.blocks[static_cast<std::size_t>(n)].path_point;
-        expects(point < point_count, "a block's point belongs to the tool path");
-        if (point >= 0) {
-            blocks[static_cast<std::size_t>(point)] = n;
+        const Block& block = program.blocks[static_cast<std::size_t>(n)];
+        expects(block.path_point < point_count, "a block's point belongs to the tool path");
+        if (block.path_point < 0) {
+            continue;
         }
+        int& found = blocks[static_cast<std::size_t>(block.path_point)];
+        found =
+            found < 0 || block.moves() ? n : found; // the end of the program belongs to its last point, too
     }
     for (std::size_t point = 1; point < blocks.size(); ++point) {
         if (blocks[point] < 0) {
