@@ -34,8 +34,14 @@ public:
 
     void hold() { dispatcher_.hold(); }
     void resume() { dispatcher_.resume(); }
-    void stop() { dispatcher_.stop(); }
-    void emergency_stop() { driver_->emergency_stop(); }
+    void stop() {
+        call_off();
+        dispatcher_.stop();
+    }
+    void emergency_stop() {
+        driver_->emergency_stop();
+        call_off();
+    }
     void set_speed(double speed) {
         if (own_) {
             own_->set_speed(machine::VirtualSpeed{speed});
@@ -55,6 +61,13 @@ public:
     }
 
 private:
+    /// Where nothing moves yet, the job does not begin: a stop reaches no driver that is not connected.
+    void call_off() {
+        if (driver_->status().activity == machine::Activity::none) {
+            thread_.request_stop();
+        }
+    }
+
     template <class Change> void publish(Change&& change) {
         {
             const std::scoped_lock lock(mutex_);
@@ -71,6 +84,10 @@ private:
                 });
             publish([&](JobView& view) { view.outcome = outcome; });
             tell_end({outcome, {}});
+        } catch (const Cancelled&) {
+            const Diagnostic stopped{{}, "the job was stopped before it began", {}};
+            publish([&](JobView& view) { view.failure = stopped; });
+            tell_end({std::nullopt, stopped.message});
         } catch (const Error& error) {
             publish([&](JobView& view) { view.failure = error.diagnostic(); });
             tell_end({std::nullopt, error.what()});

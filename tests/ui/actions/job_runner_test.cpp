@@ -28,6 +28,21 @@ protected:
     Workshop workshop_;
 };
 
+// The machine was not connected yet, took no notice, and the job ran to its end.
+TEST_F(WorkshopOnDisk, AStopInTheMomentInWhichAJobBeginsIsNotLost) {
+    workshop_.session().machine_speed = 1.0;
+    for (const char* const stop : {"machine.emergency_stop", "machine.stop"}) {
+        for (int n = 0; n < 5; ++n) {
+            workshop_.run("machine.run");
+            workshop_.run(stop);
+            workshop_.wait_idle();
+            const JobView job = workshop_.look().job;
+            EXPECT_FALSE(job.running);
+            EXPECT_TRUE(job.failure || (job.outcome && job.outcome->end != machine::JobEnd::done)) << stop;
+        }
+    }
+}
+
 TEST_F(WorkshopOnDisk, HoldsResumesAndStopsAJob) {
     workshop_.session().machine_speed = 50.0;
     workshop_.run("machine.run");

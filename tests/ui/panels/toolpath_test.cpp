@@ -61,6 +61,7 @@ protected:
 
 TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
     fold({"strategy"});
+    person_.wait_idle();
     EXPECT_FALSE(person_.sees("inspector/tool/diameter_mm"));
     EXPECT_FALSE(person_.sees("inspector/cut/deepest"));
     const auto point_path = person_.workshop().look().shown()->path_length;
