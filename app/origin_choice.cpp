@@ -1,10 +1,22 @@
 #include "app/origin_choice.h"
 
+#include "core/base/error.h"
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 namespace millwright::app {
+
+void expect_whole_origin(const std::vector<double>& origin, bool machine_positions, const std::string& name) {
+    constexpr std::size_t without_z = 2;
+    if (machine_positions && origin.size() == without_z) {
+        throw Error(
+            "the program goes to machine positions (G53, G28, G30), and the origin that was given has no Z",
+            {},
+            name + " X,Y,Z");
+    }
+}
 
 void add_origin_option(CLI::App& command, std::vector<double>& origin, const std::string& name) {
     constexpr std::size_t most = 3;

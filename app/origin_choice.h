@@ -12,6 +12,11 @@ class App;
 
 namespace millwright::app {
 
+/// Throws Error where `origin`, given by `name`, has no Z and a program goes to machine positions.
+void expect_whole_origin(const std::vector<double>& origin,
+                         bool machine_positions,
+                         const std::string& name = "--origin");
+
 /// Adds --origin X,Y or X,Y,Z to `command`, by another `name` where that is taken.
 void add_origin_option(CLI::App& command, std::vector<double>& origin, const std::string& name = "--origin");
 

@@ -218,6 +218,7 @@ int convert_gcode(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
     throw_first(run.found.lost);
     throw_first(run.found.unplaced);
+    expect_whole_origin(options.origin, run.found.machine_positions);
     for (const Diagnostic& simplified : run.found.simplified) {
         fmt::print(stderr, "warning: {}\n", to_text(simplified));
     }

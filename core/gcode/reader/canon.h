@@ -148,8 +148,9 @@ enum class CommandKind : std::uint8_t {
     program_end,
     finish, ///< the text ended with %, without M2
     on_reset,
-    /// An offset or a reference point is taken from where the axes are. index: of G, in tenths (920: G92,
-    /// 100: G10 L10, L11 and L20, 281, 301); mode: which axes, AxisBits. Not one of LinuxCNC's.
+    /// An offset, a reference point or a parameter is taken from where the axes are. index: of G, in tenths
+    /// (920: G92, 100: G10 L10, L11 and L20, 281, 301), 0: a parameter; mode: which axes, AxisBits. Not one
+    /// of LinuxCNC's.
     measure_position
 };
 

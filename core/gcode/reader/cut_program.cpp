@@ -136,6 +136,7 @@ CutProgram made_of(MachineProgram read,
         made.notices.insert(made.notices.begin(), found->begin(), found->end());
     }
     made.unplaced = read.unplaced;
+    made.machine_positions = read.machine_positions;
     if (!(made.spindle_rpm > 0.0) && read.first_rpm > 0.0) {
         made.spindle_rpm = read.first_rpm;
         made.notices.push_back(

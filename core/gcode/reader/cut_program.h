@@ -52,6 +52,7 @@ struct CutProgram {
     int lines = 0;
     double feed_time = 0.0;          ///< of all feeds, as programmed
     double dwell_time = 0.0;         ///< in which it stands
+    bool machine_positions = false;  ///< MachineProgram::machine_positions
     double spindle_rpm = 0.0;        ///< the first that it is switched on with, or else that is set; 0: none
     std::vector<Diagnostic> notices; ///< what is read in another way, and what a path has no record of
     /// MachineProgram::unplaced: who cuts this refuses; they are among the notices, too.

@@ -83,6 +83,7 @@ struct Interpreter::Parts {
     void reset();
     void execute(std::string_view text);
     void execute_words(Cursor& cursor);
+    void tell_positions_read();
     bool execute_flow(Cursor& cursor);
     void look_for_percent();
     void refuse_lines_behind_the_end();
@@ -306,6 +307,16 @@ void Interpreter::Parts::execute(std::string_view text) {
     if (!execute_flow(cursor)) {
         execute_words(cursor);
     }
+    tell_positions_read();
+}
+
+/// Before the line moves anything: what it makes of them is as much worth as they are.
+void Interpreter::Parts::tell_positions_read() {
+    if (const AxisBits axes = run.variables.take_positions_read(); axes != 0) {
+        Command measured = internal::command_of(CommandKind::measure_position, 0);
+        measured.mode = axes;
+        run.out.send(measured);
+    }
 }
 
 /// O-words, M98 and M99 of subprograms; false for any other line.
@@ -346,6 +357,7 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
 void Interpreter::Parts::execute_words(Cursor& cursor) {
     line.clear();
     internal::parse_words(cursor, run.variables, line);
+    tell_positions_read();
     constexpr int m99 = 99;
     if (line.block.code(internal::MGroup::stopping) == m99 && flow.in_subroutine()) {
         internal::refuse(line.block.column_of(internal::MGroup::stopping),

@@ -48,8 +48,9 @@ struct MachineProgram {
     /// offsets, a retract to a reference point nobody has stored that would go down. The blocks take zero;
     /// who makes another program of them refuses.
     std::vector<Diagnostic> unplaced;
-    double first_rpm = 0.0; ///< the first S above zero, also where the spindle is never switched on
-    double length = 0.0;    ///< of the ways of X Y Z, rapids too, mm
+    bool machine_positions = false; ///< some move goes to one: G53, G28, G30
+    double first_rpm = 0.0;         ///< the first S above zero, also where the spindle is never switched on
+    double length = 0.0;            ///< of the ways of X Y Z, rapids too, mm
 };
 
 /// The lines of a G-code file with the blocks that were read from them.

@@ -90,7 +90,7 @@ void Placement::command(const Command& command, std::string_view line) {
                    'G',
                    {{},
                     fmt::format("{} takes {} from where the axis is, and the program has not said where",
-                                code_in_tenths(command.index),
+                                command.index > 0 ? code_in_tenths(command.index) : "a parameter",
                                 letter_of(n)),
                     place_by_rapid});
         }
@@ -198,6 +198,7 @@ void Placement::take_words(const Move& move, std::string_view line) {
 /// the two lie to each other.
 void Placement::look_at_frame(const Move& move, std::string_view line) {
     const bool of_machine = move.words.frame != MoveFrame::work;
+    machine_positions_ = machine_positions_ || of_machine;
     if (of_machine && !system_known_) {
         refuse(Kind::machine_position,
                move.source,

@@ -35,6 +35,9 @@ public:
     /// The last move is the first to name one of its axes: nobody knows its length.
     [[nodiscard]] bool starts_anywhere() const { return starts_anywhere_; }
 
+    /// Some move goes to a place of the machine: G53, G28, G30.
+    [[nodiscard]] bool machine_positions() const { return machine_positions_; }
+
     /// What depends on a position that was not said, the first of each kind.
     [[nodiscard]] std::vector<Diagnostic> take_unplaced() { return std::move(unplaced_); }
     /// That axes move while others have not been named yet; none where all are named first.
@@ -58,8 +61,9 @@ private:
     std::vector<std::size_t> index_of_; ///< of each axis among axis_letters
     AxisSet known_, named_;
     bool starts_anywhere_ = false;
-    int system_ = 1;                ///< 1: G54 to 9: G59.3
-    bool system_known_ = false;     ///< its offset
+    int system_ = 1;            ///< 1: G54 to 9: G59.3
+    bool system_known_ = false; ///< its offset
+    bool machine_positions_ = false;
     std::optional<int> frame_used_; ///< of the moves so far: a system without known offset, or 0: the machine
     std::set<Kind> refused_;
     std::vector<Diagnostic> unplaced_;

@@ -37,6 +37,21 @@ double of_tool(int number, const Tool& tool) {
 
 } // namespace
 
+namespace {
+
+/// Of #<_x> to #<_w> and #<_abs_x> to #<_abs_c>.
+AxisBits axis_of_position(std::string_view name) {
+    for (const std::string_view front : {"_abs_", "_"}) {
+        if (name.size() == front.size() + 1 && name.starts_with(front)) {
+            const auto axis = std::string_view("xyzabcuvw").find(name.back()); // as axis_letters
+            return axis == std::string_view::npos ? AxisBits{} : static_cast<AxisBits>(1U << axis);
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
 Variables::Variables(const ModalState& state)
     : state_(&state), values_(parameter_count, 0.0), told_(parameter_count, false) {
     set(parameter_system, 1.0);
@@ -56,6 +71,7 @@ double Variables::numbered(int number, int column) const {
         if (state_->cutter.on()) {
             refuse(column, "the position cannot be read while cutter compensation is on");
         }
+        positions_read_ |= static_cast<AxisBits>(1U << static_cast<unsigned>(number - first_position));
         return state_->position[static_cast<std::size_t>(number - first_position)];
     }
     if (number >= first_of_tool && number <= last_of_tool) {
@@ -68,6 +84,7 @@ std::optional<double> Variables::named(std::string_view name) const {
     const bool is_global = !name.empty() && name.front() == '_';
     if (is_global) {
         if (const auto known = predefined_value(name, *state_, program)) {
+            positions_read_ |= axis_of_position(name);
             return known;
         }
     }

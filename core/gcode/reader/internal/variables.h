@@ -1,6 +1,7 @@
 // Parameters: #1 to #5601, #<named>, #<_global>, and those that tell what is in force.
 #pragma once
 
+#include "core/gcode/reader/canon.h"
 #include "core/gcode/reader/modal_state.h"
 
 #include <map>
@@ -76,9 +77,13 @@ public:
     /// Whether anything of coordinate system `system` (1 to 9) was.
     [[nodiscard]] bool knows_system(int system) const;
 
+    /// Axes whose position was read since the last call.
+    [[nodiscard]] AxisBits take_positions_read() { return std::exchange(positions_read_, AxisBits{}); }
+
     ProgramView program;
 
 private:
+    mutable AxisBits positions_read_ = 0;
     const ModalState* state_;
     std::vector<double> values_;
     std::vector<bool> told_; ///< numbers that were set

@@ -104,6 +104,17 @@ TEST(Placement, OffsetsAreNotTakenFromWhereNobodyKnows) {
 }
 
 // The usual end of a Fusion 360 program became a rapid to Z0 of the work, the spindle turning.
+// They read as 0 and became words: G0 Z0.
+TEST(Placement, ParametersOfAPositionThatNobodyKnowsAreNoWords) {
+    for (const std::string read : {"#<_z>", "#<_abs_z>", "#5422", "[#5422+0]"}) {
+        EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG0 Z" + read + "\nM2\n"),
+                    ElementsAre(HasSubstr("a parameter takes Z from where the axis is")))
+            << read;
+    }
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z1\nG0 Z#<_z>\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\n#1=#5422\nG0 Z#1\nM2\n"), testing::SizeIs(1));
+}
+
 TEST(Placement, MachinePositionsNeedToKnowWhereTheWorkLies) {
     const std::string end_of_fusion = "G90 G21\nG0 X10 Y10\nZ25\nG1 Z8 F300\nG0 Z25\nG28 G91 Z0\nM5\nM30\n";
     EXPECT_THAT(
