@@ -12,7 +12,7 @@ namespace millwright::kinematics {
 /// F of blocks before the first that tells one, mm/s: the default of Saengsasri, Nittayachin 1996.
 inline constexpr double default_arm_feed = 10.0;
 
-/// Throws Error with file and line for an arc that is none, and for a feed that is not above 0: wherever the
+/// Throws Error with file and line for an impossible arc, and for a feed that is not above 0: wherever the
 /// arm stands.
 void expect_arcs(const std::vector<ArmBlock>& blocks, const std::filesystem::path& file);
 

@@ -31,7 +31,7 @@ struct PathPoints {
                                   std::shared_ptr<const kinematics::MachineModel> machine,
                                   const PathPoints& settings);
 
-/// Where a path starts to be played if nobody knows where the table is, mm.
+/// Where a path starts to be played if the place of the table is not known, mm.
 [[nodiscard]] Vec3 usual_start(const plot::CutPath& path);
 
 /// The points of a file, each a block on its line. Throws Error for a machine without X, Y, Z, without any

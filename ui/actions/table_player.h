@@ -62,7 +62,7 @@ public:
     /// At constant velocity; limits of the machine are checked before. view() has what is wrong. A table that
     /// something was played to before starts from where that ended; else it is assumed to be at
     /// machine::usual_start(). It rests at each tool change until resume(). Throws Error while one is
-    /// playing, and for a port that is none.
+    /// playing, and for an invalid port.
     void play(const TableChoice& choice, TableWork work);
     /// At once, and entered in the job's log.
     void hold();

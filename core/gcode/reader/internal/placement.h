@@ -32,7 +32,7 @@ public:
     /// The machine's axes that the last move names: those with a word whose position the program has said by
     /// now.
     [[nodiscard]] const AxisSet& named() const { return named_; }
-    /// The last move is the first to name one of its axes: nobody knows its length.
+    /// The last move is the first to name one of its axes, so its length is not known.
     [[nodiscard]] bool starts_anywhere() const { return starts_anywhere_; }
 
     /// Some move goes to a place of the machine: G53, G28, G30.

@@ -41,7 +41,7 @@ struct PlayStatus {
     std::int64_t sent = 0;        ///< points
     std::int64_t points = 0;      ///< of these, that the table has: those that it answered, where it answers
     std::int64_t stops = 0;       ///< of the track, that were passed
-    bool unsure = false;          ///< it ended, and nobody knows whether the table has the last one
+    bool unsure = false;          ///< it ended, and the table may or may not have the last one
     Vec3 position = Vec3::Zero(); ///< the last of them; before that the first that will be sent
     double time = 0.0;            ///< points that the table has, times the period
     Jitter jitter;

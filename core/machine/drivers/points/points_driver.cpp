@@ -113,7 +113,7 @@ DriverStatus PointsDriver::status() const {
     status.link_lost = status.state == DriverState::alarm && link_ && link_->lost().has_value();
     if (played.unsure) {
         status.position_doubt =
-            fmt::format("point {} was on its way, and nobody knows whether it was obeyed", played.sent);
+            fmt::format("point {} was on its way, and the table may or may not have obeyed it", played.sent);
     }
     add_progress(status, played, player_->track(), blocks_);
     return status;

@@ -54,7 +54,7 @@ struct Feedback {
     std::string tag, text;
 };
 /// $/axes/x/max_rate_mm_per_min=5000.000 of a FluidNC, $300=router of a grblHAL: what has no number, or a
-/// value that is none.
+/// malformed value.
 struct NamedSetting {
     std::string name, value;
 };

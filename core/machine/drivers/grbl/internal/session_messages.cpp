@@ -109,7 +109,7 @@ void Session::finish_asking(const StatusMessage& report) {
     message_ = !kept_lock_.empty() ? fmt::format("{} stays locked, {}", name(), kept_lock_)
                : !found_alarm_.empty()
                    ? fmt::format("{} is locked, {}", name(), found_alarm_)
-                   : name() + " is locked: home the machine, or reset to unlock it where it stands";
+                   : name() + " is locked: home the machine, or reset to unlock it without moving";
 }
 
 /// After the link was made: nobody knows what happened before.

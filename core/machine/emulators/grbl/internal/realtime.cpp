@@ -54,7 +54,7 @@ void Controller::receive(unsigned char byte) {
     }
 }
 
-/// False: it is none, or text where it stands.
+/// False: it is no such character, or part of the text here.
 bool Controller::take_realtime(unsigned char byte) {
     const bool hal = build_.is(EmulatedFirmware::grblhal);
     const bool printable = !hal || options_.printable_realtime || !input_.in_system_line();
