@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    static constexpr double nearly_allowed = 4.0;
+    static constexpr double nearly_allowed = 2.0;
 
     [[nodiscard]] bool allowed(int k, int l) const {
         return l < rough_.end(k) && nearly_.allow(rough_.move(k, l));

@@ -1,8 +1,11 @@
 #include "core/toolpath/internal/chord_curve.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace millwright::toolpath {
@@ -24,27 +27,58 @@ ChordCurve::ChordCurve(std::vector<Vec3> points, std::vector<Vec3> normals)
         }
         pack.inverse_square[lane] = squared > 0.0 ? 1.0 / squared : 0.0;
     }
+    for (std::size_t n = 0; n < packs_.size(); ++n) {
+        const std::size_t from = n * lanes, to = std::min(from + lanes, chords);
+        packs_[n].middle = points_[std::midpoint(from, to)];
+        double farthest = 0.0;
+        for (std::size_t k = from; k <= to; ++k) {
+            farthest = std::max(farthest, (points_[k] - packs_[n].middle).squaredNorm());
+        }
+        packs_[n].radius = std::sqrt(farthest);
+    }
+}
+
+double ChordCurve::Pack::squared_at_least(const Vec3& p) const {
+    constexpr double less = 1.0 - 1e-9; // more than rounding takes away
+    const double outside = less * (p - middle).norm() - radius;
+    return outside > 0.0 ? square(outside) : 0.0;
+}
+
+void ChordCurve::look_in(std::size_t pack, const Vec3& p, double& least, std::size_t& chord) const {
+    const Pack& of = packs_[pack];
+    const Lanes x = p.x() - of.start[0];
+    const Lanes y = p.y() - of.start[1];
+    const Lanes z = p.z() - of.start[2];
+    const Lanes s =
+        ((x * of.span[0] + y * of.span[1] + z * of.span[2]) * of.inverse_square).cwiseMax(0.0).cwiseMin(1.0);
+    const Lanes squared =
+        (x - s * of.span[0]).square() + (y - s * of.span[1]).square() + (z - s * of.span[2]).square();
+    const double in_pack = squared.minCoeff();
+    const bool earlier = exactly_equal(in_pack, least) && pack * lanes < chord;
+    if (in_pack < least || earlier) {
+        const auto lane = std::ranges::find(squared, in_pack) - squared.begin();
+        least = in_pack;
+        chord = pack * lanes + static_cast<std::size_t>(lane);
+    }
 }
 
 ChordCurve::Nearest ChordCurve::nearest(const Vec3& p) const {
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t chord = 0;
-    for (std::size_t n = 0; n < packs_.size(); ++n) {
-        const auto& [start, span, inverse_square] = packs_[n];
-        const Lanes x = p.x() - start[0];
-        const Lanes y = p.y() - start[1];
-        const Lanes z = p.z() - start[2];
-        const Lanes s =
-            ((x * span[0] + y * span[1] + z * span[2]) * inverse_square).cwiseMax(0.0).cwiseMin(1.0);
-        const Lanes squared =
-            (x - s * span[0]).square() + (y - s * span[1]).square() + (z - s * span[2]).square();
-        if (const double in_pack = squared.minCoeff(); in_pack < least) {
-            least = in_pack;
-            const auto lane = std::ranges::find(squared, in_pack) - squared.begin();
-            chord = n * lanes + static_cast<std::size_t>(lane);
+    // The pack whose ball is nearest first: it mostly rules out the others.
+    std::size_t first = 0;
+    for (std::size_t n = 1; n < packs_.size(); ++n) {
+        if ((p - packs_[n].middle).squaredNorm() < (p - packs_[first].middle).squaredNorm()) {
+            first = n;
         }
     }
-    return least < std::numeric_limits<double>::infinity() ? on_chord(chord, p) : Nearest{};
+    double least = infinity;
+    std::size_t chord = 0;
+    look_in(first, p, least, chord);
+    for (std::size_t n = 0; n < packs_.size(); ++n) {
+        if (n != first && !(packs_[n].squared_at_least(p) > least)) {
+            look_in(n, p, least, chord);
+        }
+    }
+    return least < infinity ? on_chord(chord, p) : Nearest{};
 }
 
 ChordCurve::Nearest ChordCurve::on_chord(std::size_t chord, const Vec3& p) const {

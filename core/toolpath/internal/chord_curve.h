@@ -42,7 +42,13 @@ private:
         std::array<Lanes, 3> start;
         std::array<Lanes, 3> span;
         Lanes inverse_square; // of the span's length; 0 of a point
+        Vec3 middle;          // of a ball around all of them
+        double radius = 0.0;  // of it, mm
+
+        /// Not above the distance of its chords from `p`, squared.
+        [[nodiscard]] double squared_at_least(const Vec3& p) const;
     };
+    void look_in(std::size_t pack, const Vec3& p, double& least, std::size_t& chord) const;
     [[nodiscard]] Nearest on_chord(std::size_t chord, const Vec3& p) const;
 
     std::vector<Vec3> points_;
