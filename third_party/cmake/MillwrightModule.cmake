@@ -106,18 +106,18 @@ function(millwright_headers_alone name)
     add_dependencies(headers millwright_${name}_headers)
 endfunction()
 
-# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [ALONE pattern] [LONG pattern])
+# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [LONG pattern])
 #   The test program of one folder. It links that folder's target alone: only so does the linker refuse an
 #   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
-#   Those that match ALONE run while no other test runs. Those that match LONG are the full size of a test that also
-#   exists in small; they have the label `long`, which scripts/test leaves out and .ci/run runs last.
+#   Those that match LONG are the full size of a test that also exists in small; they have the label `long`, which
+#   scripts/test leaves out and .ci/run runs last.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "ON_DISPLAY;ALONE;LONG" "SOURCES;APART;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ON_DISPLAY;LONG" "SOURCES;APART;LINK" ${ARGN})
     set(main millwright_test_main)
     if(MILLWRIGHT_CHECKED AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests/core/")
         set(main millwright_trapping_test_main)
@@ -139,13 +139,6 @@ function(millwright_test name)
             TEST_LIST ${name}_test_on_display
             PROPERTIES TIMEOUT 600 RESOURCE_LOCK display)
         string(APPEND others ":${ARG_ON_DISPLAY}")
-    endif()
-    if(ARG_ALONE)
-        gtest_discover_tests(${name}_test ${discovery}
-            TEST_FILTER "${ARG_ALONE}"
-            TEST_LIST ${name}_test_alone
-            PROPERTIES TIMEOUT 600 RUN_SERIAL TRUE)
-        string(APPEND others ":${ARG_ALONE}")
     endif()
     if(ARG_LONG)
         gtest_discover_tests(${name}_test ${discovery}
