@@ -25,11 +25,12 @@ struct ReshapeOptions {
     std::optional<int> patch;
     std::vector<int> degree; ///< along u, v; empty: as it is
     std::optional<double> split_u, split_v;
+    std::vector<double> turn; ///< degrees about X, Y, Z; empty: as it is
 };
 
 int reshape(const ReshapeOptions& options) {
-    if (options.degree.empty() && !options.split_u && !options.split_v) {
-        throw UsageError("nothing is asked for", {}, "give --degree, --split-u or --split-v");
+    if (options.degree.empty() && !options.split_u && !options.split_v && options.turn.empty()) {
+        throw UsageError("nothing is asked for", {}, "give --degree, --split-u, --split-v or --turn");
     }
     project::Project project = open_project(options.project).project;
     project::SurfaceInput& surface = project.surface;
@@ -43,6 +44,9 @@ int reshape(const ReshapeOptions& options) {
     }
     if (options.split_v) {
         project = project::with_split(std::move(project), patch, Parameter::v, *options.split_v);
+    }
+    if (!options.turn.empty()) {
+        surface = project::with_turn(surface, {options.turn[0], options.turn[1], options.turn[2]});
     }
     if (had_region && project.grid.elliptic.region.everywhere()) {
         fmt::print("note: the region of adaptation lies on the other part: the grid adapts everywhere\n");
@@ -64,7 +68,8 @@ int reshape(const ReshapeOptions& options) {
 void add_reshape_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<ReshapeOptions>();
     CLI::App& command = *app.add_subcommand(
-        "reshape", "The same surface by other control points: a higher degree, or two patches");
+        "reshape",
+        "The same surface by other control points (a higher degree, two patches), or on another side");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "Project file to write")->required()->type_name("PROJECT");
     command.add_option("--patch", options->patch, "Which patch, counted from 0 (default: the machined one)");
@@ -75,6 +80,13 @@ void add_reshape_command(CLI::App& app, Command& chosen) {
         ->type_name("U,V");
     CLI::Option& u = *command.add_option("--split-u", options->split_u, "Two patches that meet at this u");
     command.add_option("--split-v", options->split_v, "Two patches that meet at this v")->excludes(&u);
+    command
+        .add_option(
+            "--turn", options->turn, "Lays the part on another side: about X, then Y, then Z, degrees")
+        ->delimiter(',')
+        ->expected(3)
+        ->allow_extra_args(false)
+        ->type_name("A,B,C");
     command.callback([&chosen, options] { chosen = [options] { return reshape(*options); }; });
 }
 

@@ -1,11 +1,15 @@
 #include "core/project/reshaped_surface.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/units.h"
 #include "core/project/internal/region_area.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -96,6 +100,21 @@ grid::Region region_on(grid::Region region, const Part& part) {
     return region;
 }
 
+struct SineAndCosine {
+    double sine, cosine;
+};
+
+/// Exact at quarter turns: a part laid on its back lies there without a rounding.
+SineAndCosine sine_and_cosine(double degrees) {
+    constexpr std::array<SineAndCosine, 4> quarters{{{0.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}}};
+    const double turn = degrees - 360.0 * std::floor(degrees / 360.0);
+    const double quarter = turn / 90.0;
+    if (exactly_equal(quarter, std::floor(quarter))) {
+        return quarters[static_cast<std::size_t>(quarter) % quarters.size()];
+    }
+    return {std::sin(from_degrees(turn)), std::cos(from_degrees(turn))};
+}
+
 } // namespace
 
 SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int degree_v) {
@@ -111,6 +130,27 @@ SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int deg
             "degree {} x {} is too high: {} is the highest", degree_u, degree_v, geometry::max_degree));
     }
     surface.patches[static_cast<std::size_t>(patch)] = geometry::elevated(before, degree_u, degree_v).net();
+    return surface;
+}
+
+SurfaceInput with_turn(SurfaceInput surface, const Vec3& degrees) {
+    if (!degrees.allFinite()) {
+        throw Error("an angle by which the part is turned is not finite");
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [sine, cosine] = sine_and_cosine(degrees[axis]);
+        const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+        for (geometry::ControlNet& net : surface.patches) {
+            for (Vec3& point : net.points) {
+                const double a = point[first], b = point[second];
+                point[first] = cosine * a - sine * b + 0.0; // no -0
+                point[second] = sine * a + cosine * b + 0.0;
+            }
+        }
+    }
+    if (!degrees.isZero(0.0)) {
+        surface.preset.clear();
+    }
     return surface;
 }
 

@@ -1,4 +1,5 @@
-// The patches of a design by other control points, the shape kept (core/geometry/patch_refinement.h).
+// The patches of a design by other control points: the same shape (core/geometry/patch_refinement.h), or the
+// whole part laid on another side.
 #pragma once
 
 #include "core/geometry/patch_refinement.h"
@@ -9,6 +10,10 @@ namespace millwright::project {
 /// A patch of the design with a net of other degrees. Throws Error where a degree would sink, which would
 /// change the shape, or is above geometry::max_degree, or where there is no such patch.
 [[nodiscard]] SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int degree_v);
+
+/// The whole part turned about its origin: about X, then Y, then Z, degrees, counter-clockwise seen from the
+/// axis' end. Quarter turns are exact. Throws Error where an angle is not finite.
+[[nodiscard]] SurfaceInput with_turn(SurfaceInput surface, const Vec3& degrees);
 
 /// The narrowest part of a patch that a split leaves, as a share of its parameter.
 inline constexpr double narrowest_split = 0.01;

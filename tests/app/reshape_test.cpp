@@ -26,6 +26,26 @@ TEST_F(ReshapeCommand, RaisesTheDegreeAndSplits) {
     EXPECT_EQ(run({"plan", path("two.json"), "--out", path("plan")}).exit_code, 0);
 }
 
+TEST_F(ReshapeCommand, LaysThePartOnItsBackAndPlansIt) {
+    ASSERT_EQ(run({"reshape", dome_project, "--turn", "180,0,0", "--out", path("back.json")}).exit_code, 0);
+    const auto points = [](const std::string& file) {
+        return nlohmann::json::parse(content_of(file)).at("surface").at("patches")[0].at("points");
+    };
+    const nlohmann::json before = points(dome_project), after = points(path("back.json"));
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        for (std::size_t j = 0; j < before[i].size(); ++j) {
+            EXPECT_EQ(after[i][j][0], before[i][j][0]);
+            EXPECT_EQ(after[i][j][1].get<double>(), -before[i][j][1].get<double>());
+            EXPECT_EQ(after[i][j][2].get<double>(), -before[i][j][2].get<double>());
+        }
+    }
+    nlohmann::json back = nlohmann::json::parse(content_of(path("back.json")));
+    back["surface"]["flipped"] = true; // the other side is above now
+    write_content(path("back.json"), back.dump());
+    const Ended planned = run({"plan", path("back.json"), "--out", path("plan")});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+}
+
 TEST_F(ReshapeCommand, SaysWhatIsWrong) {
     const auto refused = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words{"reshape", dome_project, "--out", path("no.json")};
@@ -34,7 +54,7 @@ TEST_F(ReshapeCommand, SaysWhatIsWrong) {
         EXPECT_NE(ended.exit_code, 0);
         return ended.err;
     };
-    EXPECT_THAT(refused({}), HasSubstr("give --degree, --split-u or --split-v"));
+    EXPECT_THAT(refused({}), HasSubstr("give --degree, --split-u, --split-v or --turn"));
     EXPECT_THAT(refused({"--degree", "2,3"}), HasSubstr("would change its shape"));
     EXPECT_THAT(refused({"--degree", "3"}), HasSubstr("--degree"));
     EXPECT_THAT(refused({"--split-v", "1"}), HasSubstr("between 0.01 and 0.99"));

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/geometry/presets.h"
+#include "core/project/reshaped_surface.h"
 #include "ui/actions/import_bench.h"
 #include "ui/panels/import_panel.h"
 #include "ui/panels/internal/fields.h"
@@ -180,6 +181,32 @@ void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                        "The tool stands against the normal S_u x S_v")) {
         ask.edit("Cut the other side",
                  [on = *flipped](project::Project& draft) { draft.surface.flipped = on; });
+    }
+    draw_turn(ui, ask);
+}
+
+void DesignPanel::draw_turn(Ui& ui, ActionQueue& ask) {
+    const widgets::FieldInfo info{"turn",
+                                  "Turn the part by",
+                                  "\u00b0",
+                                  "Lays all of the part on another side; its origin stays",
+                                  -360.0,
+                                  360.0,
+                                  90.0,
+                                  3};
+    if (const auto degrees = ui.number(turn_deg_, info)) {
+        turn_deg_ = *degrees;
+    }
+    const auto row = ui.row(3);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string name(1, "XYZ"[axis]);
+        const std::string tip = fmt::format("By {:.6g}\u00b0 about {} through the origin", turn_deg_, name);
+        if (ui.button("turn_" + name, "About " + name, {}, {{}, widgets::Rank::normal, -1.0F, tip})) {
+            ask.edit("Turn the part", [by = Vec3(turn_deg_ * Vec3::Unit(axis))](project::Project& draft) {
+                draft.surface = project::with_turn(draft.surface, by);
+            });
+            ask.run("view.fit");
+        }
     }
 }
 

@@ -16,6 +16,7 @@ public:
 
 private:
     void draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_turn(Ui& ui, ActionQueue& ask);
     void draw_point(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_net(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, int row, int columns);
@@ -23,6 +24,7 @@ private:
 
     const actions::Catalogue& catalogue_;
     PatchFields patch_;
+    double turn_deg_ = 90.0;
     int shown_coordinate_ = 2; ///< x, y, z or weight in the table of the net
     int first_column_ = 0;     ///< of the table, where the net has more than have room
     std::optional<viewport::ControlPointId> followed_; ///< the selected point whose column was brought there

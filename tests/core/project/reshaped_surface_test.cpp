@@ -6,6 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace millwright::project {
 namespace {
 
@@ -34,6 +37,32 @@ TEST(ReshapedSurface, HalvesStandWhereTheWholePatchStood) {
             0.0,
             1e-11);
     }
+}
+
+TEST(ReshapedSurface, OfATurnedPartEveryPointIsTurned) {
+    const SurfaceInput before = two_patches();
+    const SurfaceInput turned = with_turn(before, {30.0, -20.0, 100.0});
+    const auto about = [](double degrees, const Vec3& axis) {
+        return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis);
+    };
+    const Mat3 rotation =
+        (about(100.0, Vec3::UnitZ()) * about(-20.0, Vec3::UnitY()) * about(30.0, Vec3::UnitX()))
+            .toRotationMatrix();
+    const geometry::Surface was = surface_of(before), is = surface_of(turned);
+    for (const std::size_t patch : {0U, 1U}) {
+        EXPECT_NEAR(
+            (is.patches()[patch].position(0.3, 0.8) - rotation * was.patches()[patch].position(0.3, 0.8))
+                .norm(),
+            0.0,
+            1e-11);
+    }
+    EXPECT_TRUE(turned.preset.empty()) << "that stands otherwise";
+    SurfaceInput round = before;
+    for (int n = 0; n < 4; ++n) {
+        round = with_turn(round, {0.0, 0.0, -90.0});
+    }
+    EXPECT_EQ(round.patches, before.patches) << "quarter turns are exact";
+    EXPECT_THROW((void)with_turn(before, {0.0, std::nan(""), 0.0}), Error);
 }
 
 TEST(ReshapedSurface, OutlinesAreSplitToo) {

@@ -42,6 +42,19 @@ TEST(DesignPanel, ASymmetricDragMovesTheImagesMirroredAndOneUndoTakesAllBack) {
     EXPECT_EQ(net(person), before);
 }
 
+TEST(DesignPanel, ThePartIsLaidOnAnotherSideAndBackByUndo) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    const ControlNet before = net(person);
+    person.fill_in("inspector/surface/turn", "180");
+    person.click("inspector/surface/turn_X");
+    person.keep("turned-part");
+    EXPECT_EQ(net(person).point(1, 2).x(), before.point(1, 2).x());
+    EXPECT_EQ(net(person).point(1, 2).z(), -before.point(1, 2).z());
+    person.press_key(render::Key::z, true);
+    EXPECT_EQ(net(person), before);
+}
+
 TEST(DesignPanel, ANumberIsSetOnBothSides) {
     Person person;
     person.open("assets/projects/dome.json");
