@@ -8,6 +8,7 @@
 #include "core/project/grids.h"
 #include "core/project/internal/cut_reach.h"
 #include "core/project/internal/larger_figures.h"
+#include "core/project/largest_error.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 
@@ -167,6 +168,21 @@ std::string weight_remark(const EllipticInput& input) {
                                          : "all shares of the mixed weight are 0 (grid/elliptic/mix)");
 }
 
+std::string certainty_remark(const Plan& plan, const Evaluation& path) {
+    const auto bounds = largest_error_bounds(*plan.workpiece, path);
+    if (!bounds) {
+        return {};
+    }
+    const double told = path.closest.max;
+    const bool certain = told - bounds->at_least <= std::max(2e-3 * told, 2e-4);
+    return certain ? std::string()
+                   : fmt::format(
+                         "the largest error is certain within bounds alone: {:.4f} to {:.4f} mm; the surface "
+                         "is so wild that a nearer place of it may have been missed",
+                         bounds->at_least,
+                         bounds->at_most);
+}
+
 std::vector<std::string> path_remarks(const Project& project, const Plan& plan) {
     const auto& path = plan.program_path(project);
     const GridMethod method = program_grid(project);
@@ -175,7 +191,8 @@ std::vector<std::string> path_remarks(const Project& project, const Plan& plan) 
     for (std::string remark : {weighs ? weight_remark(project.grid.elliptic) : std::string(),
                                path ? why_not_kept(project, *path) : std::string(),
                                crossing_remark(project, plan),
-                               sequencing_remark(project, plan)}) {
+                               sequencing_remark(project, plan),
+                               path ? certainty_remark(plan, *path) : std::string()}) {
         if (!remark.empty()) {
             remarks.push_back(as_sentence(std::move(remark)));
         }

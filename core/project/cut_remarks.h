@@ -43,6 +43,9 @@ namespace millwright::project {
 /// is another one.
 [[nodiscard]] std::string weight_remark(const EllipticInput& input);
 
+/// That the largest error of `path` is known within wider bounds than a thousandth of it; else empty.
+[[nodiscard]] std::string certainty_remark(const Plan& plan, const Evaluation& path);
+
 /// All of these that there are of the program of `plan` but why_higher(), as sentences.
 [[nodiscard]] std::vector<std::string> path_remarks(const Project& project, const Plan& plan);
 

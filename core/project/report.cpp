@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
+#include "core/project/largest_error.h"
 #include "core/project/cut_study.h"
 #include "core/project/internal/json_figures.h"
 #include "core/project/internal/json_text.h"
@@ -91,6 +92,9 @@ Json errors(const Plan& plan,
             const std::optional<grid::ErrorSummary>& by_curve) {
     Json json;
     json["closest"] = distances(evaluation.closest);
+    if (const auto bounds = largest_error_bounds(*plan.workpiece, evaluation)) {
+        json["closest"]["max_at_least"] = rounded(bounds->at_least);
+    }
     json["param"] = distances(evaluation.param);
     json["curve"] = by_curve && std::isfinite(by_curve->max) ? distances(*by_curve) : Json();
     json["axis_deviation_deg"]["max"] = rounded(to_degrees(evaluation.closest.axis_max));

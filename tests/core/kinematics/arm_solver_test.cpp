@@ -1,11 +1,16 @@
 #include "core/kinematics/arm_solver.h"
 
+#include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
 #include "core/kinematics/arm_inverse.h"
 #include "core/kinematics/tool_roll.h"
 #include "tests/support/arms.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
 
 namespace millwright::kinematics {
 namespace {
@@ -118,6 +123,33 @@ TEST(ArmSolverOfSixJoints, EveryPoseOfAnArmIsFoundWhereTheRollIsFree) {
             EXPECT_LT((base_T_tool(arm, one).linear().col(2) - goal.linear().col(2)).norm(), 1e-8);
         }
     }
+}
+
+/// Poses whose own joints are not among the solutions, as `arm ik` searches.
+int poses_with_a_branch_missing(int poses) {
+    constexpr int starts = 200;
+    const ArmModel arm = test::arm("six-axis");
+    std::mt19937 random(7);
+    int missing = 0;
+    for (int n = 0; n < poses; ++n) {
+        const JointPositions q = test::random_joints(random, arm);
+        const JointPositions elsewhere = test::random_joints(random, arm);
+        const auto found =
+            solve_arm_from_many_starts(arm, base_T_tool(arm, q), ArmDemand::frame, elsewhere, starts);
+        const bool is_there = std::ranges::any_of(found, [&](const JointPositions& one) {
+            return std::ranges::equal(
+                one, q, [](double a, double b) { return std::abs(std::remainder(a - b, 2.0 * pi)) < 1e-4; });
+        });
+        missing += is_there ? 0 : 1;
+    }
+    return missing;
+}
+
+TEST(ArmSolverOfSixJoints, MissesNoBranchOfAHundredPoses) {
+    EXPECT_EQ(poses_with_a_branch_missing(100), 0);
+}
+TEST(ArmSolverInFull, MissesNoBranchOfThreeThousandPoses) {
+    EXPECT_EQ(poses_with_a_branch_missing(3000), 0);
 }
 
 TEST(ToolRoll, IsThatOfTheFrameWithThatRoll) {

@@ -3,6 +3,8 @@
 #include "core/base/error.h"
 #include "core/project/plan.h"
 
+#include "tests/support/without_traps.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,6 +42,7 @@ TEST(ReshapedSurface, HalvesStandWhereTheWholePatchStood) {
 }
 
 TEST(ReshapedSurface, OfATurnedPartEveryPointIsTurned) {
+    const test::WithoutTraps nan_is_handed_in;
     const SurfaceInput before = two_patches();
     const SurfaceInput turned = with_turn(before, {30.0, -20.0, 100.0});
     const auto about = [](double degrees, const Vec3& axis) {

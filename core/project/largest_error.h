@@ -1,0 +1,18 @@
+// How sure the largest error of a path is.
+#pragma once
+
+#include "core/geometry/distance_bounds.h"
+#include "core/project/evaluation.h"
+
+#include <optional>
+
+namespace millwright::project {
+
+/// Between which figures the largest `closest` of the moves inside tracks surely lies, mm: of the place where
+/// it was found. The other moves are at most as far off by what was found, so that the bounds are those of
+/// the maximum. Nothing with a cutter, whose error is no distance of its tip, or without a move inside a
+/// track.
+[[nodiscard]] std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& workpiece,
+                                                                           const Evaluation& evaluation);
+
+} // namespace millwright::project
