@@ -35,19 +35,22 @@ public:
         accessor.type = TINYGLTF_TYPE_VEC3;
         accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
         const std::size_t begin = data().size();
-        Vec3 low = Vec3::Constant(std::numeric_limits<double>::max());
-        Vec3 high = -low;
+        // The bounds are those of the floats in the file. (Optimised, Eigen's cast there and back changed
+        // nothing.)
+        std::array<float, 3> low{}, high{};
+        low.fill(std::numeric_limits<float>::max());
+        high.fill(std::numeric_limits<float>::lowest());
         for (const Vec3& value : values) {
-            const Vec3 kept = (scale * value).cast<float>().cast<double>();
-            low = low.cwiseMin(kept);
-            high = high.cwiseMax(kept);
-            for (int k = 0; k < 3; ++k) {
-                append(static_cast<float>(kept[k]));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto kept = static_cast<float>(scale * value[static_cast<Eigen::Index>(k)]);
+                low[k] = std::min(low[k], kept);
+                high[k] = std::max(high[k], kept);
+                append(kept);
             }
         }
         if (with_bounds) {
-            accessor.minValues = {low.x(), low.y(), low.z()};
-            accessor.maxValues = {high.x(), high.y(), high.z()};
+            accessor.minValues.assign(low.begin(), low.end());
+            accessor.maxValues.assign(high.begin(), high.end());
         }
         return finish(std::move(accessor), begin, values.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
     }

@@ -82,6 +82,9 @@ std::vector<Vec2> shortest_track(const PathObjective& objective,
         for (std::size_t b = 0; b < there.size(); ++b) {
             const double gaps = objective.of_gaps(of.nodes, of.track, k + 1, there[b]);
             for (const std::size_t a : cheapest_first) {
+                if (!(reached[a] < infinity && gaps < infinity)) {
+                    break; // and nothing behind it is cheaper
+                }
                 const double room = next[b] - reached[a] - gaps;
                 if (!(room > 0.0)) {
                     break;

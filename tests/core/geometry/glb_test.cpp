@@ -5,10 +5,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace millwright::geometry {
 namespace {
@@ -53,6 +56,24 @@ std::string replaced(std::string bytes, const std::string& what, const std::stri
     EXPECT_NE(at, std::string::npos) << what;
     EXPECT_EQ(what.size(), by.size());
     return bytes.replace(at, what.size(), by);
+}
+
+// Viewers compare the bounds with what is in the file: 0.18 is not the float that is next to it.
+TEST(Glb, BoundsAreThoseOfTheFloatsInTheFile) {
+    const std::string bytes = glb_of(two_bodies(), "arm");
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof(length));
+    const nlohmann::json header = nlohmann::json::parse(bytes.substr(20, length));
+    int bounds = 0;
+    for (const nlohmann::json& accessor : header.at("accessors")) {
+        for (const char* side : {"min", "max"}) {
+            for (const double value : accessor.value(side, std::vector<double>())) {
+                EXPECT_EQ(value, static_cast<double>(static_cast<float>(value))) << side;
+                ++bounds;
+            }
+        }
+    }
+    EXPECT_GE(bounds, 12);
 }
 
 TEST(Glb, BringsBackWhatWasWritten) {

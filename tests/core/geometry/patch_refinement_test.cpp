@@ -1,7 +1,6 @@
 #include "core/geometry/patch_refinement.h"
 
 #include "core/base/error.h"
-
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>

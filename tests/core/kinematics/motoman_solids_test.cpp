@@ -13,7 +13,7 @@ TEST(MotomanSolids, AreWhatShips) {
     const ArmFile file = read_arm("assets/arms/motoman-l3.json");
     const MotomanSolids made = motoman_solids(file.arm, *file.actuators);
     EXPECT_EQ(read_file(file.bodies->file), geometry::glb_of(made.bodies, file.arm.name()))
-        << "made anew by: build/release/bin/millwright arm bodies --out assets/arms/motoman-l3.glb";
+        << "made anew by: build/release/millwright arm bodies --out assets/arms/motoman-l3.glb";
     ASSERT_EQ(made.parts.size(), file.bodies->parts.size());
     for (std::size_t n = 0; n < made.parts.size(); ++n) {
         EXPECT_EQ(made.parts[n].node, file.bodies->parts[n].node);

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/project/plan.h"
-
 #include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
