@@ -224,10 +224,15 @@ std::optional<machine::Survey> Controller::survey_of(const machine::Job& job) co
         return std::nullopt;
     }
     const machine::DriverStatus now = driver_->status();
-    return machine::survey(
-        job.listing->text,
-        job.project,
-        {*able.dialect, able.axes, now.position, driver_->stored_offsets(), now.modes, able.mist});
+    return machine::survey(job.listing->text,
+                           job.project,
+                           {.dialect = *able.dialect,
+                            .axes = able.axes,
+                            .start = now.position,
+                            .offsets = driver_->stored_offsets(),
+                            .modes = now.modes,
+                            .mist = able.mist,
+                            .firmware = able.firmware});
 }
 
 void Controller::look_at(const machine::Job& job) const {

@@ -1,22 +1,10 @@
 #include "app/origin_choice.h"
 
-#include "core/base/error.h"
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 namespace millwright::app {
-
-void expect_whole_origin(const std::vector<double>& origin, bool machine_positions, const std::string& name) {
-    constexpr std::size_t without_z = 2;
-    if (machine_positions && origin.size() == without_z) {
-        throw Error(
-            "the program goes to machine positions (G53, G28, G30), and the origin that was given has no Z",
-            {},
-            name + " X,Y,Z");
-    }
-}
 
 void add_origin_option(CLI::App& command, std::vector<double>& origin, const std::string& name) {
     constexpr std::size_t most = 3;
@@ -36,12 +24,15 @@ void add_origin_option(CLI::App& command, std::vector<double>& origin, const std
         ->allow_extra_args(false);
 }
 
-Vec3 origin_from(const std::vector<double>& given) {
-    Vec3 origin = Vec3::Zero();
-    for (std::size_t n = 0; n < given.size(); ++n) {
-        origin[static_cast<Eigen::Index>(n)] = given[n];
+gcode::WorkOrigin origin_from(const std::vector<double>& given) {
+    switch (given.size()) {
+    case 0:
+        return {};
+    case 2:
+        return {given[0], given[1]};
+    default:
+        return gcode::WorkOrigin(Vec3(given[0], given[1], given[2]));
     }
-    return origin;
 }
 
 } // namespace millwright::app

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/gcode/reader/cut_program.h"
+#include "core/gcode/reader/language.h"
 #include "core/plot/path_file.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -32,6 +34,14 @@ bool is_picture(std::string_view text) {
     return std::ranges::any_of(beginnings, [&](std::string_view begin) { return text.starts_with(begin); });
 }
 
+/// Other languages for machines; the plot itself and G-code are none. A line that is cut does not count.
+std::optional<gcode::Language> other_language(std::string_view head) {
+    head = head.substr(0, head.find('\0'));
+    const std::size_t last = head.find_last_of("\r\n");
+    const auto found = gcode::language_of_first_line(head.substr(0, std::min(last, head.size())));
+    return found == gcode::Language::hpgl ? std::nullopt : found;
+}
+
 bool can_be_looked_at(const std::filesystem::path& file) {
     std::error_code none;
     return std::filesystem::is_regular_file(file, none);
@@ -50,6 +60,11 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
             "this is a picture, no plot",
             file,
             fmt::format("'millwright picture relief {0}', trace or engrave makes a path of it", name));
+    }
+    if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
+        throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),
+                    file,
+                    std::string(advice_for(*language)));
     }
     if (plot::is_path_file(head)) {
         throw Error(

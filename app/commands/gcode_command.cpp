@@ -101,9 +101,17 @@ void print_program_json(const gcode::Interpreter& program, std::int64_t moves) {
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-/// Heidenhain's blocks, as far as our posts write them.
+/// Heidenhain's blocks, as far as our posts write them. Its reader ends with the first error.
 int check_klartext(const GcodeOptions& options, std::string_view text) {
-    const auto steps = gcode::read_written_klartext(text, options.file, {});
+    std::vector<gcode::WrittenStep> steps;
+    std::vector<Diagnostic> errors;
+    try {
+        steps = gcode::read_written_klartext(text, options.file, {});
+    } catch (const Error& error) {
+        errors.push_back(error.diagnostic());
+        errors.back().hint = "of Klartext Millwright reads the blocks that its posts write; this one may be "
+                             "right on the control";
+    }
     const auto moves = std::ranges::count_if(steps, [](const gcode::WrittenStep& step) {
         return step.kind == gcode::StepKind::rapid || step.kind == gcode::StepKind::feed ||
                step.kind == gcode::StepKind::arc;
@@ -113,12 +121,19 @@ int check_klartext(const GcodeOptions& options, std::string_view text) {
         nlohmann::ordered_json answer;
         answer["lines"] = lines;
         answer["moves"] = moves;
-        answer["errors"] = nlohmann::ordered_json::array();
-        fmt::print("{}\n", answer.dump(2));
+        answer["errors"] = diagnostics_json(errors);
+        fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
-        fmt::print("{} lines of {}, {} moves, 0 errors\n", lines, name_of(gcode::Language::klartext), moves);
+        for (const Diagnostic& error : errors) {
+            fmt::print(stderr, "millwright: {}\n", to_text(error));
+        }
+        fmt::print("{} lines of {}, {} moves, {} errors\n",
+                   lines,
+                   name_of(gcode::Language::klartext),
+                   moves,
+                   errors.size());
     }
-    return 0;
+    return errors.empty() ? 0 : 1;
 }
 
 int check(const GcodeOptions& options) {
@@ -218,7 +233,6 @@ int convert_gcode(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
     throw_first(run.found.lost);
     throw_first(run.found.unplaced);
-    expect_whole_origin(options.origin, run.found.machine_positions);
     for (const Diagnostic& simplified : run.found.simplified) {
         fmt::print(stderr, "warning: {}\n", to_text(simplified));
     }

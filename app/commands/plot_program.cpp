@@ -95,7 +95,6 @@ CutProgram read_cut_program_to_cut(const std::string& file, const ProgramReading
     if (!program.unplaced.empty()) {
         throw Error(program.unplaced.front());
     }
-    expect_whole_origin(reading.origin, program.machine_positions, "--work-origin");
     print_program_notices(program);
     return program;
 }

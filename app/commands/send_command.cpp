@@ -155,11 +155,12 @@ int send_motion(const SendOptions& options) {
         if (options.machine.driver == "cordic" && plot::is_path_file(read_file(file))) {
             throw Error(Diagnostic{{file, 1, 1, -1}, "the CORDIC processor takes G-code, no path file", {}});
         }
-        machine::Job job = ready(
-            machine::file_job(
-                file, model, {.start = place_of(*model, options.at), .origin = origin_from(options.origin)}),
-            options,
-            from_line);
+        machine::Job job = ready(machine::file_job(file,
+                                                   model,
+                                                   {.start = place_of(*model, options.at),
+                                                    .origin = origin_from(options.origin).at()}),
+                                 options,
+                                 from_line);
         if (const auto faults = machine::preflight(job); !faults.empty()) {
             throw Error(faults.front());
         }

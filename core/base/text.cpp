@@ -9,6 +9,25 @@
 
 namespace millwright {
 
+std::string_view wide_encoding(std::string_view text) {
+    using namespace std::string_view_literals;
+    if (text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv)) {
+        return "UTF-32";
+    }
+    if (text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv)) {
+        return "UTF-16";
+    }
+    unsigned zeros = 0; // of the first four bytes, the first one highest
+    for (std::size_t n = 0; n < 4; ++n) {
+        zeros = 2 * zeros + (n < text.size() && text[n] == '\0' ? 1 : 0);
+    }
+    const bool four = text.size() >= 4;
+    if (four && (zeros == 0b0111 || zeros == 0b1110)) {
+        return "UTF-32";
+    }
+    return four && (zeros == 0b0101 || zeros == 0b1010) ? "UTF-16" : "";
+}
+
 std::string fixed(double value, int decimals) {
     expects(std::isfinite(value), "a number that becomes text is finite");
     std::string text = fmt::format("{:.{}f}", value, decimals);

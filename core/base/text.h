@@ -14,6 +14,10 @@ namespace millwright {
     return text;
 }
 
+/// "UTF-16" or "UTF-32" if `text` begins as such text does: with its byte order mark, or with the zero bytes
+/// beside its first two letters; else empty.
+[[nodiscard]] std::string_view wide_encoding(std::string_view text);
+
 /// `value` with exactly `decimals` digits after the point, never "-0.000". Throws Defect if not finite.
 [[nodiscard]] std::string fixed(double value, int decimals);
 

@@ -34,13 +34,17 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::exchange {
@@ -63,7 +67,8 @@ CadKind checked_kind(const std::filesystem::path& file) {
         throw Error("the file cannot be read", file);
     }
     head.resize(static_cast<std::size_t>(stream.gcount()));
-    const std::size_t start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    head.erase(0, head.size() - without_byte_order_mark(head).size());
+    const std::size_t start = head.find_first_not_of(" \t\r\n");
     if (start == std::string::npos) {
         throw Error("the file is empty", file);
     }
@@ -73,12 +78,6 @@ CadKind checked_kind(const std::filesystem::path& file) {
     }
     if (!step_name && head.size() > section_column && head[section_column] == 'S') {
         return CadKind::iges;
-    }
-    if (!step_name && without_byte_order_mark(head).size() < head.size()) {
-        throw Error(
-            "the IGES file begins with a byte order mark, which moves its first line by three columns",
-            file,
-            "save it as ASCII");
     }
     throw Error(step_name ? "no STEP file: it does not begin with ISO-10303-21"
                           : "no IGES file: column 73 of the first line is not S",
@@ -140,13 +139,45 @@ load(STEPControl_Reader& reader, const std::filesystem::path& file, const Progre
     return settled_units(*reader.StepModel(), text, file);
 }
 
+/// A file of this process alone, with these bytes.
+class MemoryFile {
+public:
+    MemoryFile(std::string_view bytes, const std::filesystem::path& about)
+        : handle_(::memfd_create("millwright", MFD_CLOEXEC)) {
+        while (handle_ >= 0 && !bytes.empty()) {
+            const ssize_t count = ::write(handle_, bytes.data(), bytes.size());
+            if (count <= 0) {
+                break;
+            }
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        }
+        if (handle_ < 0 || !bytes.empty()) {
+            throw Error("there is no memory for the file without its byte order mark", about);
+        }
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    ~MemoryFile() { ::close(handle_); }
+
+    [[nodiscard]] std::string name() const { return fmt::format("/proc/self/fd/{}", handle_); }
+
+private:
+    int handle_;
+};
+
+/// The library counts columns in its file, and a byte order mark would move those of the first line.
 std::vector<std::string>
 load(IGESControl_Reader& reader, const std::filesystem::path& file, const Progress& progress) {
-    const std::string text = read_file(file);
+    const std::string whole = read_file(file);
+    const std::string_view text = without_byte_order_mark(whole);
     check_iges_text(text, file, progress.part(0.0, text_looked_through));
     progress.report(text_looked_through, "reading the file");
-    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
-        refuse_damaged(text, file);
+    std::optional<MemoryFile> plain;
+    if (text.size() < whole.size()) {
+        plain.emplace(text, file);
+    }
+    if (reader.ReadFile(plain ? plain->name().c_str() : file.c_str()) != IFSelect_RetDone) {
+        refuse_damaged(whole, file);
     }
     return {};
 }

@@ -454,10 +454,16 @@ internal::Reach Dispatcher::check(const Job& job,
         return {};
     }
     const std::vector<StoredOffset> offsets = driver_.stored_offsets();
-    Survey found =
-        survey(job.listing->text,
-               job.project,
-               {*able.dialect, able.axes, before.position, offsets, before.modes, able.mist, able.piecewise});
+    Survey found = survey(job.listing->text,
+                          job.project,
+                          {*able.dialect,
+                           able.axes,
+                           before.position,
+                           offsets,
+                           before.modes,
+                           able.mist,
+                           able.piecewise,
+                           able.firmware});
     if (job.program == nullptr) { // else it was checked block by block
         throw_first_with_count(faults_of(found, driver_.limits(), job.project));
     }

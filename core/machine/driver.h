@@ -46,6 +46,7 @@ struct Capabilities {
     bool optional_stop = false;     ///< has a switch for M1 here
     bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
     bool mist = true;               ///< has M7
+    std::string_view firmware = "Grbl";        ///< of a controller that speaks Grbl's protocol
     std::optional<gcode::Dialect> dialect{};   ///< in which it reads text
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
 };

@@ -233,6 +233,7 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
     reading.start = values_by_letter(settings.start, settings.axes);
     reading.modes = settings.modes;
     reading.mist = settings.mist;
+    reading.grbl_name = settings.firmware;
     reading.grbl_axes = letters_of(settings.axes);
     constexpr int most_errors = 100;
     reading.most_errors = most_errors;

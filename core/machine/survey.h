@@ -56,8 +56,9 @@ struct SurveySettings {
     kinematics::AxisPositions start;      ///< machine coordinates; may be empty
     std::vector<StoredOffset> offsets;
     std::string modes{};
-    bool mist = true;       ///< Capabilities::mist
-    bool keep_path = false; ///< Survey::path
+    bool mist = true;                   ///< Capabilities::mist
+    bool keep_path = false;             ///< Survey::path
+    std::string_view firmware = "Grbl"; ///< Capabilities::firmware
 };
 
 /// For diagnostics the text is called `file`; subroutines in other files are looked for in its folder.

@@ -105,6 +105,14 @@ TEST(Gcode, CheckReadsKlartextAndNamesOtherLanguages) {
     const Ended timed = run({"gcode", "time", file, "--machine", "router-xyz"});
     EXPECT_EQ(timed.exit_code, 1);
     EXPECT_THAT(timed.err, HasSubstr("part.h:1:1: this is Heidenhain Klartext, not G-code"));
+    EXPECT_THAT(timed.err, HasSubstr("'millwright gcode check' alone reads it"));
+    const Ended informed = run({"plot", "info", file});
+    EXPECT_EQ(informed.exit_code, 1);
+    EXPECT_THAT(informed.err, HasSubstr("this is Heidenhain Klartext, neither a plot nor G-code"));
+    write_content(file, "0 BEGIN PGM PART MM\r\n1 CYCL DEF 200 DRILLING\r\n2 END PGM PART MM\r\n");
+    const Ended foreign = run({"gcode", "check", file, "--json"});
+    EXPECT_EQ(foreign.exit_code, 1);
+    EXPECT_THAT(foreign.out, HasSubstr("of Klartext Millwright reads the blocks that its posts write"));
     write_content(file, "N10 R1=5\nN20 G1 X=R1 F100\nN30 M30\n");
     const Ended other = run({"gcode", "check", file});
     EXPECT_EQ(other.exit_code, 1);

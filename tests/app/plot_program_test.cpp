@@ -125,6 +125,21 @@ TEST(ProgramsAsPlots, WhatShapesStrokesCutsThemAnewAtTheirDepth) {
     EXPECT_THAT(content_of(path), HasSubstr(",-4,"));
 }
 
+// An origin without Z: the retract by G53 became a rapid to Z0 of the work.
+TEST(ProgramsAsPlots, AnOriginWithoutZPlacesNothingInZ) {
+    const ScratchFolder folder;
+    const std::string part = (folder / "part.ngc").string();
+    write_content(part, "G21 G90 M3 S100\nG0 X1 Y1 Z50\nG1 Z40 F100\nX20\nG53 G0 Z0\nG0 X90\nM2\n");
+    const auto cut = [&](const char* origin) {
+        return run({"plot", "toolpath", part, "--work-origin", origin, "--machine", "router-xyz"});
+    };
+    EXPECT_EQ(cut("10,10").exit_code, 1);
+    EXPECT_THAT(cut("10,10").err,
+                HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero "
+                          "lies on the machine is not known in Z"));
+    EXPECT_EQ(cut("10,10,-60").exit_code, 0) << cut("10,10,-60").err;
+}
+
 /// Heights at which the tool goes across at rapid.
 std::set<std::string> travel_heights(const std::vector<std::vector<std::string>>& records) {
     std::set<std::string> heights;

@@ -140,6 +140,12 @@ TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise
     EXPECT_EQ(ended.out, "");
     EXPECT_THAT(ended.err,
                 HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero lies"));
+    ended = convert("router-xyz", "grbl", {"--origin", "1,2"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err,
+                HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero lies on "
+                          "the machine is not known in Z (say where"));
     ended = convert("router-xyz", "grbl", {"--origin", "1,2,-20"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("warning: " + part + ":2:1: mist (M7)"));
@@ -158,10 +164,36 @@ TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("G0 X1.000 Y2.000 Z-15.000\n"));
     EXPECT_THAT(ended.out, HasSubstr("Z50.000\n"));
+    write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG53 G0 X0\nG53 G0 Z0\nM2\n");
+    write_content(remembered, "5221 1\n5222 2\n");
+    ended = convert("router-xyz", "grbl", {"--parameters", remembered});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr(":4:1: G53 goes to a machine position"));
+    write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG0 Z[0-#5223]\nM2\n");
+    ended = convert("router-xyz", "grbl", {"--parameters", remembered});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err,
+                HasSubstr(":3:8: #5223 is an offset of G54, and its value is not known (say where"));
+    EXPECT_EQ(run({"gcode", "check", part}).exit_code, 0); // rs274 takes 0
     write_content(remembered, "5163\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("linuxcnc.var:1: a line has the number of a parameter and its value"));
+}
+
+/// One block had F500.1: its end is rounded, and its time was not.
+TEST_F(Posts, AFeedStaysTheFeedInPositionsOfTheTip) {
+    std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 F500\n";
+    for (int n = 1; n <= 40; ++n) {
+        text += "X" + std::to_string(n * 0.33333) + "\n";
+    }
+    write_content(part, text + "M2\n");
+    const Ended ended = convert("router-xyz", "heidenhain");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr(" F500"));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("F500.1")));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("F499.9")));
 }
 
 /// G0 without axes in the head of the thesis's program became a rapid to X0 Y0 Z0.

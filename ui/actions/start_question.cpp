@@ -47,6 +47,9 @@ start_wish(machine::Job job, std::optional<machine::QueuedJobId> queued, const C
     wish.survey.axes = machine.axes;
     wish.survey.start = machine.status.position;
     wish.survey.offsets = machine.offsets;
+    wish.survey.modes = machine.status.modes;
+    wish.survey.mist = machine.can.mist;
+    wish.survey.firmware = machine.can.firmware;
     wish.limits = machine.limits;
     return wish;
 }

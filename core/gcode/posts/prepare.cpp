@@ -147,11 +147,17 @@ private:
     }
 
     /// Rounded ends make a move a little longer or shorter: its speed stays, so that a feed stays the feed.
+    /// The tip goes as far as the linear axes as long as nothing turns.
     void keep_speed(Block& block, const AxisPositions& meant_from) const {
+        const bool of_tip = format_.positions == PositionsOf::tip;
+        const bool turns = std::ranges::any_of(machine_.rotary_axes(), [&](int n) {
+            return std::abs(meant_[n] - meant_from[n]) > 0.0 || std::abs(block.target[n] - here()[n]) > 0.0;
+        });
         const FeedWay meant = feed_way(result_.program.axes, meant_from, meant_);
-        const FeedWay now = feed_way(result_.program.axes, here(), block.target);
-        const bool along = format_.positions == PositionsOf::axes && !meant.angular && !now.angular;
-        if (along && meant.length > 0.0 && now.length > 0.0) {
+        const FeedWay now = of_tip ? feed_way(result_.program.axes, words(here()), words(block.target))
+                                   : feed_way(result_.program.axes, here(), block.target);
+        if (!(of_tip && (turns || before_)) && !meant.angular && !now.angular && meant.length > 0.0 &&
+            now.length > 0.0) {
             block.duration *= now.length / meant.length;
         }
     }

@@ -49,7 +49,7 @@ struct MoveWords {
     bool incremental = false;  ///< the words count from where the axes are
     bool inverse_time = false; ///< the feed is a time, whatever the length
     MoveFrame frame = MoveFrame::work;
-    bool reference_set = false; ///< reference, reference_2: somebody has stored the position
+    AxisBits reference_set = 0; ///< reference, reference_2: axes whose position has been stored
 
     [[nodiscard]] bool names(std::size_t axis) const { return ((named >> axis) & 1U) != 0; }
 };
@@ -87,8 +87,8 @@ struct Curve {
 /// Which members of Command count stands behind each.
 enum class CommandKind : std::uint8_t {
     use_length_units,        ///< index: 1 inch, 2 mm
-    set_g5x_offset,          ///< index: coordinate system 1 to 9; mode: 1 its offset was ever set; axes
-    set_g92_offset,          ///< axes
+    set_g5x_offset,          ///< index: coordinate system 1 to 9; mode: AxisBits whose offset is known; axes
+    set_g92_offset,          ///< mode: AxisBits whose offset is known; axes
     set_xy_rotation,         ///< value: degrees
     set_feed_reference,      ///< always XYZ
     set_feed_mode,           ///< index: 0 a minute (or inverse time), 1 a revolution
@@ -149,9 +149,12 @@ enum class CommandKind : std::uint8_t {
     finish, ///< the text ended with %, without M2
     on_reset,
     /// An offset, a reference point or a parameter is taken from where the axes are. index: of G, in tenths
-    /// (920: G92, 100: G10 L10, L11 and L20, 281, 301), 0: a parameter; mode: which axes, AxisBits. Not one
-    /// of LinuxCNC's.
-    measure_position
+    /// (920: G92, 100: G10 L10, L11 and L20, 281, 301), 0: a parameter in column `value`, of the machine
+    /// position where value_2 is 1; mode: which axes, AxisBits. Not one of LinuxCNC's.
+    measure_position,
+    /// The program reads parameter #index, in column `mode`, whose value only the control knows: it is taken
+    /// for 0. Not one of LinuxCNC's.
+    read_unknown
 };
 
 struct Command {

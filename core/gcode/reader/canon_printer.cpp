@@ -300,7 +300,8 @@ void CanonPrinter::curve(const Curve& curve, const SourceLine& now) {
 
 void CanonPrinter::command(const Command& c, const SourceLine& now) {
     const auto out = std::back_inserter(text_);
-    if (c.kind == CommandKind::wait_input || c.kind == CommandKind::measure_position) {
+    if (c.kind == CommandKind::wait_input || c.kind == CommandKind::measure_position ||
+        c.kind == CommandKind::read_unknown) {
         return; // rs274 prints nothing
     }
     if (c.kind == CommandKind::print) {

@@ -5,7 +5,6 @@
 #include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/program_text.h"
-#include "core/gcode/reader/work_origin.h"
 
 #include <fmt/format.h>
 
@@ -126,7 +125,7 @@ CutProgram made_of(MachineProgram read,
                    const CutProgramSettings& settings) {
     throw_first(read.faults);
     throw_first(read.lost);
-    take_off(read.program, settings.origin.value_or(Vec3::Zero()));
+    take_off(read.program, settings.origin.value_or(WorkOrigin()).at());
     internal::CutProgramBuilder cut(read.program, file, settings.safe_height);
     for (std::size_t n = 0; n < read.program.blocks.size(); ++n) {
         cut.add(read.program.blocks[n], tools.tool_of(n));
@@ -136,7 +135,6 @@ CutProgram made_of(MachineProgram read,
         made.notices.insert(made.notices.begin(), found->begin(), found->end());
     }
     made.unplaced = read.unplaced;
-    made.machine_positions = read.machine_positions;
     if (!(made.spindle_rpm > 0.0) && read.first_rpm > 0.0) {
         made.spindle_rpm = read.first_rpm;
         made.notices.push_back(

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/gcode/reader/parameter_file.h"
 #include "core/gcode/reader/tool_table.h"
+#include "core/gcode/reader/work_origin.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/strokes.h"
 
@@ -24,8 +25,9 @@ struct CutProgramSettings {
     /// At and above it a feed across is in the air. Not given: the greatest height at which the program goes
     /// across at rapid, unless it cuts nothing below.
     std::optional<double> safe_height{};
-    Parameters parameters{};      ///< that the controller remembers
-    std::optional<Vec3> origin{}; ///< where the program's zero lies on the machine, mm; not given: not known
+    Parameters parameters{}; ///< that the controller remembers
+    std::optional<WorkOrigin>
+        origin{}; ///< where the program's zero lies on the machine; not given: not known
 };
 
 /// What is cut with one tool at one height. Its strokes have its pen.
@@ -52,7 +54,6 @@ struct CutProgram {
     int lines = 0;
     double feed_time = 0.0;          ///< of all feeds, as programmed
     double dwell_time = 0.0;         ///< in which it stands
-    bool machine_positions = false;  ///< MachineProgram::machine_positions
     double spindle_rpm = 0.0;        ///< the first that it is switched on with, or else that is set; 0: none
     std::vector<Diagnostic> notices; ///< what is read in another way, and what a path has no record of
     /// MachineProgram::unplaced: who cuts this refuses; they are among the notices, too.

@@ -1,6 +1,7 @@
 #include "core/gcode/reader/interpreter.h"
 
 #include "core/base/numbers.h"
+#include "core/base/text.h"
 #include "core/gcode/reader/internal/control_flow.h"
 #include "core/gcode/reader/internal/execute.h"
 #include "core/gcode/reader/internal/expression.h"
@@ -81,9 +82,10 @@ struct Interpreter::Parts {
     bool step();
     void end_of_text();
     void reset();
+    void expect_text(std::string_view text);
     void execute(std::string_view text);
     void execute_words(Cursor& cursor);
-    void tell_positions_read();
+    void send_reads();
     bool execute_flow(Cursor& cursor);
     void look_for_percent();
     void refuse_lines_behind_the_end();
@@ -101,6 +103,7 @@ struct Interpreter::Parts {
     std::int64_t further_errors = 0;
     bool started = false;
     bool stopped = false;
+    bool no_text = false;   ///< the file is of another kind
     bool seen_text = false; ///< a line that is not blank
     bool lacks_end = false;
     bool end_refused = false; ///< there is an end, in a line with something wrong
@@ -122,14 +125,14 @@ void Interpreter::Parts::start() {
     s.rotation_deg = run.variables.stored(parameter_g5x(1) + 9);
     if (run.variables.stored(internal::parameter_g92_active) > 0.0) {
         s.g92_offset = run.to_program(run.variables.axes_from(internal::parameter_g92));
+        run.g92_known = run.variables.axes_set(internal::parameter_g92);
     }
+    s.spindle_tool.unknown = tool_unknown;
     s.tool_offset[Axis::z] = settings.tool_length * run.machine_to_program();
     s.position = internal::relative_to_system(run.to_program(settings.start), s);
     run.out.send(CommandKind::use_length_units, static_cast<int>(s.unit));
-    Command system = internal::command_of(CommandKind::set_g5x_offset, s.g5x_offset, s.coordinate_system);
-    system.mode = run.variables.knows_system(s.coordinate_system) ? 1 : 0;
-    run.out.send(system);
-    run.out.send(internal::command_of(CommandKind::set_g92_offset, s.g92_offset));
+    internal::send_system(run);
+    internal::send_g92(run);
     run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
     if (!exactly_equal(settings.tool_length, 0.0)) {
         run.out.send(internal::command_of(CommandKind::use_tool_length_offset, s.tool_offset));
@@ -159,10 +162,15 @@ bool Interpreter::Parts::step() {
     check_repetition();
     try {
         if (!stopped) {
+            expect_text(text);
             execute(text);
         }
     } catch (const Refusal& refusal) {
-        if (const std::optional<Language> language = language_of_line(text)) {
+        static_cast<void>(run.variables.take_reads());
+        if (no_text) {
+            stopped = true; // what follows is no better
+            report(files.place(), refusal);
+        } else if (const std::optional<Language> language = language_of_line(text)) {
             stopped = true; // each further line would only say it again
             report(files.place(), of_other_language(*language));
         } else {
@@ -270,6 +278,19 @@ void Interpreter::Parts::reset() {
     run.out.send(CommandKind::on_reset);
 }
 
+void Interpreter::Parts::expect_text(std::string_view text) {
+    const std::string_view encoding = files.place().line == 1 ? wide_encoding(text) : std::string_view();
+    const std::size_t zero = text.find('\0');
+    no_text = !encoding.empty() || zero != std::string_view::npos;
+    if (!encoding.empty()) {
+        internal::refuse(1, fmt::format("the text is {}", encoding), "save it as plain text");
+    }
+    if (no_text) {
+        internal::refuse(
+            static_cast<int>(zero) + 1, "byte 0x00 is in no text: this is a binary file", "choose a program");
+    }
+}
+
 void Interpreter::Parts::execute(std::string_view text) {
     if (files.cut() || (!is_grbl() && text.size() > longest_line)) {
         internal::refuse(static_cast<int>(longest_line) + 1,
@@ -296,7 +317,8 @@ void Interpreter::Parts::execute(std::string_view text) {
     }
     seen_text = true;
     if (is_grbl()) {
-        cursor = Cursor(internal::grbl_words(text, settings.mist, settings.grbl_axes, grbl_line));
+        cursor = Cursor(
+            internal::grbl_words(text, {settings.mist, settings.grbl_axes, settings.grbl_name}, grbl_line));
     }
     if (cursor.take('/') && settings.block_delete) {
         return;
@@ -307,14 +329,21 @@ void Interpreter::Parts::execute(std::string_view text) {
     if (!execute_flow(cursor)) {
         execute_words(cursor);
     }
-    tell_positions_read();
+    send_reads();
 }
 
-/// Before the line moves anything: what it makes of them is as much worth as they are.
-void Interpreter::Parts::tell_positions_read() {
-    if (const AxisBits axes = run.variables.take_positions_read(); axes != 0) {
-        Command measured = internal::command_of(CommandKind::measure_position, 0);
-        measured.mode = axes;
+/// Before the line moves anything: its words are only as certain as what it reads.
+void Interpreter::Parts::send_reads() {
+    for (const internal::ParameterRead& read : run.variables.take_reads()) {
+        if (read.unknown > 0) {
+            Command unknown = internal::command_of(CommandKind::read_unknown, read.unknown);
+            unknown.mode = read.column;
+            run.out.send(unknown);
+            continue;
+        }
+        Command measured = internal::command_of(CommandKind::measure_position, 0, read.column);
+        measured.value_2 = read.on_machine ? 1.0 : 0.0;
+        measured.mode = read.axes;
         run.out.send(measured);
     }
 }
@@ -357,7 +386,7 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
 void Interpreter::Parts::execute_words(Cursor& cursor) {
     line.clear();
     internal::parse_words(cursor, run.variables, line);
-    tell_positions_read();
+    send_reads();
     constexpr int m99 = 99;
     if (line.block.code(internal::MGroup::stopping) == m99 && flow.in_subroutine()) {
         internal::refuse(line.block.column_of(internal::MGroup::stopping),

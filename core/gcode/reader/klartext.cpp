@@ -3,10 +3,12 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
+#include "core/gcode/reader/line_ends.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -26,10 +28,11 @@ struct Word {
 
 std::vector<Word> words_of(std::string_view line) {
     std::vector<Word> words;
-    for (std::size_t at = line.find_first_not_of(' '); at != std::string_view::npos;) {
-        const std::size_t end = std::min(line.find(' ', at), line.size());
+    constexpr std::string_view blanks = " \t";
+    for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
+        const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
         words.push_back({line.substr(at, end - at), static_cast<int>(at) + 1});
-        at = line.find_first_not_of(' ', end);
+        at = line.find_first_not_of(blanks, end);
     }
     return words;
 }
@@ -56,10 +59,10 @@ public:
 
     void read(std::string_view text) {
         while (!text.empty()) {
-            const std::size_t end = std::min(text.find('\n'), text.size());
             ++line_;
-            block(text.substr(0, end));
-            text.remove_prefix(std::min(end + 1, text.size()));
+            const std::string_view line = text.substr(0, end_of_line(text));
+            block(line.substr(0, line.find(';')));
+            text.remove_prefix(next_line(text, 0));
         }
         if (!ended_) {
             refuse(1, "the program does not end with END PGM");
@@ -143,7 +146,8 @@ private:
         if (number_ == 0) {
             return begin_program();
         }
-        if (words_.empty() || words_.front().text.starts_with(';')) {
+        // A comment, a heading, the blank of the graphics.
+        if (words_.empty() || words_.front().text.starts_with('*') || begins("BLK FORM")) {
             return;
         }
         if (words_.front().text == "L") {
@@ -206,6 +210,8 @@ private:
         for (const Word& word : words_) {
             if (word.text.starts_with('S')) {
                 rpm_ = value_of(word, "S");
+            } else if (word.text.starts_with('F')) {
+                feed_ = value_of(word, "F") * unit_;
             }
         }
     }
@@ -281,7 +287,8 @@ private:
         AxisValues end;
         std::array<bool, axis_count> given{};
         bool rapid = false;
-        bool machine = false; ///< M91
+        bool machine = false;        ///< M91
+        std::vector<Word> functions; ///< other M
     };
 
     void straight() {
@@ -299,6 +306,8 @@ private:
                 feed_ = value_of(word, "F") * unit_;
             } else if (word.text == "M91") {
                 line.machine = true;
+            } else if (word.text.front() == 'M') {
+                line.functions.push_back(word);
             } else if (word.text != "R0") {
                 refuse(word.column, fmt::format("'{}' is not read in an L block", word.text));
             }
@@ -306,7 +315,25 @@ private:
         if (line.rapid && fed) {
             refuse(words_.back().column, "FMAX and F in one block");
         }
-        go(line);
+        for (const Word& word : line.functions) {
+            if (acts_at_begin(word.text)) {
+                miscellaneous(word);
+            }
+        }
+        if (line.given != decltype(line.given)()) {
+            go(line);
+        }
+        for (const Word& word : line.functions) {
+            if (!acts_at_begin(word.text)) {
+                miscellaneous(word);
+            }
+        }
+    }
+
+    /// Spindle and coolant are switched on, and tip control is switched, before the block moves.
+    static bool acts_at_begin(std::string_view function) {
+        constexpr std::array<std::string_view, 7> functions{"M3", "M4", "M8", "M03", "M04", "M08", "M128"};
+        return std::ranges::find(functions, function) != functions.end();
     }
 
     static std::size_t axis_of(char letter) {

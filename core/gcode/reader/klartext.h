@@ -1,6 +1,7 @@
 // Heidenhain's klartext, the blocks that our posts write: L, TOOL CALL for the spindle, M functions, FUNCTION
-// TCPM, dwell (cycle 9), tolerance (cycle 32), STOP. Sources: Heidenhain, user's manuals of iTNC 530 and TNC
-// 640, klartext programming.
+// TCPM, dwell (cycle 9), tolerance (cycle 32), STOP; and what surrounds them in programs of others: BLK FORM,
+// comments, M functions in L blocks, the line ends of any system. Sources: Heidenhain, user's manuals of iTNC
+// 530 and TNC 640, klartext programming.
 #pragma once
 
 #include "core/gcode/reader/written_steps.h"

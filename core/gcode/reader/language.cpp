@@ -91,6 +91,60 @@ bool is_fanuc_macro(std::string_view text) {
            std::ranges::find(ends, text) != ends.end() || text.starts_with("IF[") || text.starts_with("IF [");
 }
 
+/// VC1=5, X=VC1, IF[VC1 EQ 5]N100, G15 H1
+bool is_okuma(std::string_view text) {
+    if (text.starts_with("G15 H") || text.starts_with("G15H")) { // the work system by its number
+        return true;
+    }
+    for (const std::string_view name : {"VC", "VS", "VZOF"}) {
+        for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+            const std::size_t end = at + name.size();
+            const bool begins = at == 0 || !is_capital(text[at - 1]);
+            const bool goes_on = end < text.size() && (is_digit(text[end]) || text[end] == '[' ||
+                                                       (name == "VZOF" && is_capital(text[end])));
+            if (begins && goes_on && (at > 0 || text.find('=') != std::string_view::npos)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// G450, G500, G505 to G599, G601, G641, G710: of three digits, and those of no other control.
+bool has_long_g_of_sinumerik(std::string_view text) {
+    constexpr std::array<std::string_view, 13> codes{
+        "450", "451", "460", "461", "601", "602", "603", "641", "642", "643", "645", "700", "710"};
+    for (std::size_t at = text.find('G'); at != std::string_view::npos; at = text.find('G', at + 1)) {
+        const std::size_t end = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
+        const std::string_view digits = text.substr(at + 1, end - at - 1);
+        const bool begins = at == 0 || !is_capital(text[at - 1]);
+        if (begins &&
+            ((digits.size() == 3 && digits[0] == '5') || std::ranges::find(codes, digits) != codes.end())) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// IN, SP1, PU0,0, PA100,200: a command of two letters and its numbers; or one of those that begin with ESC.
+bool is_hpgl(std::string_view text) {
+    if (text.starts_with("\x1B.") || text.starts_with("\x1B%")) {
+        return true;
+    }
+    constexpr std::array<std::string_view, 9> commands{"IN", "DF", "SP", "PU", "PD", "PA", "PR", "IP", "SC"};
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view command = text.substr(at, 2);
+        const std::size_t end = std::min(text.find_first_not_of("0123456789+-., ", at + 2), text.size());
+        const bool takes_numbers = command != "IN" && command != "DF";
+        const bool ends = end == text.size() || end > at + 2 || !takes_numbers;
+        if (command.size() < 2 || std::ranges::find(commands, command) == commands.end() || !ends) {
+            return false;
+        }
+        at = end;
+    }
+    return !text.empty();
+}
+
 /// R1=5, X=R1, CR=10, S1=1000: a letter or a name with =.
 bool assigns_by_letter(std::string_view text) {
     const std::size_t at = text.find('=');
@@ -114,6 +168,7 @@ bool is_sinumerik(std::string_view text) {
     const bool has_name = text.find("$P_") != std::string_view::npos ||
                           text.find("$A") != std::string_view::npos || text.starts_with("%_N_");
     return begins_with_one(text, begins) || has_name || assigns_by_letter(text) ||
+           has_long_g_of_sinumerik(text) ||
            std::ranges::any_of(inside, [&](std::string_view word) { return has_word(text, word); });
 }
 
@@ -141,13 +196,31 @@ std::optional<Language> language_of_line(std::string_view line) {
     if (is_klartext(text)) {
         return Language::klartext;
     }
+    if (is_okuma(text)) {
+        return Language::okuma;
+    }
     if (is_fanuc_macro(text)) {
         return Language::fanuc_macro;
     }
     if (is_sinumerik(text)) {
         return Language::sinumerik;
     }
-    return is_printer(text) ? std::optional(Language::printer) : std::nullopt;
+    if (is_printer(text)) {
+        return Language::printer;
+    }
+    return is_hpgl(text) ? std::optional(Language::hpgl) : std::nullopt;
+}
+
+std::optional<Language> language_of_first_line(std::string_view text) {
+    text = program_text(text);
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, end_of_line(text));
+        if (const auto found = language_of_line(line); found || !plain_line(line).empty()) {
+            return found;
+        }
+        text.remove_prefix(next_line(text, 0));
+    }
+    return std::nullopt;
 }
 
 std::optional<Language> language_of(std::string_view text) {
@@ -169,8 +242,12 @@ std::string_view name_of(Language language) {
         return "Fanuc custom macro B";
     case Language::sinumerik:
         return "the Sinumerik language of Siemens";
+    case Language::okuma:
+        return "the language of Okuma's OSP controls";
     case Language::printer:
         return "a program of a 3D printer";
+    case Language::hpgl:
+        return "HPGL, a plot";
     }
     return "another language";
 }
@@ -178,11 +255,16 @@ std::string_view name_of(Language language) {
 std::string_view advice_for(Language language) {
     switch (language) {
     case Language::klartext:
-        return "'millwright gcode check' reads it; for anything else post the part for LinuxCNC or Grbl";
+        return "'millwright gcode check' alone reads it, as far as our posts write it; for anything else "
+               "post "
+               "the part for LinuxCNC or Grbl";
     case Language::fanuc_macro:
         return "LinuxCNC has O-words for it: o1 if, o1 while, o1 repeat, o<name> call";
     case Language::sinumerik:
+    case Language::okuma:
         return "post the part for LinuxCNC or Grbl";
+    case Language::hpgl:
+        return "'millwright plot info' reads it, and 'millwright plot toolpath' makes a program of it";
     case Language::printer:
         return "extruder and heaters mean nothing to a machine tool";
     }

@@ -176,7 +176,6 @@ public:
         result_.lost = losses_.take_lost();
         result_.simplified = losses_.take_simplified();
         result_.unplaced = placement_.take_unplaced();
-        result_.machine_positions = placement_.machine_positions();
         result_.start_notice = placement_.start_notice();
         return std::move(result_);
     }

@@ -44,13 +44,12 @@ struct MachineProgram {
     std::optional<Diagnostic> start_notice;
     /// What depends on where the axes are at the start, or on where the work lies on the machine, while the
     /// program has said neither, the first of each kind: increments and arcs from there, offsets taken from
-    /// there (G92, G10 L20), machine positions among those of the work (G53, G28, G30), two systems without
-    /// offsets, a retract to a reference point nobody has stored that would go down. The blocks take zero;
-    /// who makes another program of them refuses.
+    /// there (G92, G10 L20), machine positions among those of the work (G53, G28, G30), parameters that only
+    /// the control knows, two systems without offsets, a retract to a reference point nobody has stored that
+    /// would go down. The blocks take zero; who makes another program of them refuses.
     std::vector<Diagnostic> unplaced;
-    bool machine_positions = false; ///< some move goes to one: G53, G28, G30
-    double first_rpm = 0.0;         ///< the first S above zero, also where the spindle is never switched on
-    double length = 0.0;            ///< of the ways of X Y Z, rapids too, mm
+    double first_rpm = 0.0; ///< the first S above zero, also where the spindle is never switched on
+    double length = 0.0;    ///< of the ways of X Y Z, rapids too, mm
 };
 
 /// The lines of a G-code file with the blocks that were read from them.

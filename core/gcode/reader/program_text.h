@@ -13,10 +13,10 @@ namespace millwright::gcode {
     return text.size() - without_byte_order_mark(text).size();
 }
 
-/// `last_line`, which has no end of its own, without the mark of DOS for the end of a file (byte 0x1A, once
-/// or as filling).
-[[nodiscard]] constexpr std::string_view without_dos_end(std::string_view last_line) {
-    while (!last_line.empty() && last_line.back() == '\x1A') {
+/// `last_line`, which has no end of its own, without what fills the last block of a file: the mark of DOS for
+/// the end (byte 0x1A) and zero bytes.
+[[nodiscard]] constexpr std::string_view without_filling(std::string_view last_line) {
+    while (!last_line.empty() && (last_line.back() == '\x1A' || last_line.back() == '\0')) {
         last_line.remove_suffix(1);
     }
     return last_line;
@@ -24,7 +24,7 @@ namespace millwright::gcode {
 
 /// `bytes` without either.
 [[nodiscard]] inline std::string_view program_text(std::string_view bytes) {
-    return without_dos_end(without_byte_order_mark(bytes));
+    return without_filling(without_byte_order_mark(bytes));
 }
 
 } // namespace millwright::gcode

@@ -18,6 +18,7 @@ struct ReaderSettings {
     LengthUnit machine_unit = LengthUnit::mm; ///< of tool table and of parameters that hold lengths
     bool mist = false;                        ///< of a Grbl: it was built with M7
     std::string grbl_axes = "XYZ";            ///< of a Grbl: letters of its axes
+    std::string grbl_name = "Grbl";           ///< of a Grbl: its firmware, or grblHAL, FluidNC
     bool block_delete = false;                ///< lines that begin with / are left out
     ToolTable tools;
     bool any_tool = false; ///< a tool that the table lacks is taken for one without length and diameter

@@ -6,6 +6,7 @@
 
 #include "core/gcode/reader/axes.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,12 @@ struct Tool {
     double front_angle = 0.0; ///< degrees, of a lathe tool
     double back_angle = 0.0;  ///< degrees, of a lathe tool
     int orientation = 0;      ///< of a lathe tool, 1 to 9; 0: none
+    /// Bit n: the value of parameter #5400 + n is not known, and reads as 0.
+    std::uint16_t unknown = 0;
 };
+
+inline constexpr std::uint16_t tool_unknown = 0x3FFF;            ///< nothing of a tool is known
+inline constexpr std::uint16_t tool_unknown_but_number = 0x3FFE; ///< it is in no tool table
 
 /// Tools in the order of their lines. A row is counted from 1; row 0 is the spindle.
 struct ToolTable {

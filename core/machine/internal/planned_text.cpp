@@ -37,7 +37,7 @@ Job planned_text(std::string_view text,
                  const PlannedText& how) {
     gcode::ReaderSettings settings;
     settings.any_tool = true;
-    gcode::put_origin(settings, how.origin);
+    gcode::put_origin(settings, gcode::WorkOrigin(how.origin));
     settings.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
     if (how.start) { // what no word names stays where it is
         settings.start = for_the_reader(*machine, *how.start);

@@ -60,7 +60,7 @@ Path lay_out(const gcode::Program& program,
     auto section = sections.begin();
     for_each_block(progress.part(chosen, 1.0), [&](int n, const gcode::Block& block, double acceleration) {
         for (; section != sections.end() && section->first <= n; ++section) {
-            builder.set_largest_rounding(section->tolerance);
+            builder.set_rounding_bounds(section->bounds);
         }
         builder.add(block, acceleration);
     });

@@ -293,7 +293,7 @@ void RoadBuilder::meet(const Leg& next, const AxisPositions& position) {
     const Leg& last = *last_;
     const Meeting meeting = meeting_of(last.path, last.unit, last.rapid, next.unit, next.rapid);
     const double tolerance =
-        std::min(rounding_step(rounding_tolerance_of(last.path, settings_)), largest_rounding_);
+        std::min(rounding_step(rounding_tolerance_of(last.path, settings_)), bounds_.tolerance);
     if (meeting == Meeting::rest || (meeting == Meeting::rounding && !(tolerance > 0.0))) {
         return stop();
     }
@@ -327,7 +327,7 @@ void RoadBuilder::round(const Corner& corner, const Leg& next, double tolerance)
 /// One half of a rounding, up to `end`, at no more than `fastest`.
 void RoadBuilder::limit_half(const Corner& corner, double d, double end, double fastest) {
     const RoundingLimits limits =
-        rounding_limits(machine_, path_.limits, corner, d, fastest, path_.filter_time);
+        rounding_limits(machine_, path_.limits, corner, d, fastest, path_.filter_time, bounds_.turning_share);
     limit_up_to(end, limits.speed, limits.speed_cause, limits.acceleration, limits.acceleration_cause);
 }
 

@@ -54,9 +54,8 @@ public:
                 bool part);
 
     void reserve(std::size_t blocks);
-    /// From the next corner on roundings are within at most this tolerance, mm; 0: such corners are met at
-    /// rest.
-    void set_largest_rounding(double tolerance) { largest_rounding_ = tolerance; }
+    /// From the next corner on.
+    void set_rounding_bounds(const RoundingBounds& bounds) { bounds_ = bounds; }
     /// The linear axes together accelerate along it by `path_acceleration` mm/s2 at most. Throws what plan()
     /// throws for a block.
     void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
@@ -82,14 +81,14 @@ private:
     bool part_;
     Path path_;
     std::vector<Zone> speeds_, accelerations_;
-    double kept_from_ = 0.0;                                            ///< the way before is forgotten
-    int forgotten_ = 0;                                                 ///< blocks
-    double reach_ = 0.0;                                                ///<
-    double largest_rounding_ = std::numeric_limits<double>::infinity(); ///< tolerance, mm
-    std::optional<Leg> last_;                                           ///< the last move
-    bool open_ = false;                                                 ///< its end has no limits yet
-    double limited_to_ = 0.0;                                           ///< the way that has limits
-    double way_ = 0.0;                                                  ///< up to the end of the last block
+    double kept_from_ = 0.0; ///< the way before is forgotten
+    int forgotten_ = 0;      ///< blocks
+    double reach_ = 0.0;     ///< reach()
+    RoundingBounds bounds_;
+    std::optional<Leg> last_; ///< the last move
+    bool open_ = false;       ///< its end has no limits yet
+    double limited_to_ = 0.0; ///< the way that has limits
+    double way_ = 0.0;        ///< up to the end of the last block
     Vec3 last_tip_;
 
     Segment& segment_of(const Leg& leg) {

@@ -13,11 +13,10 @@ namespace {
 using kinematics::AxisKind;
 using kinematics::AxisPositions;
 
-constexpr double off_the_corner = 3.0 / 16.0; // the integral of w over half of the rounding, of 2 d
-constexpr double most_second = 0.75;          // of w' / (2 d), times d
-constexpr double most_third = 1.5;            // of w'' / (2 d)^2, times d^2
-constexpr double normal_share = 0.75;         // of an axis's acceleration and jerk, for the turning itself
-constexpr double most_turn_of_rounding = 0.5; // rad by which rotary axes may turn on half a rounding
+constexpr double off_the_corner = 3.0 / 16.0;          // the integral of w over half of the rounding, of 2 d
+constexpr double most_second = 0.75;                   // of w' / (2 d), times d
+constexpr double most_third = 1.5;                     // of w'' / (2 d)^2, times d^2
+constexpr double most_turn_of_rounding = 0.5;          // rad by which rotary axes may turn on half a rounding
 const double growth = std::exp(most_turn_of_rounding); // of distances from rotary axes meanwhile
 
 constexpr std::array rounding_steps{1e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0,
@@ -118,13 +117,14 @@ RoundingLimits rounding_limits(const Mechanism& machine,
                                const Corner& corner,
                                double d,
                                double fastest,
-                               double filter_time) {
+                               double filter_time,
+                               double turning_share) {
     RoundingLimits result;
     result.speed = fastest;
     result.speed_cause = {Limit::programmed_feed, -1};
     const double path_second = most_second * machine.linear_length(corner.after - corner.before) / d;
-    if (path_second * square(result.speed) > normal_share * corner.acceleration) {
-        result.speed = std::sqrt(normal_share * corner.acceleration / path_second);
+    if (path_second * square(result.speed) > turning_share * corner.acceleration) {
+        result.speed = std::sqrt(turning_share * corner.acceleration / path_second);
         result.speed_cause = {Limit::corner, -1};
     }
     const auto axes = static_cast<int>(limits.size());
@@ -139,12 +139,12 @@ RoundingLimits rounding_limits(const Mechanism& machine,
     for (int n = 0; n < axes; ++n) {
         const double second = most_second * bend_of(n) / d;
         const double third = most_third * bend_of(n) / square(d);
-        if (second * square(result.speed) > normal_share) {
-            result.speed = std::sqrt(normal_share / second);
+        if (second * square(result.speed) > turning_share) {
+            result.speed = std::sqrt(turning_share / second);
             result.speed_cause = {Limit::corner, static_cast<std::int8_t>(n)};
         }
-        if (third * square(result.speed) * result.speed > normal_share * jerk_of(n)) {
-            result.speed = std::cbrt(normal_share * jerk_of(n) / third);
+        if (third * square(result.speed) * result.speed > turning_share * jerk_of(n)) {
+            result.speed = std::cbrt(turning_share * jerk_of(n) / third);
             result.speed_cause = {Limit::corner, static_cast<std::int8_t>(n)};
         }
     }

@@ -38,6 +38,18 @@ struct RoundingTolerance {
                                      const RoundingTolerance& tolerance,
                                      double longest);
 
+/// What of each axis's acceleration and jerk the turning on a rounding may take; the rest is for the motion
+/// along it.
+inline constexpr double usual_turning_share = 0.75;
+/// Where one rounding follows the other the speed hardly changes, and this is faster.
+inline constexpr double greatest_turning_share = 0.95;
+
+/// Of the roundings of a part of the way.
+struct RoundingBounds {
+    double tolerance = std::numeric_limits<double>::infinity(); ///< mm; 0: corners are met at rest
+    double turning_share = usual_turning_share;
+};
+
 /// Speed and acceleration along the way that keep all axes within their limits on a rounding.
 struct RoundingLimits {
     double speed = 0.0;
@@ -51,6 +63,7 @@ struct RoundingLimits {
                                              const Corner& corner,
                                              double d,
                                              double fastest,
-                                             double filter_time);
+                                             double filter_time,
+                                             double turning_share);
 
 } // namespace millwright::motion::internal

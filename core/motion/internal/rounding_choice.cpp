@@ -20,24 +20,26 @@ RoundingChoice::RoundingChoice(const Mechanism& machine,
 
 void RoundingChoice::open_section() {
     tries_.clear();
-    tries_.push_back(
-        {std::numeric_limits<double>::infinity(), TimeWindow(machine_, settings_, at_, filter_time_)});
+    eager_tries_.clear();
+    tries_.push_back({{}, TimeWindow(machine_, settings_, at_, filter_time_)});
     begin_ = block_;
 }
 
 /// The fastest one; of equals the one with the larger roundings.
 void RoundingChoice::close_section() {
     double fastest = std::numeric_limits<double>::infinity();
-    double tolerance = 0.0;
-    for (auto one = tries_.rbegin(); one != tries_.rend(); ++one) {
-        if (const double time = one->window.finish(); time < fastest) {
-            fastest = time;
-            tolerance = one->tolerance;
+    RoundingBounds bounds;
+    for (std::list<Try>* const tries : {&tries_, &eager_tries_}) {
+        for (auto one = tries->rbegin(); one != tries->rend(); ++one) {
+            if (const double time = one->window.finish(); time < fastest) {
+                fastest = time;
+                bounds = one->bounds;
+            }
         }
     }
     if (keep_ && tries_.size() > 1) {
-        sections_.push_back({begin_, tolerance});
-        sections_.push_back({block_, std::numeric_limits<double>::infinity()});
+        sections_.push_back({begin_, bounds});
+        sections_.push_back({block_, {}});
     }
     time_ += fastest;
 }
@@ -65,8 +67,10 @@ void RoundingChoice::add(const Block& block, double path_acceleration) {
         close_section();
         open_section();
     }
-    for (Try& one : tries_) {
-        one.window.add(block, path_acceleration);
+    for (std::list<Try>* const tries : {&tries_, &eager_tries_}) {
+        for (Try& one : *tries) {
+            one.window.add(block, path_acceleration);
+        }
     }
     at_ = after;
     ++block_;
@@ -89,20 +93,27 @@ void RoundingChoice::meet(const Straight& next) {
 }
 
 /// Up to here the way within a new tolerance is the one within all tolerances that came.
+void RoundingChoice::insert(std::list<Try>& tries, double tolerance) {
+    Try again = tries.back();
+    again.bounds.tolerance = tolerance;
+    again.window.set_rounding_bounds(again.bounds);
+    tries.insert(std::prev(tries.end()), std::move(again));
+}
+
 void RoundingChoice::try_up_to(double tolerance) {
     const double largest = rounding_step(tolerance);
-    const auto insert = [&](double step) {
-        Try again{step, tries_.back().window};
-        again.window.set_largest_rounding(step);
-        tries_.insert(std::prev(tries_.end()), std::move(again));
-    };
     if (tries_.size() == 1) {
-        insert(0.0);
+        Try eager = tries_.back();
+        eager.bounds.turning_share = greatest_turning_share;
+        eager.window.set_rounding_bounds(eager.bounds);
+        eager_tries_.push_back(std::move(eager));
+        insert(tries_, 0.0);
     }
-    double known = std::prev(tries_.end(), 2)->tolerance;
+    double known = std::prev(tries_.end(), 2)->bounds.tolerance;
     for (double step = 0.0; step < largest; step = next_rounding_step(step)) {
         if (step > known) {
-            insert(step);
+            insert(tries_, step);
+            insert(eager_tries_, step);
             known = step;
         }
     }

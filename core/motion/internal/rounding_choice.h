@@ -1,6 +1,7 @@
-// How large the roundings of a program are made: between two rests with the tolerance, up to the programmed
-// one, that is fastest. A larger rounding is not always faster: its bend takes acceleration from the motion
-// along it, on a longer way (docs/reference/motion.md#how-large-a-rounding-is).
+// How large the roundings of a program are made, and how fast they are gone through: between two rests with
+// the tolerance, up to the programmed one, and the share of the acceleration for turning that are fastest. A
+// larger rounding is not always faster: its bend takes acceleration from the motion along it, on a longer way
+// (docs/reference/motion.md#how-large-a-rounding-is).
 #pragma once
 
 #include "core/motion/internal/time_window.h"
@@ -13,10 +14,10 @@ namespace millwright::motion::internal {
 
 class RoundingChoice {
 public:
-    /// Blocks from `first` on, up to the next section, have no rounding within more than `tolerance`, mm.
+    /// Of blocks from `first` on, up to the next section.
     struct Section {
         int first = 0;
-        double tolerance = std::numeric_limits<double>::infinity();
+        RoundingBounds bounds;
     };
 
     /// As TimeWindow. With `keep` the sections are kept.
@@ -35,10 +36,9 @@ public:
     [[nodiscard]] const std::vector<Section>& sections() const { return sections_; }
 
 private:
-    /// The blocks since the last rest, with roundings within one tolerance. The last one has the programmed
-    /// ones.
+    /// The blocks since the last rest, with roundings within one tolerance.
     struct Try {
-        double tolerance = std::numeric_limits<double>::infinity();
+        RoundingBounds bounds;
         TimeWindow window;
     };
     /// A move as its corners see it.
@@ -55,12 +55,14 @@ private:
     std::vector<AxisLimits> limits_;
     kinematics::AxisPositions at_;
     std::optional<Straight> last_; ///< none: at rest
-    std::list<Try> tries_;         ///< tolerances ascend
+    std::list<Try> tries_;         ///< tolerances ascend, up to the programmed ones
+    std::list<Try> eager_tries_;   ///< the same with the greatest share for turning; none without roundings
     std::vector<Section> sections_;
     int block_ = 0;     ///< the next one
     int begin_ = 0;     ///< of the section
     double time_ = 0.0; ///< of the sections before
 
+    static void insert(std::list<Try>& tries, double tolerance);
     void meet(const Straight& next);
     void try_up_to(double tolerance);
     void close_section();

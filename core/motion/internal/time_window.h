@@ -15,9 +15,8 @@ public:
                const kinematics::AxisPositions& start,
                double filter_time);
 
-    /// No rounding is larger than within this tolerance, mm; 0: corners that would be rounded are met at
-    /// rest.
-    void set_largest_rounding(double tolerance) { road_.set_largest_rounding(tolerance); }
+    /// From the next corner on.
+    void set_rounding_bounds(const RoundingBounds& bounds) { road_.set_rounding_bounds(bounds); }
     /// As RoadBuilder::add().
     void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
     /// Of all blocks, s, the last one ending at rest. Nothing is added after it.

@@ -16,6 +16,21 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+TEST(WideEncoding, IsKnownByMarkOrByZeroBytes) {
+    using namespace std::string_literals;
+    EXPECT_EQ(wide_encoding("\xFF\xFEG\0"s), "UTF-16");
+    EXPECT_EQ(wide_encoding("\xFE\xFF\0G"s), "UTF-16");
+    EXPECT_EQ(wide_encoding("G\0002\0"s), "UTF-16");
+    EXPECT_EQ(wide_encoding("\0G\0002"s), "UTF-16");
+    EXPECT_EQ(wide_encoding("\xFF\xFE\0\0G\0\0\0"s), "UTF-32");
+    EXPECT_EQ(wide_encoding("\0\0\xFE\xFF\0\0\0G"s), "UTF-32");
+    EXPECT_EQ(wide_encoding("G\0\0\0"s), "UTF-32");
+    EXPECT_EQ(wide_encoding("\0\0\0G"s), "UTF-32");
+    for (const std::string& text : {"G21"s, ""s, "\xEF\xBB\xBFG21"s, "\0\0\0\0"s, "G21\0"s, "G\0"s}) {
+        EXPECT_EQ(wide_encoding(text), "");
+    }
+}
+
 TEST(Fixed, HasTheDecimalsAskedForAndNoNegativeZero) {
     EXPECT_EQ(fixed(1.5, 3), "1.500");
     EXPECT_EQ(fixed(-0.0004, 3), "0.000");

@@ -114,6 +114,22 @@ TEST(RoundingChoice, AZigzagIsNotSlowerThanWithStops) {
     expect_never_slower(program_of(machine, turns), machine, "a zigzag");
 }
 
+// It gained nothing on machines without a limit of jerk, whatever the tolerance, and G61 was faster: a
+// quarter of the acceleration was left for the motion along roundings that fill the whole way.
+TEST(RoundingChoice, AZigzagGainsFromALargeToleranceOnMachinesWithoutJerkLimits) {
+    for (const char* name : {"router-xyz", "forming-table"}) {
+        const MachineModel machine = test::machine(name);
+        std::vector<Turn> turns{{0, 0, 0}};
+        for (int n = 1; n <= 200; ++n) {
+            turns.push_back({0.5 * n, n % 2 == 0 ? 0.0 : 0.5, 3000});
+        }
+        const Program program = program_of(machine, turns);
+        const double large = seconds_of(program, machine, rounding_within(5.0));
+        EXPECT_LT(large, 0.95 * seconds_of(program, machine, stopping())) << name;
+        EXPECT_LT(large, seconds_of(program, machine, {})) << name; // G61
+    }
+}
+
 TEST(RoundingChoice, AnEstimateChoosesAsThePlanDoes) {
     for (const char* name : {"router-xyz", "ac-table"}) {
         for (unsigned seed = 1; seed <= 4; ++seed) {

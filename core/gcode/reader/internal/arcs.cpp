@@ -129,7 +129,10 @@ void make_arc(Run& run, const Block& block, int motion) {
         check_centre(start_2, end_2, centre, within, s.plane, column);
     } catch (Refusal& refusal) {
         if (is_circle_about_absolute_centre(block, s, start_2, end_2, centre, within)) {
-            refusal.hint = "its centre words are absolute, as G90.1 takes them: put G90.1 before it";
+            refusal.hint = run.settings.dialect == Dialect::grbl
+                               ? "its centre words are absolute, and Grbl counts them from the start of the "
+                                 "arc (G91.1): set the CAM program to incremental centres"
+                               : "its centre words are absolute, as G90.1 takes them: put G90.1 before it";
         }
         throw;
     }

@@ -74,8 +74,4 @@ private:
     const char* end_;
 };
 
-[[noreturn]] inline void refuse_zero_byte(const Cursor& cursor) {
-    refuse(cursor.column(), "byte 0x00 is in no text: this is a binary file", "choose a program");
-}
-
 } // namespace millwright::gcode::internal

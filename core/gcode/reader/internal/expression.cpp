@@ -216,7 +216,10 @@ double read_parameter(Cursor& cursor, const Variables& variables) {
     const int column = cursor.column();
     cursor.advance();
     if (cursor.peek() != '<') {
-        return variables.numbered(read_integer(cursor, variables), column);
+        const int number = read_integer(cursor, variables);
+        const double value = variables.numbered(number, column);
+        variables.note_read(number, column);
+        return value;
     }
     const std::string name = read_name(cursor);
     const auto value = variables.named(name);
@@ -225,6 +228,7 @@ double read_parameter(Cursor& cursor, const Variables& variables) {
                fmt::format("the parameter #<{}> is not defined", name),
                "a line sets parameters when all of it is read");
     }
+    variables.note_read(name, column);
     return *value;
 }
 
@@ -274,9 +278,6 @@ double read_any(Cursor& cursor, const Variables& variables) {
     case '#':
         return read_parameter(cursor, variables);
     case '\0':
-        if (!cursor.at_end()) {
-            refuse_zero_byte(cursor);
-        }
         refuse(cursor.column(), "a value is missing at the end of the line");
     default:
         return read_function(cursor, variables);

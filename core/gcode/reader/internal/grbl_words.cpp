@@ -61,10 +61,26 @@ constexpr std::array m_rules = {CodeRule{0, 4},
                                 CodeRule{9, 8}};
 constexpr int arc_distance_group = 4;
 
+/// Codes that Grbl lacks and that the documents of grblHAL and FluidNC list (README of grblHAL/core; wiki of
+/// FluidNC, supported G-codes).
+constexpr std::array grblhal_g = {5,  7,  8,  10, 33, 43, 50, 51, 59, 65, 73, 76,
+                                  81, 82, 83, 85, 86, 89, 92, 95, 96, 97, 98, 99};
+constexpr std::array grblhal_m = {6,  48, 49, 50, 51, 53, 60, 61, 62, 63,
+                                  64, 65, 66, 67, 68, 70, 71, 72, 73, 99};
+constexpr std::array fluidnc_m = {6, 56, 61, 62, 63, 64, 65, 66, 67, 68};
+
+bool has_beyond_grbl(std::string_view firmware, char letter, int code) {
+    const auto among = [code](const auto& codes) { return std::ranges::find(codes, code) != codes.end(); };
+    if (firmware == "grblHAL") {
+        return letter == 'G' ? among(grblhal_g) : among(grblhal_m);
+    }
+    return firmware == "FluidNC" && letter == 'M' && among(fluidnc_m);
+}
+
 class FirstPass {
 public:
-    FirstPass(std::string_view line, bool mist, std::string_view axes, std::string& buffer)
-        : line_(line), mist_(mist), axes_(axes), buffer_(buffer) {}
+    FirstPass(std::string_view line, const GrblController& controller, std::string& buffer)
+        : line_(line), controller_(controller), buffer_(buffer) {}
 
     std::string_view run() {
         keep_characters();
@@ -87,8 +103,7 @@ private:
     };
 
     std::string_view line_;
-    bool mist_;
-    std::string_view axes_;
+    const GrblController& controller_;
     std::string& buffer_;
     bool changed_ = false;
     std::vector<Kept> kept_;
@@ -148,7 +163,8 @@ private:
             if (letter < ' ' || letter > '~') {
                 return n + 1; // no character of a program, whoever reads it
             }
-            refuse(column(n), fmt::format("Grbl does not know '{}' in a program (error 1)", letter));
+            refuse(column(n),
+                   fmt::format("{} does not know '{}' in a program (error 1)", controller_.firmware, letter));
         }
         std::size_t end = n + 1;
         end += end < kept_.size() && (kept_[end].c == '-' || kept_[end].c == '+') ? 1 : 0;
@@ -187,8 +203,16 @@ private:
         }
     }
 
-    [[noreturn]] static void refuse_code(const std::string& text, int column, int error) {
-        refuse(column, fmt::format("Grbl does not know {} (error {})", text, error));
+    [[noreturn]] void
+    refuse_code(const GrblCode& code, const std::string& text, int column, int error) const {
+        if (has_beyond_grbl(controller_.firmware, text.front(), code.whole)) {
+            refuse(column,
+                   fmt::format("{} is no code of Grbl 1.1: {} may have it, but nothing here follows it",
+                               text,
+                               controller_.firmware),
+                   "post the program for Grbl: cycles as single moves, tools one at a time");
+        }
+        refuse(column, fmt::format("{} does not know {} (error {})", controller_.firmware, text, error));
     }
 
     static void enter(std::string& group, const std::string& text, int column) {
@@ -215,7 +239,7 @@ private:
     void take_g(const GrblCode& code, const std::string& text, int column) {
         const auto* const rule = std::ranges::find(g_rules, code.whole, &CodeRule::whole);
         if (rule == g_rules.end()) {
-            refuse_code(text, column, 20);
+            refuse_code(code, text, column, 20);
         }
         // G28.1, G30.1 and G92.1 leave the axis words to a motion.
         const bool may_have_tenth = code.whole == 28 || code.whole == 30 || code.whole == 92;
@@ -223,7 +247,7 @@ private:
             use_axes(text, column);
         }
         if (const int error = error_of_fraction(code, may_have_tenth); error != 0) {
-            refuse_code(text, column, error);
+            refuse_code(code, text, column, error);
         }
         const bool arc_distance = code.whole == 91 && code.hundredths != 0;
         enter(g_groups_[static_cast<std::size_t>(arc_distance ? arc_distance_group : rule->group)],
@@ -254,17 +278,17 @@ private:
 
     void take_m(const GrblCode& code, const std::string& text, int column) {
         if (code.hundredths != 0) {
-            refuse_code(text, column, 23);
+            refuse_code(code, text, column, 23);
         }
         const auto* const rule = std::ranges::find(m_rules, code.whole, &CodeRule::whole);
         constexpr int mist_on = 7;
-        if (code.whole == mist_on && !mist_) {
+        if (code.whole == mist_on && !controller_.mist) {
             refuse(column,
                    "this Grbl has no mist coolant, M7 (error 20)",
                    "use M8, or build Grbl with ENABLE_M7");
         }
         if (rule == m_rules.end()) {
-            refuse_code(text, column, 20);
+            refuse_code(code, text, column, 20);
         }
         enter(m_groups_[static_cast<std::size_t>(rule->group)], text, column);
     }
@@ -277,15 +301,16 @@ private:
         constexpr double last_line_number = 10'000'000.0;
         const int place = column(word.first);
         const bool is_axis = all_axes.find(letter) != std::string_view::npos;
-        if (is_axis && axes_.find(letter) == std::string_view::npos) {
-            refuse(
-                place,
-                fmt::format("this Grbl has the axes {} and does not know {} words (error 20)", axes_, letter),
-                "make the program for these axes, or connect a controller that has all");
+        if (is_axis && controller_.axes.find(letter) == std::string_view::npos) {
+            refuse(place,
+                   fmt::format("this Grbl has the axes {} and does not know {} words (error 20)",
+                               controller_.axes,
+                               letter),
+                   "make the program for these axes, or connect a controller that has all");
         }
         if (!is_axis && known.find(letter) == std::string_view::npos) {
             refuse(place,
-                   fmt::format("Grbl does not know {} words (error 20)", letter),
+                   fmt::format("{} does not know {} words (error 20)", controller_.firmware, letter),
                    letter == 'E' ? "in a number like 1e5? Numbers have no exponent here" : "");
         }
         if (letter == 'T' && value > last_tool) {
@@ -328,8 +353,8 @@ private:
 
 } // namespace
 
-std::string_view grbl_words(std::string_view line, bool mist, std::string_view axes, std::string& buffer) {
-    return FirstPass(line, mist, axes, buffer).run();
+std::string_view grbl_words(std::string_view line, const GrblController& controller, std::string& buffer) {
+    return FirstPass(line, controller, buffer).run();
 }
 
 } // namespace millwright::gcode::internal

@@ -7,11 +7,18 @@
 
 namespace millwright::gcode::internal {
 
-/// Throws Refusal for what Grbl 1.1 refuses of `line` before it looks at what the words mean together;
-/// `mist`: it was built with M7; `axes`: letters of its axes. Returns the line with blanks for what Grbl
-/// reads over (malformed comments, N words, fractions of T, L and the P of G10), in `buffer` if that changes
-/// anything; columns stay.
+/// The controller that a program is for.
+struct GrblController {
+    bool mist = false;                  ///< it was built with M7
+    std::string_view axes = "XYZ";      ///< letters
+    std::string_view firmware = "Grbl"; ///< or grblHAL, FluidNC
+};
+
+/// Throws Refusal for what Grbl 1.1 refuses of `line` before it looks at what the words mean together, and
+/// what other firmware has beyond that, since nothing here follows it. Returns the line with blanks for what
+/// Grbl reads over (malformed comments, N words, fractions of T, L and the P of G10), in `buffer` if that
+/// changes anything; columns stay.
 [[nodiscard]] std::string_view
-grbl_words(std::string_view line, bool mist, std::string_view axes, std::string& buffer);
+grbl_words(std::string_view line, const GrblController& controller, std::string& buffer);
 
 } // namespace millwright::gcode::internal

@@ -22,12 +22,6 @@ constexpr double code_within = 0.001;
 
 [[noreturn]] void refuse_character(Cursor& cursor) {
     const char c = cursor.at_end() ? '\0' : *cursor.position();
-    if (cursor.column() == 1 && (c == '\xFF' || c == '\xFE')) {
-        refuse(1, "the text is UTF-16", "save it as plain text");
-    }
-    if (c == '\0' && !cursor.at_end()) {
-        refuse_zero_byte(cursor);
-    }
     if (c < ' ' || c > '~') {
         refuse(cursor.column(),
                fmt::format("byte 0x{:02X} is no character of a program", static_cast<unsigned char>(c)));

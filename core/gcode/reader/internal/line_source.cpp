@@ -92,7 +92,7 @@ bool LineSource::next(std::string_view& line) {
         skip_rest_of_line();
         return true;
     }
-    line = end == rest.size() ? without_dos_end(rest) : rest.substr(0, end);
+    line = end == rest.size() ? without_filling(rest) : rest.substr(0, end);
     at_ += end + length_of_line_end(rest, end);
     return true;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace millwright::gcode::internal {
@@ -19,6 +20,19 @@ Diagnostic at_word(const std::filesystem::path& file,
     return {
         {file, source.line, word > 0 ? word : std::max(first_column(line), 1), -1}, std::move(message), {}};
 }
+
+namespace {
+
+bool is_zero(const AxisValues& values) {
+    for (std::size_t n = 0; n < axis_count; ++n) {
+        if (std::abs(values[n]) > 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
 
 void Losses::note(
     Kind kind, SourcePlace source, std::string_view line, char letter, const std::string& message) {
@@ -71,7 +85,7 @@ void Losses::command(const Command& command, std::string_view line) {
     case CommandKind::disable_feed_hold:
         return simplify('M', "overrides and holds stay possible throughout (M49 to M53, G74, G84)");
     case CommandKind::set_g5x_offset:
-        if (command.index > 1 && command.mode == 0) {
+        if (command.index > 1 && command.mode == 0 && is_zero(command.axes)) {
             note(Kind::simplified,
                  command.source,
                  line,

@@ -243,6 +243,7 @@ int Run::row_of_tool(int number) {
     }
     Tool tool;
     tool.number = number;
+    tool.unknown = tool_unknown_but_number;
     tools.tools.push_back(tool);
     return static_cast<int>(tools.tools.size());
 }

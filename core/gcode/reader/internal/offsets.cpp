@@ -29,21 +29,18 @@ AxisValues in_system(const AxisValues& bare, const AxisValues& g5x, double rotat
     return rotated(bare - g5x, -rotation) - g92;
 }
 
-void send_system(Run& run) {
-    const int system = run.state.coordinate_system;
-    Command selected = command_of(CommandKind::set_g5x_offset, run.state.g5x_offset, system);
-    selected.mode = run.variables.knows_system(system) ? 1 : 0;
-    run.out.send(selected);
-}
-
-/// The axes that have a word take something from where they are.
-void send_measured(Run& run, const Block& block, int code) {
+AxisBits axes_given(const Block& block) {
     AxisBits axes = 0;
     for (std::size_t n = 0; n < axis_count; ++n) {
         axes |= block.has(axis_letters[n]) ? static_cast<AxisBits>(1U << n) : AxisBits{};
     }
+    return axes;
+}
+
+/// The axes that have a word take something from where they are.
+void send_measured(Run& run, const Block& block, int code) {
     Command measured = command_of(CommandKind::measure_position, code);
-    measured.mode = axes;
+    measured.mode = axes_given(block);
     run.out.send(measured);
 }
 
@@ -55,6 +52,19 @@ AxisValues given_axes(const Block& block, AxisValues otherwise) {
 }
 
 } // namespace
+
+void send_system(Run& run) {
+    const int system = run.state.coordinate_system;
+    Command selected = command_of(CommandKind::set_g5x_offset, run.state.g5x_offset, system);
+    selected.mode = run.variables.known_in_system(system);
+    run.out.send(selected);
+}
+
+void send_g92(Run& run) {
+    Command offset = command_of(CommandKind::set_g92_offset, run.state.g92_offset);
+    offset.mode = run.g92_known;
+    run.out.send(offset);
+}
 
 AxisValues rotated(AxisValues values, double degrees) {
     if (exactly_equal(degrees, 0.0)) {
@@ -119,7 +129,7 @@ void select_coordinate_system(Run& run, int code) {
     s.rotation_deg = run.variables.stored(parameter_g5x(system) + 9);
     s.position = in_system(bare, s.g5x_offset, s.rotation_deg, s.g92_offset);
     send_system(run);
-    run.out.send(command_of(CommandKind::set_g92_offset, s.g92_offset));
+    send_g92(run);
     run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
 }
 
@@ -166,6 +176,11 @@ void set_axis_offsets(Run& run, const Block& block, int code) {
     forbid_with_compensation(run, block, "axis offsets cannot change");
     const AxisValues before = s.g92_offset;
     AxisValues offset;
+    if (code == 923) {
+        run.g92_known = run.variables.axes_set(parameter_g92);
+    } else if (code != 920) {
+        run.g92_known |= code == 520 ? axes_given(block) : every_axis;
+    }
     if (code == 920) {
         send_measured(run, block, code);
         offset = before + s.position - given_axes(block, s.position);
@@ -176,10 +191,10 @@ void set_axis_offsets(Run& run, const Block& block, int code) {
     }
     s.position += before - offset;
     s.g92_offset = offset;
-    run.out.send(command_of(CommandKind::set_g92_offset, offset));
+    send_g92(run);
     run.variables.set(parameter_g92_active, code == 921 || code == 922 ? 0.0 : 1.0);
     if (code == 920 || code == 520 || code == 921) {
-        run.variables.set_axes(parameter_g92, run.to_machine(offset));
+        run.variables.set_axes(parameter_g92, run.to_machine(offset), every_axis, run.g92_known);
     }
 }
 
@@ -232,6 +247,11 @@ void set_tool_data(Run& run, const Block& block) {
     }
     tool.offset = run.to_machine(static_cast<int>(block['L']) == 1 ? given_axes(block, old_offset)
                                                                    : touched_off(run, block, old_offset));
+    tool.unknown &= static_cast<std::uint16_t>(~(axes_given(block) << 1U));
+    constexpr std::string_view words = "RIJQ"; // of parameters #5410 to #5413
+    for (std::size_t n = 0; n < words.size(); ++n) {
+        tool.unknown &= static_cast<std::uint16_t>(block.has(words[n]) ? ~(1U << (10U + n)) : ~0U);
+    }
     if (block.has('R')) {
         tool.diameter = 2.0 * block['R'] / run.machine_to_program();
     }
@@ -279,8 +299,11 @@ void set_system_data(Run& run, const Block& block) {
         const AxisValues here = in_system(bare, old_offset, rotation, s.g92_offset);
         offset = old_offset + rotated(here - given_axes(block, here), rotation);
     }
-    run.variables.set(first + 9, rotation);
-    run.variables.set_axes(first, run.to_machine(offset));
+    if (block.has('R')) {
+        run.variables.set(first + 9, rotation);
+    }
+    run.variables.set_axes(
+        first, run.to_machine(offset), axes_given(block), relative ? run.placed_axes() : every_axis);
     if (!active) {
         run.out.post(command_of(CommandKind::comment, "interpreter: setting coordinate system origin"));
         return;
@@ -323,7 +346,7 @@ void go_to_reference(Run& run, const Block& block, int code) {
     }
     move.words.frame = code == 280 ? MoveFrame::reference : MoveFrame::reference_2;
     move.words.incremental = false;
-    move.words.reference_set = run.variables.was_set(stored, static_cast<int>(axis_count));
+    move.words.reference_set = run.variables.axes_set(stored);
     run.out.send(move);
     s.position = move.target;
 }
@@ -334,10 +357,11 @@ void set_reference(Run& run, int code) {
         refuse(1, "the reference point cannot be set while cutter compensation is on");
     }
     Command measured = command_of(CommandKind::measure_position, code);
-    measured.mode = (1 << axis_count) - 1;
+    measured.mode = every_axis;
     run.out.send(measured);
     const AxisValues machine = without_systems(s) + s.tool_offset;
-    run.variables.set_axes(code == 281 ? parameter_g28 : parameter_g30, run.to_machine(machine));
+    run.variables.set_axes(
+        code == 281 ? parameter_g28 : parameter_g30, run.to_machine(machine), every_axis, run.placed_axes());
 }
 
 void reset_coordinate_system(Run& run) {

@@ -12,6 +12,9 @@ namespace millwright::gcode::internal {
 /// G28 and G30. As in LinuxCNC, the tool offset along A, B and C is not taken off.
 [[nodiscard]] AxisValues relative_to_system(const AxisValues& machine, const ModalState& state);
 
+void send_system(Run& run); ///< the offset in force, and of which axes it is known
+void send_g92(Run& run);
+
 void set_units(Run& run, int code);                            ///< G20, G21
 void select_coordinate_system(Run& run, int code);             ///< G54 to G59.3
 void set_tool_length(Run& run, const Block& block, int code);  ///< G43, G43.1, G43.2, G49

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* place_by_rapid = "move the axis to a position first, in G90";
 constexpr const char* place_the_work = "say where the program's zero lies on the machine: --origin X,Y,Z (of "
-                                       "plots --work-origin) or --parameters";
+                                       "plots --work-origin) or --parameters FILE";
 
 std::string_view code_of_frame(MoveFrame frame) {
     switch (frame) {
@@ -44,9 +44,22 @@ std::string name_of_system(int system) {
     return system <= whole ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - whole);
 }
 
+namespace {
+
+constexpr int with_unknown_g92 = 10; ///< of Placement::Frame
+
+/// Of Placement::Frame, but for the machine's.
+std::string name_of_frame(int frame) {
+    const int system = frame % with_unknown_g92;
+    return system == 0 ? "G92" : name_of_system(system);
+}
+
+} // namespace
+
 Placement::Placement(const kinematics::MachineModel& machine, std::filesystem::path file, bool start_known)
     : machine_(machine), file_(std::move(file)),
-      known_(start_known ? AxisSet::all(machine.axis_count()) : AxisSet()) {
+      known_(start_known ? AxisSet::all(machine.axis_count()) : AxisSet()),
+      frame_used_(static_cast<std::size_t>(machine.axis_count())) {
     for (int n = 0; n < machine.axis_count(); ++n) {
         index_of_.push_back(
             static_cast<std::size_t>(std::ranges::find(axis_letters, letter_of(n)) - axis_letters.begin()));
@@ -72,29 +85,97 @@ std::string Placement::letters_of(const std::vector<int>& axes) const {
     return text;
 }
 
+void Placement::refuse_at(Kind kind, SourcePlace source, int column, Diagnostic found) {
+    if (refused_.insert(kind).second) {
+        found.place = {file_, source.line, column, -1};
+        unplaced_.push_back(std::move(found));
+    }
+}
+
+Placement::Frame Placement::frame_of(int axis) const {
+    const std::size_t index = index_of_[static_cast<std::size_t>(axis)];
+    const bool system = ((system_known_ >> index) & 1) != 0;
+    const bool g92 = ((g92_known_ >> index) & 1) != 0;
+    return (system ? 0 : system_) + (g92 ? 0 : with_unknown_g92);
+}
+
 void Placement::command(const Command& command, std::string_view line) {
-    if (command.kind == CommandKind::set_g5x_offset) {
+    switch (command.kind) {
+    case CommandKind::set_g5x_offset:
         system_ = command.index;
-        system_known_ = command.mode != 0;
+        system_known_ = static_cast<AxisBits>(command.mode);
+        return;
+    case CommandKind::set_g92_offset:
+        g92_known_ = static_cast<AxisBits>(command.mode);
+        return;
+    case CommandKind::measure_position:
+        return measured(command, line);
+    case CommandKind::read_unknown:
+        return read_unknown(command);
+    default:
         return;
     }
-    if (command.kind != CommandKind::measure_position) {
-        return;
-    }
+}
+
+/// Of an axis that the program has not named, or has named in another system, nobody knows the position.
+void Placement::measured(const Command& command, std::string_view line) {
+    const bool by_parameter = command.index == 0;
+    const bool on_machine = command.value_2 > 0.0;
     for (int n = 0; n < machine_.axis_count(); ++n) {
-        const bool measured = ((command.mode >> index_of_[static_cast<std::size_t>(n)]) & 1) != 0;
-        if (measured && !known_.contains(n)) {
-            refuse(Kind::measured,
-                   command.source,
-                   line,
-                   'G',
-                   {{},
-                    fmt::format("{} takes {} from where the axis is, and the program has not said where",
-                                command.index > 0 ? code_in_tenths(command.index) : "a parameter",
-                                letter_of(n)),
-                    place_by_rapid});
+        if (((command.mode >> index_of_[static_cast<std::size_t>(n)]) & 1) == 0) {
+            continue;
+        }
+        const auto& used = frame_used_[static_cast<std::size_t>(n)];
+        const Frame frame = on_machine ? Frame{} : frame_of(n);
+        Diagnostic found;
+        if (!known_.contains(n)) {
+            found = {{},
+                     fmt::format("{} takes {} from where the axis is, and the program has not said where",
+                                 by_parameter ? "a parameter" : code_in_tenths(command.index),
+                                 letter_of(n)),
+                     place_by_rapid};
+        } else if (used.value_or(frame) != frame) {
+            found = {{},
+                     fmt::format("{} takes the position of {} {}, and the offset of {} is not known",
+                                 by_parameter ? "a parameter" : code_in_tenths(command.index),
+                                 letter_of(n),
+                                 on_machine ? "on the machine" : "in " + name_of_system(system_),
+                                 name_of_frame(*used == 0 ? frame : *used)),
+                     place_the_work};
+        } else {
+            continue;
+        }
+        if (by_parameter) {
+            refuse_at(Kind::measured, command.source, static_cast<int>(command.value), std::move(found));
+        } else {
+            refuse(Kind::measured, command.source, line, 'G', std::move(found));
         }
     }
+}
+
+/// It reads as 0, and the line would make a position of that.
+void Placement::read_unknown(const Command& command) {
+    constexpr int first_of_tool = 5400;
+    constexpr int first_of_g92 = 5210;
+    constexpr int first_of_systems = 5221;
+    constexpr int stride = 20;
+    const int number = command.index;
+    const bool of_tool = number >= first_of_tool;
+    const bool of_system = number >= first_of_systems && !of_tool;
+    const std::string what = of_tool ? "data of the tool in the spindle"
+                             : of_system
+                                 ? "an offset of " + name_of_system(1 + (number - first_of_systems) / stride)
+                             : number >= first_of_g92 ? "an offset of G92"
+                             : number >= 5180         ? "the stored position of G30"
+                                                      : "the stored position of G28";
+    refuse_at(Kind::stored,
+              command.source,
+              command.mode,
+              {{},
+               fmt::format("#{} is {}, and its value is not known", number, what),
+               of_tool     ? "load the tool with T and M6, and give its data: --tools FILE"
+               : of_system ? place_the_work
+                           : "give what the control has stored: --parameters FILE"});
 }
 
 void Placement::curve(SourcePlace source, std::string_view line) {
@@ -111,6 +192,9 @@ void Placement::curve(SourcePlace source, std::string_view line) {
                     fmt::format("a curve begins where the program has not said what {} is", letter_of(n)),
                     place_by_rapid});
         }
+        if (in_plane) {
+            expect_one_frame(n, source, line);
+        }
     }
 }
 
@@ -126,7 +210,7 @@ void Placement::move(const Move& move, const AxisValues& from, const AxisValues&
     look_at_reference(move, from, to, line);
     take_words(move, line);
     if (!(named_ == AxisSet()) || !moving.empty()) {
-        look_at_frame(move, line);
+        look_at_frame(move, moving, line);
         note_first_move(move, moving);
     }
 }
@@ -194,36 +278,48 @@ void Placement::take_words(const Move& move, std::string_view line) {
     }
 }
 
-/// All positions are written in one system: those of the work, or those of the machine where it is known how
-/// the two lie to each other.
-void Placement::look_at_frame(const Move& move, std::string_view line) {
+/// All positions of an axis are written in one system: that of the work, or the machine's where it is known
+/// how the two lie to each other.
+void Placement::look_at_frame(const Move& move, const std::vector<int>& moving, std::string_view line) {
     const bool of_machine = move.words.frame != MoveFrame::work;
-    machine_positions_ = machine_positions_ || of_machine;
-    if (of_machine && !system_known_) {
-        refuse(Kind::machine_position,
-               move.source,
-               line,
-               'G',
-               {{},
-                fmt::format("{} goes to a machine position, and where the program's zero lies on the machine "
-                            "is not known",
-                            code_of_frame(move.words.frame)),
-                place_the_work});
-        return;
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        if (!named_.contains(n) && std::ranges::find(moving, n) == moving.end()) {
+            continue;
+        }
+        const Frame frame = frame_of(n);
+        if (of_machine && frame != 0) {
+            const bool of_all = system_known_ == 0;
+            refuse(Kind::machine_position,
+                   move.source,
+                   line,
+                   'G',
+                   {{},
+                    fmt::format("{} goes to a machine position, and where the program's zero lies on the "
+                                "machine is not known{}",
+                                code_of_frame(move.words.frame),
+                                of_all ? "" : fmt::format(" in {}", letter_of(n))),
+                    place_the_work});
+            continue;
+        }
+        expect_one_frame(n, move.source, line);
     }
-    const int frame = of_machine || system_known_ ? 0 : system_;
-    const int before = frame_used_.value_or(frame);
-    frame_used_ = before;
+}
+
+void Placement::expect_one_frame(int axis, SourcePlace source, std::string_view line) {
+    const Frame frame = frame_of(axis);
+    std::optional<Frame>& used = frame_used_[static_cast<std::size_t>(axis)];
+    const Frame before = used.value_or(frame);
+    used = before;
     if (frame != before) {
-        const int unknown = frame == 0 ? before : frame;
         refuse(Kind::two_systems,
-               move.source,
+               source,
                line,
                'G',
                {{},
-                fmt::format("the program also moves in another system than {}, whose offset is not known: "
+                fmt::format("the program also moves {} in another system than {}, whose offset is not known: "
                             "how their positions lie to each other nobody can say",
-                            name_of_system(unknown)),
+                            letter_of(axis),
+                            name_of_frame(frame == 0 ? before : frame)),
                 place_the_work});
     }
 }
@@ -235,11 +331,14 @@ void Placement::look_at_reference(const Move& move,
                                   std::string_view line) {
     const bool stored =
         move.words.frame != MoveFrame::reference && move.words.frame != MoveFrame::reference_2;
-    if (stored || !system_known_ || move.words.reference_set || machine_.linear_axes().empty()) {
+    if (stored || machine_.linear_axes().empty()) {
         return;
     }
     const RetractAxis retract = retract_axis(machine_);
     const std::size_t index = index_of_[static_cast<std::size_t>(retract.axis)];
+    if (frame_of(retract.axis) != 0 || ((move.words.reference_set >> index) & 1) != 0) {
+        return;
+    }
     if (known_.contains(retract.axis) && retract.sense * (to[index] - from[index]) < -same_place) {
         refuse(
             Kind::lowers,

@@ -35,21 +35,26 @@ public:
     /// The last move is the first to name one of its axes, so its length is not known.
     [[nodiscard]] bool starts_anywhere() const { return starts_anywhere_; }
 
-    /// Some move goes to a place of the machine: G53, G28, G30.
-    [[nodiscard]] bool machine_positions() const { return machine_positions_; }
-
     /// What depends on a position that was not said, the first of each kind.
     [[nodiscard]] std::vector<Diagnostic> take_unplaced() { return std::move(unplaced_); }
     /// That axes move while others have not been named yet; none where all are named first.
     [[nodiscard]] std::optional<Diagnostic> start_notice() const;
 
 private:
-    enum class Kind { increment, arc, measured, machine_position, two_systems, lowers, inverse_time };
+    enum class Kind { increment, arc, measured, stored, machine_position, two_systems, lowers, inverse_time };
+    /// What the positions of an axis count from: 0, the machine's zero; else a system of unknown offset, 1:
+    /// G54 to 9: G59.3, and 10 more where a stored G92 offset that is not known is added.
+    using Frame = int;
 
     void refuse(Kind kind, SourcePlace source, std::string_view line, char letter, Diagnostic found);
+    void refuse_at(Kind kind, SourcePlace source, int column, Diagnostic found);
+    void measured(const Command& command, std::string_view line);
+    void read_unknown(const Command& command);
+    [[nodiscard]] Frame frame_of(int axis) const;
     void expect_known_begin(const Move& move, const std::vector<int>& moving, std::string_view line);
     void take_words(const Move& move, std::string_view line);
-    void look_at_frame(const Move& move, std::string_view line);
+    void look_at_frame(const Move& move, const std::vector<int>& moving, std::string_view line);
+    void expect_one_frame(int axis, SourcePlace source, std::string_view line);
     void
     look_at_reference(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line);
     void note_first_move(const Move& move, const std::vector<int>& moving);
@@ -61,10 +66,10 @@ private:
     std::vector<std::size_t> index_of_; ///< of each axis among axis_letters
     AxisSet known_, named_;
     bool starts_anywhere_ = false;
-    int system_ = 1;            ///< 1: G54 to 9: G59.3
-    bool system_known_ = false; ///< its offset
-    bool machine_positions_ = false;
-    std::optional<int> frame_used_; ///< of the moves so far: a system without known offset, or 0: the machine
+    int system_ = 1;                               ///< 1: G54 to 9: G59.3
+    AxisBits system_known_ = 0;                    ///< axes whose offset in it is known
+    AxisBits g92_known_ = 0;                       ///< the same for G92
+    std::vector<std::optional<Frame>> frame_used_; ///< of each axis by the moves so far
     std::set<Kind> refused_;
     std::vector<Diagnostic> unplaced_;
     SourcePlace first_move_;

@@ -105,7 +105,7 @@ void make_synchronised(Run& run, const Block& block, int motion) {
 
 void take_probe_for_tripped(Run& run, const AxisValues& target) {
     AxisValues& position = run.state.position;
-    run.variables.set_axes(parameter_probe, target);
+    run.variables.set_axes(parameter_probe, target, every_axis, every_axis);
     run.variables.set(parameter_probe_result, 0.0);
     constexpr double backoff_inch = 0.01;
     const double backoff = run.state.unit == LengthUnit::mm ? backoff_inch * mm_per_inch : backoff_inch;

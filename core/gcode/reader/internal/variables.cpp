@@ -1,5 +1,6 @@
 #include "core/gcode/reader/internal/variables.h"
 
+#include "core/base/numbers.h"
 #include "core/gcode/reader/internal/refusal.h"
 
 #include <fmt/format.h>
@@ -35,19 +36,35 @@ double of_tool(int number, const Tool& tool) {
     }
 }
 
-} // namespace
+/// What the control keeps when it is switched off: G28, G30, G92, offsets and rotations of nine systems.
+bool is_stored_by_control(int number) {
+    constexpr int members = 10;
+    const auto is_among = [number](int first, int count) {
+        return number >= first && number < first + count;
+    };
+    if (is_among(parameter_g28, static_cast<int>(axis_count)) ||
+        is_among(parameter_g30, static_cast<int>(axis_count)) || is_among(parameter_g92_active, members)) {
+        return true;
+    }
+    for (int system = 1; system <= 9; ++system) {
+        if (is_among(parameter_g5x(system), members)) {
+            return true;
+        }
+    }
+    return false;
+}
 
-namespace {
-
-/// Of #<_x> to #<_w> and #<_abs_x> to #<_abs_c>.
-AxisBits axis_of_position(std::string_view name) {
+/// Of #<_x> to #<_w> and #<_abs_x> to #<_abs_c>; axes 0: of no position.
+ParameterRead position_named(std::string_view name, int column) {
     for (const std::string_view front : {"_abs_", "_"}) {
         if (name.size() == front.size() + 1 && name.starts_with(front)) {
             const auto axis = std::string_view("xyzabcuvw").find(name.back()); // as axis_letters
-            return axis == std::string_view::npos ? AxisBits{} : static_cast<AxisBits>(1U << axis);
+            return {.column = column,
+                    .axes = axis == std::string_view::npos ? AxisBits{} : static_cast<AxisBits>(1U << axis),
+                    .on_machine = front.size() > 1};
         }
     }
-    return 0;
+    return {};
 }
 
 } // namespace
@@ -71,7 +88,6 @@ double Variables::numbered(int number, int column) const {
         if (state_->cutter.on()) {
             refuse(column, "the position cannot be read while cutter compensation is on");
         }
-        positions_read_ |= static_cast<AxisBits>(1U << static_cast<unsigned>(number - first_position));
         return state_->position[static_cast<std::size_t>(number - first_position)];
     }
     if (number >= first_of_tool && number <= last_of_tool) {
@@ -84,13 +100,34 @@ std::optional<double> Variables::named(std::string_view name) const {
     const bool is_global = !name.empty() && name.front() == '_';
     if (is_global) {
         if (const auto known = predefined_value(name, *state_, program)) {
-            positions_read_ |= axis_of_position(name);
             return known;
         }
     }
     const NamedValues& values = is_global ? global_ : local_;
     const auto found = values.find(name);
     return found == values.end() ? std::nullopt : std::optional<double>(found->second);
+}
+
+void Variables::note_read(int number, int column) const {
+    if (number >= first_position && number <= last_position) {
+        reads_.push_back({.column = column, .axes = static_cast<AxisBits>(1U << (number - first_position))});
+        return;
+    }
+    const bool of_tool = number >= first_of_tool && number <= last_of_tool;
+    const bool unknown = of_tool ? ((state_->spindle_tool.unknown >> (number - first_of_tool)) & 1) != 0
+                                 : is_stored_by_control(number) && !told_[static_cast<std::size_t>(number)];
+    if (unknown) {
+        reads_.push_back({.column = column, .unknown = number});
+    }
+}
+
+void Variables::note_read(std::string_view name, int column) const {
+    if (name == "_current_tool" || name == "_current_pocket") {
+        return note_read(first_of_tool, column);
+    }
+    if (const ParameterRead read = position_named(name, column); read.axes != 0) {
+        reads_.push_back(read);
+    }
 }
 
 void Variables::check_settable(int number, int column) const {
@@ -127,19 +164,28 @@ AxisValues Variables::axes_from(int first) const {
     return values;
 }
 
-bool Variables::was_set(int first, int count) const {
-    const auto begin = told_.begin() + first;
-    return std::find(begin, begin + count, true) != begin + count;
-}
-
-bool Variables::knows_system(int system) const {
-    constexpr int members = 10; // nine offsets and the rotation
-    return was_set(parameter_g5x(system), members);
-}
-
-void Variables::set_axes(int first, const AxisValues& values) {
+AxisBits Variables::axes_set(int first) const {
+    AxisBits axes = 0;
     for (std::size_t n = 0; n < axis_count; ++n) {
-        set(first + static_cast<int>(n), values[n]);
+        axes |= told_[static_cast<std::size_t>(first) + n] ? static_cast<AxisBits>(1U << n) : AxisBits{};
+    }
+    return axes;
+}
+
+AxisBits Variables::known_in_system(int system) const {
+    constexpr AxisBits in_turned_plane = 0b11;
+    const int first = parameter_g5x(system);
+    const AxisBits axes = axes_set(first);
+    const bool turned = !exactly_equal(stored(first + static_cast<int>(axis_count)), 0.0);
+    const bool both = (axes & in_turned_plane) == in_turned_plane;
+    return turned && !both ? static_cast<AxisBits>(axes & ~in_turned_plane) : axes;
+}
+
+void Variables::set_axes(int first, const AxisValues& values, AxisBits changed, AxisBits known) {
+    for (std::size_t n = 0; n < axis_count; ++n) {
+        const std::size_t number = static_cast<std::size_t>(first) + n;
+        values_[number] = values[n];
+        told_[number] = ((changed >> n) & 1U) != 0 ? ((known >> n) & 1U) != 0 : told_[number];
     }
 }
 

@@ -20,6 +20,8 @@ inline constexpr int parameter_count = 5602; ///< numbers are below it
 /// The parameters of subroutine calls, #1 to #30.
 inline constexpr int argument_count = 30;
 
+inline constexpr AxisBits every_axis = (1U << axis_count) - 1;
+
 // Numbers of parameters that the interpreter itself reads and writes (LinuxCNC's).
 inline constexpr int parameter_probe = 5061;        ///< to 5069: where the probe tripped
 inline constexpr int parameter_probe_result = 5070; ///< 1: it tripped
@@ -44,6 +46,14 @@ struct ProgramView {
     bool value_returned = false;
 };
 
+/// A parameter that is read tells where the axes are, or what the control has stored and nobody has given.
+struct ParameterRead {
+    int column = 1;
+    int unknown = 0;         ///< the number of a stored one; 0: a position
+    AxisBits axes = 0;       ///< of the position
+    bool on_machine = false; ///< in machine coordinates
+};
+
 class Variables {
 public:
     explicit Variables(const ModalState& state);
@@ -54,6 +64,10 @@ public:
     /// Throws Refusal at `column` if there is no such parameter, or if it may not be read now.
     [[nodiscard]] double numbered(int number, int column) const;
     [[nodiscard]] std::optional<double> named(std::string_view name) const;
+    /// What the program makes of the parameter at `column` depends on its value: remembers it for
+    /// take_reads().
+    void note_read(int number, int column) const;
+    void note_read(std::string_view name, int column) const;
 
     /// Throws Refusal for a number or a name that cannot be set.
     void check_settable(int number, int column) const;
@@ -71,19 +85,21 @@ public:
 
     /// Nine values from `first` on.
     [[nodiscard]] AxisValues axes_from(int first) const;
-    void set_axes(int first, const AxisValues& values);
-    /// Whether any of `count` parameters from `first` on was ever set, be it to 0.
-    [[nodiscard]] bool was_set(int first, int count) const;
-    /// Whether anything of coordinate system `system` (1 to 9) was.
-    [[nodiscard]] bool knows_system(int system) const;
+    /// Sets nine; of the axes in `changed` the values count as known if they are in `known`.
+    void set_axes(int first, const AxisValues& values, AxisBits changed, AxisBits known);
+    /// Axes of the nine parameters from `first` on that were ever set, be it to 0.
+    [[nodiscard]] AxisBits axes_set(int first) const;
+    /// Axes whose offset in coordinate system `system` (1 to 9) is known: X and Y of a turned one only
+    /// together.
+    [[nodiscard]] AxisBits known_in_system(int system) const;
 
-    /// Axes whose position was read since the last call.
-    [[nodiscard]] AxisBits take_positions_read() { return std::exchange(positions_read_, AxisBits{}); }
+    /// Those noted since the last call.
+    [[nodiscard]] std::vector<ParameterRead> take_reads() { return std::exchange(reads_, {}); }
 
     ProgramView program;
 
 private:
-    mutable AxisBits positions_read_ = 0;
+    mutable std::vector<ParameterRead> reads_;
     const ModalState* state_;
     std::vector<double> values_;
     std::vector<bool> told_; ///< numbers that were set

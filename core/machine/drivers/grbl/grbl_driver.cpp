@@ -45,6 +45,7 @@ Capabilities GrblDriver::capabilities() const {
             .single_block = true,
             .piecewise = true,
             .mist = known.mist,
+            .firmware = facts_of(known.firmware).name,
             .dialect = gcode::Dialect::grbl};
 }
 

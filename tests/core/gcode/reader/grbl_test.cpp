@@ -58,6 +58,30 @@ TEST(Grbl, RefusesWhatItDoesNotKnowByItsOwnErrorNumbers) {
     EXPECT_THAT(grbl_refusal("G1 F1\nG2 X1 Y1 I.5 J.5 P2"), HasSubstr("(error 36)"));
 }
 
+// The advice was G90.1, which the next line of the same check refused.
+TEST(Grbl, IsNotAdvisedWhatItDoesNotKnow) {
+    const auto errors = read_grbl("G21 G90\nG0 X10 Y0\nG2 X20 Y10 I20 J0 F100\nM2\n").errors;
+    ASSERT_EQ(errors.size(), 1U);
+    EXPECT_THAT(errors[0].hint, HasSubstr("incremental centres"));
+    EXPECT_THAT(errors[0].hint, testing::Not(HasSubstr("G90.1")));
+}
+
+TEST(Grbl, CodesOfOtherFirmwareAreNotCalledUnknownToIt) {
+    const auto refusal = [](const char* firmware, const std::string& text) {
+        ReaderSettings settings = grbl();
+        settings.grbl_name = firmware;
+        const auto program = test::read_all(text, settings);
+        return program.errors.empty() ? std::string() : program.errors.front().message;
+    };
+    for (const char* line : {"G81 X1 Z-1 R1", "G43 H1", "M6", "G59.1", "M62 P1"}) {
+        EXPECT_THAT(refusal("grblHAL", line), HasSubstr("is no code of Grbl 1.1: grblHAL may have it"))
+            << line;
+    }
+    EXPECT_THAT(refusal("FluidNC", "M6"), HasSubstr("FluidNC may have it"));
+    EXPECT_EQ(refusal("FluidNC", "G81 X1 Z-1 R1"), "FluidNC does not know G81 (error 20)");
+    EXPECT_EQ(refusal("grblHAL", "G64"), "grblHAL does not know G64 (error 20)");
+}
+
 TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
     const auto arc = [](const std::string& words) { return grbl_refusal("G1 F1\n" + words); };
     EXPECT_THAT(arc("G2 Z1 I1"), HasSubstr("(error 32)"));

@@ -111,6 +111,42 @@ TEST(Klartext, ReadsInches) {
     EXPECT_DOUBLE_EQ(steps[0].value, 1.0);
 }
 
+// As controls of others write them: M behind the move, BLK FORM, comments behind blocks, lines that end as
+// DOS's.
+TEST(Klartext, ReadsWhatSurroundsTheBlocksInForeignPrograms) {
+    const auto steps = read_klartext({"BLK FORM 0.1 Z X+0 Y+0 Z-10",
+                                      "BLK FORM 0.2 X+100 Y+100 Z+0",
+                                      "* - rough ; not a block",
+                                      "TOOL CALL 1 Z S5000 F300 ; end mill",
+                                      "L X+10 Y+10 R0 FMAX M3",
+                                      "L Z-2 M8",
+                                      "L Z+5 FMAX M9",
+                                      "L M5",
+                                      "L Z+50 R0 FMAX M30"});
+    std::vector<StepKind> kinds;
+    for (const WrittenStep& step : steps) {
+        kinds.push_back(step.kind);
+    }
+    EXPECT_THAT(kinds,
+                testing::ElementsAre(StepKind::tool,
+                                     StepKind::spindle_on,
+                                     StepKind::rapid,
+                                     StepKind::coolant_on,
+                                     StepKind::feed,
+                                     StepKind::rapid,
+                                     StepKind::coolant_off,
+                                     StepKind::spindle_off,
+                                     StepKind::rapid,
+                                     StepKind::end));
+    EXPECT_EQ(steps[1].value, 5000.0);
+    EXPECT_DOUBLE_EQ(steps[4].value, 98.0 / 300.0 * 60.0); // to Z98 of the machine, by the feed of the call
+    std::string dos;
+    for (const char c : program_of({"L X+1\tFMAX", "M30 "})) {
+        dos += c == '\n' ? "\r\n" : std::string(1, c);
+    }
+    EXPECT_EQ(klartext_error(dos), "read");
+}
+
 TEST(Klartext, RefusesWhatItDoesNotKnowWithItsPlace) {
     EXPECT_THAT(error_in("L X+1 RL F60"), HasSubstr("a.h:2:9: 'RL' is not read in an L block"));
     EXPECT_THAT(error_in("L X+1"), HasSubstr("a.h:2:1: a feed move without a feed"));

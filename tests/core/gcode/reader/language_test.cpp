@@ -42,8 +42,17 @@ TEST(Language, IsKnownByALine) {
                              "T=\"MILL_10\"",
                              "G3 X10 Y5 CR=12",
                              "GOTOF ENDE",
+                             "N10 G90 G17 G710",
+                             "G505 G0 X0",
                              "%_N_PART_MPF"}) {
         EXPECT_EQ(language_of_line(line), Language::sinumerik) << line;
+    }
+    for (const char* line : {"VC1=5", "G0 X=VC1", "IF[VC1 EQ 5]N100", "VZOFZ[1]=0", "VS1=VC2+1"}) {
+        EXPECT_EQ(language_of_line(line), Language::okuma) << line;
+    }
+    for (const char* line :
+         {"IN;SP1;PU0,0;PD100,0;", "PU0,0;", "INSP1PU0,0PD100,0", "PA -10,20", "\x1B.(", "IN"}) {
+        EXPECT_EQ(language_of_line(line), Language::hpgl) << line;
     }
     for (const char* line : {"G1 X10.2 Y3 E0.0432", "G92 E0", "M109 S210", "M82 ;absolute extrusion"}) {
         EXPECT_EQ(language_of_line(line), Language::printer) << line;
@@ -62,6 +71,9 @@ TEST(Language, LinesOfGcodeShowNone) {
                              "; M104 S200",
                              "G2 X1 Y1 R5",
                              "M2",
+                             "INSERT THE TOOL",
+                             "SPINDLE ON",
+                             "N5 G54 G17 G64 P0.05",
                              "%",
                              "",
                              "T1 M6"}) {
@@ -92,6 +104,14 @@ TEST(Language, AProgramIsRefusedInOneLine) {
                 HasSubstr(":1:1: this is Heidenhain Klartext"));
     EXPECT_THAT(refusal("#1=0\nWHILE [#1 LT 3] DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n"),
                 HasSubstr(":2:1: this is Fanuc custom macro B"));
+    EXPECT_THAT(refusal("N10 G90 G17 G710\nN20 T=\"MILL\" D1\nN50 M30\n"),
+                HasSubstr(":1:1: this is the Sinumerik language"));
+    EXPECT_THAT(refusal("G15 H1\nVC1=5\nG0 X=VC1\nM2\n"),
+                HasSubstr("this is the language of Okuma's OSP controls"));
+    EXPECT_THAT(refusal("IN;SP1;PU0,0;PD100,0;\n"), HasSubstr(":1:1: this is HPGL, a plot, not G-code"));
+    settings.dialect = Dialect::grbl;
+    EXPECT_THAT(refusal("IN;SP1;PU0,0;PD100,0;\n"), HasSubstr(":1:1: this is HPGL, a plot, not G-code"));
+    settings.dialect = Dialect::linuxcnc;
     EXPECT_THAT(refusal("G21\nG1 X1 Y2 E0.5 F100\nG1 X2 E0.7\nM84\n"),
                 HasSubstr(":2:1: this is a program of a 3D"));
 }

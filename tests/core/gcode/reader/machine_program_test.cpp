@@ -246,7 +246,7 @@ TEST(MachineProgram, WorkSystemsAreUnknownWhereNobodyToldTheirOffset) {
     };
     EXPECT_THAT(said("G10 L2 P2 X50 Y20 Z0\nG55\nG0 X1\n"), ElementsAre());
     EXPECT_THAT(said("G10 L2 P2 X0\nG55\n"), ElementsAre());
-    EXPECT_THAT(said("G10 L2 P9 R30\nG59.3\n"), ElementsAre());
+    EXPECT_THAT(said("G10 L2 P9 R30\nG59.3\n"), ElementsAre(HasSubstr("of G59.3: it is taken for 0")));
     EXPECT_THAT(said("#5241=50\nG55\n"), ElementsAre());
     EXPECT_THAT(said("G10 L20 P3 Z1\nG56\nG54\n"), ElementsAre());
     EXPECT_THAT(

@@ -36,7 +36,7 @@ std::vector<std::string> unplaced(const std::string& text, const ReaderSettings&
 
 ReaderSettings with_origin(const Vec3& origin) {
     ReaderSettings settings;
-    put_origin(settings, origin);
+    put_origin(settings, WorkOrigin(origin));
     return settings;
 }
 
@@ -103,7 +103,6 @@ TEST(Placement, OffsetsAreNotTakenFromWhereNobodyKnows) {
     EXPECT_THAT(unplaced("G21 G90\nG52 X5\nG0 X10\nM2\n"), IsEmpty());
 }
 
-// The usual end of a Fusion 360 program became a rapid to Z0 of the work, the spindle turning.
 // They read as 0 and became words: G0 Z0.
 TEST(Placement, ParametersOfAPositionThatNobodyKnowsAreNoWords) {
     for (const std::string read : {"#<_z>", "#<_abs_z>", "#5422", "[#5422+0]"}) {
@@ -115,6 +114,111 @@ TEST(Placement, ParametersOfAPositionThatNobodyKnowsAreNoWords) {
     EXPECT_THAT(unplaced("G21 G90\n#1=#5422\nG0 Z#1\nM2\n"), testing::SizeIs(1));
 }
 
+// What only the control knows read as 0, too: G0 Z[0-#5223] went to Z0.
+TEST(Placement, StoredParametersThatNobodyGaveAreNoWords) {
+    const auto reads = [](const std::string& parameter, const ReaderSettings& settings = {}) {
+        return unplaced("G21 G90\nG0 X1 Y1 Z50\nG0 Z[0-" + parameter + "]\nM2\n", settings);
+    };
+    for (const char* const number : {"#5161",
+                                     "#5169",
+                                     "#5181",
+                                     "#5210",
+                                     "#5213",
+                                     "#5221",
+                                     "#5223",
+                                     "#5230",
+                                     "#5243",
+                                     "#5383",
+                                     "#5390"}) {
+        EXPECT_THAT(reads(number),
+                    ElementsAre(testing::AllOf(HasSubstr("part.ngc:3:8: " + std::string(number) + " is "),
+                                               HasSubstr("its value is not known"))));
+    }
+    EXPECT_THAT(reads("#5243"), ElementsAre(HasSubstr("an offset of G55, and its value is not known (say")));
+    EXPECT_THAT(reads("#5163"), ElementsAre(HasSubstr("the stored position of G28")));
+    EXPECT_THAT(reads("#5220"), IsEmpty()); // the number of the system in force
+    EXPECT_THAT(reads("#100"), IsEmpty());  // the user's own begin at 0
+    ReaderSettings known;
+    known.parameters = {{5223, -5.0}, {5163, 0.0}};
+    EXPECT_THAT(reads("#5223", known), IsEmpty());
+    EXPECT_THAT(reads("#5163", known), IsEmpty());
+    EXPECT_THAT(reads("#5222", known), testing::SizeIs(1));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Z5\n(debug, #5223)\nM2\n"), IsEmpty());
+}
+
+TEST(Placement, AParameterOfTheMachinePositionNeedsTheOffset) {
+    const std::string program = "G21 G90\nG0 X1 Y1 Z5\nG0 Z#<_abs_z>\nM2\n";
+    EXPECT_THAT(unplaced(program),
+                ElementsAre(HasSubstr("part.ngc:3:5: a parameter takes the position of Z on the machine, and "
+                                      "the offset of G54 is not known")));
+    EXPECT_THAT(unplaced(program, with_origin(Vec3(0, 0, 20))), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG55\n#1=#5422\nG54\nG0 Z#1\nM2\n"),
+                ElementsAre(HasSubstr("a parameter takes the position of Z in G55")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG28.1\nG0 Z#5163\nM2\n"), // offset and all
+                ElementsAre(HasSubstr("#5163 is the stored position of G28")));
+}
+
+TEST(Placement, DataOfAToolThatNoTableHasAreNoWords) {
+    const std::string program = "G21 G90\nG0 X1 Y1 Z5\nT1 M6\nG0 Z#5403\nM2\n";
+    ReaderSettings any;
+    any.any_tool = true;
+    EXPECT_THAT(unplaced(program, any),
+                ElementsAre(HasSubstr("part.ngc:4:5: #5403 is data of the tool in the spindle, and its value "
+                                      "is not known (load the tool with T and M6")));
+    ReaderSettings listed;
+    listed.tools = parse_tool_table("T1 P1 Z40 D6\n", "tool.tbl");
+    EXPECT_THAT(unplaced(program, listed), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG0 Z#5403\nM2\n", listed), testing::SizeIs(1));
+    EXPECT_THAT(unplaced("G21 G90\nG10 L1 P1 Z7\nT1 M6\nG0 X1 Y1 Z#5403\nM2\n", any), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG10 L1 P1 Z7\nT1 M6\nG0 X#5410 Y1 Z1\nM2\n", any), testing::SizeIs(1));
+    EXPECT_THAT(unplaced("G21 G90\nT1 M6\nG0 X#5400 Y1 Z1\nM2\n", any), IsEmpty());
+}
+
+// An origin without Z, or a parameter file with X and Y alone: G53 G0 Z0 was a rapid to Z0 of the work.
+TEST(Placement, TheOffsetOfASystemIsKnownForEachAxis) {
+    const std::string down = "G21 G90\nG0 X1 Y1 Z50\nG53 G0 Z0\nX9\nM2\n";
+    const auto without_z = HasSubstr("part.ngc:3:1: G53 goes to a machine position, and where the program's "
+                                     "zero lies on the machine is not known in Z (say where");
+    ReaderSettings flat;
+    put_origin(flat, WorkOrigin(10, 10));
+    EXPECT_THAT(unplaced(down, flat), ElementsAre(without_z));
+    ReaderSettings file;
+    file.parameters = {{5221, 10.0}, {5222, 20.0}};
+    EXPECT_THAT(unplaced(down, file), ElementsAre(without_z));
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X1 Y2\nG0 X1 Y1 Z50\nG53 G0 Z0\nM2\n"),
+                ElementsAre(HasSubstr("is not known in Z")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z50\nG10 L20 P1 Z0\nG53 G0 Z0\nM2\n"),
+                ElementsAre(HasSubstr("G53 goes to a machine position"))); // the place itself is not known
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z50\nG53 G0 X0 Y0\nM2\n", flat), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG28 X0 Y0\nG28 Z9\nM2\n", flat),
+                ElementsAre(HasSubstr("part.ngc:4:1: G28 goes to a machine position")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Z5\nG55\nG0 X1\nZ5\nM2\n", flat),
+                ElementsAre(HasSubstr("part.ngc:5:1: the program also moves Z in another system than G55")));
+    EXPECT_THAT(unplaced(down, with_origin(Vec3(1, 2, 3))), IsEmpty());
+    file.parameters.emplace_back(5230, 30.0); // turned: X and Y only together
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG53 X0\nM2\n", file), IsEmpty());
+    file.parameters.erase(file.parameters.begin() + 1);
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG53 X0\nM2\n", file), testing::SizeIs(1));
+}
+
+TEST(Placement, AStoredG92OffsetIsKnownForEachAxis) {
+    ReaderSettings stored = with_origin(Vec3(1, 2, 3));
+    stored.parameters.insert(stored.parameters.end(), {{5210, 1.0}, {5211, 4.0}, {5212, 0.0}});
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG53 X0\nG53 Z0\nM2\n", stored),
+                ElementsAre(HasSubstr("part.ngc:4:1: G53 goes")));
+    EXPECT_THAT(unplaced("G21 G90\nG92.1\nG0 X1 Y1 Z5\nG53 Z0\nM2\n", stored), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG92.3\nG0 Z5\nM2\n", with_origin(Vec3(1, 2, 3))),
+                ElementsAre(HasSubstr("moves Z in another system than G92, whose offset is not known")));
+}
+
+TEST(Placement, AStoredReferenceIsKnownForEachAxis) {
+    ReaderSettings stored = with_origin(Vec3(0, 0, 20));
+    stored.parameters.insert(stored.parameters.end(), {{5161, 1.0}, {5162, 1.0}});
+    EXPECT_THAT(unplaced("G90 G21\nG0 X0 Y0 Z10\nG28 G91 Z0\nM2\n", stored),
+                ElementsAre(HasSubstr("G28 would take Z from 30.000 to 0.000, towards the part")));
+}
+
+// The usual end of a Fusion 360 program became a rapid to Z0 of the work, the spindle turning.
 TEST(Placement, MachinePositionsNeedToKnowWhereTheWorkLies) {
     const std::string end_of_fusion = "G90 G21\nG0 X10 Y10\nZ25\nG1 Z8 F300\nG0 Z25\nG28 G91 Z0\nM5\nM30\n";
     EXPECT_THAT(
@@ -144,7 +248,7 @@ TEST(Placement, ARetractToWhereNobodyStoredAPositionDoesNotGoDown) {
 
 TEST(Placement, PositionsOfTwoSystemsNeedBothOffsets) {
     EXPECT_THAT(unplaced("G21 G90\nG0 X1\nG55\nG0 X1\nM2\n"),
-                ElementsAre(HasSubstr("part.ngc:4:1: the program also moves in another system than G55")));
+                ElementsAre(HasSubstr("part.ngc:4:1: the program also moves X in another system than G55")));
     EXPECT_THAT(unplaced("G21 G90\nG55\nG0 X1\nG55 X2\nM2\n"), IsEmpty());
     EXPECT_THAT(unplaced("G21 G90\nG10 L2 P2 X9\nG0 X1\nG55\nG0 X1\nM2\n"),
                 ElementsAre(HasSubstr("than G54")));

@@ -8,12 +8,15 @@
 #include "tests/core/gcode/reader/read_program.h"
 #include "tests/support/scratch_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
 namespace millwright::gcode {
 namespace {
+
+using ::testing::MatchesRegex;
 
 const std::string mark = "\xEF\xBB\xBF";
 const std::string dos_end = "\x1A";
@@ -29,6 +32,7 @@ public:
 TEST(ProgramText, IsWithoutMarkAndWithoutTheEndOfDos) {
     EXPECT_EQ(program_text(mark + "G21\nM2\n" + dos_end + dos_end), "G21\nM2\n");
     EXPECT_EQ(program_text("M2" + dos_end), "M2");
+    EXPECT_EQ(program_text(std::string("M2\n\x1A\0\0", 6)), "M2\n"); // a block filled up
     EXPECT_EQ(program_text("G21"), "G21");
     EXPECT_EQ(program_text(mark), "");
     EXPECT_EQ(program_text(""), "");
@@ -39,7 +43,8 @@ TEST(ProgramText, IsReadTheSameFromTextAndFromAFile) {
     const test::ScratchFolder folder;
     for (const std::string& text : {mark + "G0 X1\nM98 P7\nG0 X2\nM2\nO7\nG0 X5\nM99\n" + dos_end,
                                     mark + "%\nG0 X1\nG0 X2\nG0 X3\n%\r\n" + dos_end + dos_end,
-                                    "G0 X1\nG0 X2\nG0 X3\nM2" + dos_end}) {
+                                    "G0 X1\nG0 X2\nG0 X3\nM2" + dos_end,
+                                    "G0 X1\nG0 X2\nG0 X3\nM2\n" + std::string(100'000, '\0')}) {
         CountedMoves of_text, of_file;
         Interpreter by_text(text, "part.ngc", {}, of_text);
         by_text.run();
@@ -51,6 +56,31 @@ TEST(ProgramText, IsReadTheSameFromTextAndFromAFile) {
         EXPECT_TRUE(by_file.errors().empty()) << to_text(by_file.errors().front());
         EXPECT_EQ(of_text.count, 3);
         EXPECT_EQ(of_file.count, 3);
+    }
+}
+
+// Each line was refused anew, and for Grbl with words about numbers.
+TEST(ProgramText, WhatIsNoPlainTextIsRefusedOnceInEveryDialect) {
+    using namespace std::string_literals;
+    const auto errors = [](const std::string& text, Dialect dialect) {
+        ReaderSettings settings;
+        settings.dialect = dialect;
+        settings.most_errors = 100;
+        settings.read_on = true;
+        std::string all;
+        for (const Diagnostic& error : test::read_all(text, settings).errors) {
+            all += to_text(error) + "\n";
+        }
+        return all;
+    };
+    for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl}) {
+        EXPECT_THAT(errors("G\0002\0001\0\n\0G\0000\0\n\0"s, dialect),
+                    MatchesRegex(".*:1:1: the text is UTF-16 \\(save it as plain text\\)\n"));
+        EXPECT_THAT(errors("\xFF\xFE\0\0G\0\0\0\n\0\0\0"s, dialect),
+                    MatchesRegex(".*:1:1: the text is UTF-32 \\(save it as plain text\\)\n"));
+        EXPECT_THAT(errors("G21\nG0\0 X1\nG0\0 X2\nM2\n"s, dialect),
+                    MatchesRegex(".*:2:3: byte 0x00 is in no text: this is a binary file.*\n"));
+        EXPECT_EQ(errors("G21\nG0 X1\nM2\n\0\0\0\0"s, dialect), "");
     }
 }
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace millwright::machine::grbl {
@@ -35,6 +37,16 @@ std::string named_item(const Readout& readout, std::size_t n, std::string_view i
     const auto letter = static_cast<char>(std::tolower(static_cast<unsigned char>(readout.axes[n])));
     const auto found = readout.named.find(fmt::format("/axes/{}/{}", letter, item));
     return found == readout.named.end() ? std::string() : found->second;
+}
+
+/// "A, B and C"
+std::string listed(std::string_view letters) {
+    std::string text;
+    for (std::size_t n = 0; n < letters.size(); ++n) {
+        text += n == 0 ? "" : n + 1 == letters.size() ? " and " : ", ";
+        text += letters[n];
+    }
+    return text;
 }
 
 struct Interval {
@@ -119,18 +131,20 @@ std::vector<std::string> setup_remarks(const Readout& readout) {
         not_homed.append(!checked && travel && *travel > 0.0 ? 1 : 0, readout.axes[n]);
     }
     if (!lengths.empty()) {
-        remarks.push_back(
-            fmt::format("It takes {} for lengths ($376): a program in inches would turn 25.4 times "
-                        "as far. Set $376 for rotary axes, 1 for A, 2 for B, 4 for C.",
-                        lengths));
+        remarks.push_back(fmt::format(
+            "Setting $376 does not mark {} as rotary: in a program in inches they would turn 25.4 "
+            "times as far. Add 1 for A, 2 for B, 4 for C to $376.",
+            listed(lengths)));
     }
     if (!unknown.empty()) {
         remarks.push_back(
-            fmt::format("The travel of {} is not known: no program is checked against it.", unknown));
+            fmt::format("The travel of {} is not known: no program is checked against it.", listed(unknown)));
     }
     if (!not_homed.empty()) {
-        remarks.push_back(
-            fmt::format("{} does not home: no program is checked against its travel.", not_homed));
+        remarks.push_back(fmt::format("{} {} not home: no program is checked against {} travel.",
+                                      listed(not_homed),
+                                      not_homed.size() > 1 ? "do" : "does",
+                                      not_homed.size() > 1 ? "their" : "its"));
     }
     return remarks;
 }

@@ -1,6 +1,7 @@
 #include "core/machine/drivers/grbl/internal/program_lines.h"
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/machine/drivers/grbl/internal/words.h"
 
 #include <fmt/format.h>
@@ -18,6 +19,21 @@ namespace {
 
 [[noreturn]] void fail(const Place& place, std::string message, std::string hint) {
     throw Error(Diagnostic{place, std::move(message), std::move(hint)});
+}
+
+/// A file that is no plain text is one fault, not one for each of its characters.
+void expect_text(const gcode::Listing& listing, const std::filesystem::path& file) {
+    const std::string_view text = listing.text;
+    if (const std::string_view encoding = wide_encoding(text); !encoding.empty()) {
+        fail({file, 1, 1, -1}, fmt::format("the text is {}", encoding), "save it as plain text");
+    }
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+        const auto line = std::ranges::upper_bound(listing.line_starts, zero) - listing.line_starts.begin();
+        const std::size_t begin = listing.line_starts[static_cast<std::size_t>(line - 1)];
+        fail({file, static_cast<int>(line), static_cast<int>(zero - begin) + 1, -1},
+             "byte 0x00 is in no text: this is a binary file",
+             "choose a program");
+    }
 }
 
 /// Takes off blanks and comments and looks at every character that remains.
@@ -204,6 +220,7 @@ int ProgramLines::blocks_before(int count) const {
 
 ProgramLines
 program_lines(const gcode::Listing& listing, const std::filesystem::path& file, std::size_t longest) {
+    expect_text(listing, file);
     ProgramLines result;
     result.blocks = static_cast<int>(listing.line_of_block.size());
     SureMoves sure;

@@ -281,6 +281,25 @@ TEST(GrblFirmware, FieldsThatGrblDoesNotSendAreGarbageFromGrblAlone) {
     }
 }
 
+// It was refused as a real-time command, by the first byte of the mark.
+TEST(GrblFirmware, IsNotSentWhatIsNoPlainText) {
+    using namespace std::string_literals;
+    const auto refusal = [](const std::string& text) {
+        try {
+            (void)program_lines(test::listing_of(text), "part.nc");
+        } catch (const Error& error) {
+            return to_text(error.diagnostic());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal("\xFF\xFEG\0002\0001\0\n\0"s),
+              "part.nc:1:1: the text is UTF-16 (save it as plain text)");
+    EXPECT_EQ(refusal("G\0\0\0002\0\0\0\n\0\0\0"s),
+              "part.nc:1:1: the text is UTF-32 (save it as plain text)");
+    EXPECT_THAT(refusal("G21\nG0 X1\0\nM2\n"s), HasSubstr("part.nc:2:6: byte 0x00 is in no text"));
+    EXPECT_EQ(refusal("G21\nG0 X1\nM2\n"), "");
+}
+
 TEST(GrblFirmware, LimitsAreThoseOfItsSettings) {
     GrblWire wire({}, hal("XYZAB"), {}, "$22=1\n$130=300\n$134=90\n$376=1\n");
     link_anew(wire);
@@ -291,8 +310,9 @@ TEST(GrblFirmware, LimitsAreThoseOfItsSettings) {
     EXPECT_NEAR(*limits.axes[3].speed, from_degrees(60.0), 1e-9);
     EXPECT_FALSE(limits.axes[3].min || limits.axes[3].travel); // $133=0: without end
     EXPECT_FALSE(limits.axes[4].min);                          // it does not home
-    EXPECT_THAT(setup_remarks(wire.session.readout()),
-                ElementsAre(HasSubstr("takes B for lengths ($376)"), HasSubstr("B does not home")));
+    EXPECT_THAT(
+        setup_remarks(wire.session.readout()),
+        ElementsAre(HasSubstr("Setting $376 does not mark B as rotary"), HasSubstr("B does not home")));
     GrblWire fluidnc({}, fluid("XYZA"), {}, "$/axes/x/max_travel_mm=250\n$/axes/x/homing/cycle=1\n");
     link_anew(fluidnc);
     const MachineLimits by_name = machine_limits(fluidnc.session.readout());
