@@ -174,6 +174,17 @@ public:
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);
+    /// Assembler text, an image, a microprogram as files of their own; opened ones go into the editors and
+    /// are executed. Each throws Error and ends the question.
+    void open_assembler(const std::filesystem::path& file);
+    void save_assembler(const std::filesystem::path& file);
+    void save_image(const std::filesystem::path& file); ///< of the program that is executed
+    void open_microprogram(const std::filesystem::path& file);
+    void save_microprogram(const std::filesystem::path& file);
+    /// The program that is executed becomes assembler text, to be changed there.
+    void take_over_assembler();
+    /// The processor's own microprogram becomes one of the project's, to be changed there.
+    void start_microprogram();
 
     [[nodiscard]] Session& session() { return session_; }
     /// Blocks until nothing runs in the background (tests, pictures).
@@ -217,6 +228,8 @@ private:
     void follow_begin();
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
+    void write_assembler(const std::string& title, const std::string& text);
+    void write_microprogram(const std::string& title, const std::string& text);
     [[nodiscard]] bool follow_arm(double seconds);
     void follow_arm_work();
     void guarded(const std::function<void()>& action);

@@ -8,8 +8,8 @@ namespace millwright::panels {
 using widgets::Rank;
 
 MotionFilePanel::MotionFilePanel(const actions::Catalogue& catalogue)
-    : catalogue_(catalogue),
-      editor_({&project::ArmInput::motion_file, "Write a motion file", "motion file"}) {}
+    : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::motion_file>(
+                                 "Write a motion file", "motion file")) {}
 
 void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {
