@@ -146,6 +146,9 @@ public:
     void play_motion_file(const std::filesystem::path& file);
     /// The motion file of the project, from the home of the thesis on: the drawn arm alone. Throws Error.
     void simulate_motion_file();
+    /// The same by the motors of an emulated card, which gets its points through its dual-ported RAM. Throws
+    /// Error.
+    void stream_motion_file();
     /// The same from where the arm stands: the drawn arm, or the connected one. Throws Error.
     void play_motion_text();
     /// The motion file as a file of its own, and the points and joints of it from the home of the thesis on,
