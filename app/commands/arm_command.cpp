@@ -7,6 +7,7 @@
 #include "app/commands/arm_pose.h"
 #include "app/commands/arm_reach.h"
 #include "app/commands/arm_service.h"
+#include "app/commands/arm_stream.h"
 #include "core/base/files.h"
 #include "core/kinematics/arm_motion_file.h"
 #include "core/kinematics/arm_motion_ways.h"
@@ -84,6 +85,7 @@ void add_arm_command(CLI::App& app, Command& chosen) {
     add_arm_reach_command(group, chosen);
     add_arm_service_commands(group, chosen);
     add_arm_motor_commands(group, chosen);
+    add_arm_stream_command(group, chosen);
 }
 
 } // namespace millwright::app

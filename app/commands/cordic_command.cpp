@@ -4,6 +4,7 @@
 #include "app/commands/cordic_compare.h"
 #include "app/commands/cordic_pass.h"
 #include "app/commands/cordic_programs.h"
+#include "app/commands/cordic_rtl_processor.h"
 #include "app/commands/cordic_run.h"
 #include "app/commands/cordic_sew.h"
 #include "app/outputs.h"
@@ -220,6 +221,7 @@ void add_cordic_command(CLI::App& app, Command& chosen) {
     add_cordic_compare(group, chosen);
     add_cordic_sew(group, chosen);
     add_rtl(group, chosen);
+    add_cordic_rtl_processor(group, chosen);
 }
 
 } // namespace millwright::app

@@ -36,14 +36,6 @@ std::span<const std::uint8_t> text_bytes(const std::string& text) {
     return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-cordic::MadeFor asked_for(const CordicArithmetic& arithmetic) {
-    const cordic::MadeFor usual;
-    return {arithmetic.iterations.value_or(usual.iterations),
-            arithmetic.rounding ? cordic::parse_rounding(*arithmetic.rounding) : usual.rounding,
-            arithmetic.matlab_zero ? cordic::SignOfZero::zero : usual.zero,
-            arithmetic.thesis_direction ? cordic::ArcSense::thesis : usual.sense};
-}
-
 cordic::ProcessorSettings processor_settings(const cordic::MadeFor& made_for) {
     cordic::ProcessorSettings settings;
     settings.sequence = cordic::sequence_of(made_for);
@@ -54,7 +46,7 @@ cordic::ProcessorSettings processor_settings(const cordic::MadeFor& made_for) {
 }
 
 gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic& arithmetic) {
-    const cordic::MadeFor made_for = asked_for(arithmetic);
+    const cordic::MadeFor made_for = made_for_options(arithmetic);
     gcode::CordicProgramSettings settings;
     settings.format = source_format(source);
     settings.processor = processor_settings(made_for);
@@ -136,8 +128,8 @@ gcode::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& 
 }
 
 gcode::CordicProgram assembled(const CordicSource& source, const CordicArithmetic& arithmetic) {
-    auto made =
-        cordic::assemble(read_file(source.file), source.file, source_format(source), asked_for(arithmetic));
+    auto made = cordic::assemble(
+        read_file(source.file), source.file, source_format(source), made_for_options(arithmetic));
     refuse(made.errors);
     expect_format(source, made.image.format);
     expect_arithmetic(source, arithmetic, made.image.made_for);
@@ -200,16 +192,28 @@ void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic) {
         "--matlab-zero", arithmetic.matlab_zero, "The thesis's MATLAB model where an angle is 0");
 }
 
-void add_cordic_choice(CLI::App& command, CordicChoice& choice) {
-    add_cordic_arithmetic(command, choice.arithmetic);
+cordic::MadeFor made_for_options(const CordicArithmetic& arithmetic) {
+    const cordic::MadeFor usual;
+    return {arithmetic.iterations.value_or(usual.iterations),
+            arithmetic.rounding ? cordic::parse_rounding(*arithmetic.rounding) : usual.rounding,
+            arithmetic.matlab_zero ? cordic::SignOfZero::zero : usual.zero,
+            arithmetic.thesis_direction ? cordic::ArcSense::thesis : usual.sense};
+}
+
+void add_cordic_unit(CLI::App& command, CordicChoice& choice) {
     command.add_option("--wait-states", choice.wait_states, "Clocks that a bus cycle waits")
         ->check(CLI::Range(0, 255));
     command.add_flag("--over-bus", choice.over_bus, "Set-points byte by byte over the bus");
-    command.add_option("--microprogram", choice.microprogram, "A microprogram of one's own")
-        ->type_name("FILE");
     command.add_flag("--whole-acceleration",
                      choice.whole_acceleration,
                      "Give the axes Amax, not Amax/2 as in eq. 4.2 of the thesis");
+}
+
+void add_cordic_choice(CLI::App& command, CordicChoice& choice) {
+    add_cordic_arithmetic(command, choice.arithmetic);
+    add_cordic_unit(command, choice);
+    command.add_option("--microprogram", choice.microprogram, "A microprogram of one's own")
+        ->type_name("FILE");
 }
 
 void add_cordic_clock(CLI::App& command, double& clock_hz) {

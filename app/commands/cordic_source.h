@@ -49,7 +49,11 @@ void add_cordic_source(CLI::App& command,
                        CordicSource& source,
                        const char* kinds = "G-code, assembler text (.asm) or image (.bin)");
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic);
-void add_cordic_choice(CLI::App& command, CordicChoice& choice); ///< the arithmetic among it
+/// Wait states, set-points over the bus, the whole acceleration.
+void add_cordic_unit(CLI::App& command, CordicChoice& choice);
+void add_cordic_choice(CLI::App& command, CordicChoice& choice); ///< both, and a microprogram
+/// What a program is made for where only the options say so.
+[[nodiscard]] cordic::MadeFor made_for_options(const CordicArithmetic& arithmetic);
 void add_cordic_clock(CLI::App& command, double& clock_hz);
 
 /// Throws Error if there are any: it, or how many they are behind the first of them, which are printed.

@@ -1,22 +1,25 @@
 #include "core/cordic/rtl.h"
 
-#include "core/base/error.h"
 #include "core/cordic/internal/verilog.h"
 
 #include <fmt/format.h>
 
 namespace millwright::cordic {
 
+Error no_hardware_of(const NumberFormat& format) {
+    return Error(
+        fmt::format("hardware is made for fixed point, not for {}", to_text(format)),
+        {},
+        "as q2.22: a shift is then a wire; in floating point each addition of a step would need an adder "
+        "that aligns, normalises and rounds, which is not generated");
+}
+
 std::vector<RtlFile> make_rtl(const NumberFormat& format,
                               const Sequence& sequence,
                               std::int64_t vector_count,
                               std::uint64_t seed) {
     if (format.kind != NumberKind::fixed) {
-        throw Error(
-            fmt::format("hardware is made for fixed point, not for {}", to_text(format)),
-            {},
-            "as q2.22: a shift is then a wire; in floating point each addition of a step would need an adder "
-            "that aligns, normalises and rounds, which is not generated");
+        throw no_hardware_of(format);
     }
     expects(vector_count > 0, "a test bench has vectors");
     const internal::Verilog verilog(format, sequence);

@@ -3,6 +3,7 @@
 // bench that compares it with vectors of the model.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/cordic/number_format.h"
 #include "core/cordic/sequence.h"
 
@@ -16,6 +17,9 @@ struct RtlFile {
     std::string name; ///< cordic_core.v, cordic_pipeline.v, a bench of each as cordic_core_tb.v, vectors.hex
     std::string text;
 };
+
+/// Why there is no hardware of a format that is not fixed point.
+[[nodiscard]] Error no_hardware_of(const NumberFormat& format);
 
 /// Throws Error unless `format` is fixed point. `vector_count` random inputs, rotations and vectorings in
 /// turn, a few of them so large that they overflow, go into vectors.hex with the model's results.

@@ -163,6 +163,19 @@ std::vector<ArmRecord> simulate_arm(const ArmModel& arm,
     return simulation.take();
 }
 
+std::vector<std::array<double, 3>> first_turns_deg(const std::vector<ArmRecord>& records) {
+    std::vector<std::array<double, 3>> turns;
+    for (const ArmRecord& record : records) {
+        std::array<double, 3> turn{};
+        for (std::size_t n = 0; n < turn.size(); ++n) {
+            const auto joint = static_cast<Eigen::Index>(n);
+            turn[n] = to_degrees(record.joints[joint] - records.front().joints[joint]);
+        }
+        turns.push_back(turn);
+    }
+    return turns;
+}
+
 std::string arm_result_text(const std::vector<ArmRecord>& records) {
     std::string text;
     for (const ArmRecord& record : records) {

@@ -5,6 +5,7 @@
 #include "core/kinematics/arm_model.h"
 #include "core/kinematics/arm_motion_file.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -30,6 +31,10 @@ struct ArmRecord {
                                                   const JointPositions& start,
                                                   double step_mm,
                                                   const std::filesystem::path& file);
+
+/// The first three joints of each, from where the first record stands, deg: what a card of three axes is
+/// told.
+[[nodiscard]] std::vector<std::array<double, 3>> first_turns_deg(const std::vector<ArmRecord>& records);
 
 /// The result file, byte for byte in its layout: position and five joints a record, five decimals.
 [[nodiscard]] std::string arm_result_text(const std::vector<ArmRecord>& records);

@@ -12,6 +12,7 @@
 #include "core/kinematics/rotary_tilt.h"
 #include "core/project/arm_input.h"
 #include "core/project/plot_input.h"
+#include "core/project/processor_input.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/sequenced_path.h"
 
@@ -171,6 +172,7 @@ struct Project {
     ProgramInput program;
     PlotInput plot; ///< beside the surface
     ArmInput arm;   ///< beside both
+    ProcessorInput processor;
 
     friend bool operator==(const Project&, const Project&) = default;
 };

@@ -250,7 +250,8 @@ Project project(const JsonValue& root, const fs::path& folder) {
                       "sequencing",
                       "program",
                       "plot",
-                      "arm"});
+                      "arm",
+                      "processor"});
     if (root.at("format").text() != project_format_name) {
         root.at("format").fail("not a project file", fmt::format("expected \"{}\"", project_format_name));
     }
@@ -277,6 +278,10 @@ Project project(const JsonValue& root, const fs::path& folder) {
     if (const auto value = root.find("plot")) {
         result.plot = plot_of(*value);
         result.plot.file = from_folder(result.plot.file, folder);
+    }
+    if (const auto value = root.find("processor")) {
+        value->expect_only({"assembler", "microprogram"});
+        result.processor = {value->at("assembler").text(), value->at("microprogram").text()};
     }
     if (const auto value = root.find("arm")) {
         result.arm = arm_of(*value);
@@ -418,6 +423,10 @@ std::string project_text(const Project& project) {
     }
     if (!(project.arm == ArmInput{})) {
         json["arm"] = json_of(project.arm);
+    }
+    if (!(project.processor == ProcessorInput{})) {
+        json["processor"] = {{"assembler", project.processor.assembler},
+                             {"microprogram", project.processor.microprogram}};
     }
     return json_text(json);
 }

@@ -309,6 +309,21 @@ TEST(Arm, SimulatesTheFileOfTheThesis) {
                 HasSubstr("three-lines.mot:2: the arm does not"));
 }
 
+TEST(Arm, StreamsAMotionFileThroughTheDualPortedRam) {
+    const ScratchFolder scratch;
+    const std::string file = (scratch / "line.mot").string(), watch = (scratch / "buffer.csv").string();
+    write_content(file, "G1 X0 Y100 Z-50 ;\n");
+    const Ended ended = run({"arm", "stream", file, "--step", "10", "--watch", watch});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("13 points, 13 interrupts of EQU1"));
+    const std::string rows = content_of(watch);
+    EXPECT_THAT(rows, testing::StartsWith("time_s,m151,m152,m153,m154,m155,sent,equ1,x_deg,y_deg,z_deg\n"));
+    EXPECT_THAT(rows, HasSubstr(",1,1,1,0,")); // running, a point waits, the first one, not yet taken
+    EXPECT_THAT(rows, HasSubstr(",1,0,13,13,"));
+    write_content(file, "X3000 ;");
+    EXPECT_EQ(run({"arm", "stream", file}).exit_code, 1);
+}
+
 TEST(Arm, MakesItsBodies) {
     const ScratchFolder scratch;
     const std::string out = (scratch / "arm.glb").string();

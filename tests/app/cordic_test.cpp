@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::test {
@@ -307,6 +308,31 @@ TEST(Cordic, WritesHardwareForFixedPoint) {
     const Ended floating = run({"cordic", "rtl", "--format", "f32", "--out", folder.path().string()});
     EXPECT_EQ(floating.exit_code, 1);
     EXPECT_THAT(floating.err, HasSubstr("hardware is made for fixed point"));
+}
+
+TEST(Cordic, WritesTheWholeProcessorAsHardware) {
+    const ScratchFolder folder;
+    const std::string out = folder.path().string();
+    const Ended random = run({"cordic", "rtl-processor", "--out", out, "--instructions", "10"});
+    EXPECT_EQ(random.exit_code, 0) << random.err;
+    EXPECT_THAT(random.out, HasSubstr("iverilog -g2001 -s gcode_processor_tb"));
+    EXPECT_THAT(content_of(folder.path() / "arithmetic_unit.v"), HasSubstr("q12.20"));
+    const Ended of_arc = run({"cordic", "rtl-processor", thesis_arc, "--out", out});
+    EXPECT_EQ(of_arc.exit_code, 0) << of_arc.err;
+    EXPECT_THAT(content_of(folder.path() / "gcode_processor_tb.v"), HasSubstr("RUNS = 1;"));
+    const auto endless = folder.path() / "endless.asm";
+    write_content(endless, ".format q12.20\nAGAIN: MOV PC, AGAIN\n");
+    for (const auto& [options, reason] :
+         {std::pair(std::vector<std::string>{"--format", "f32"}, "fixed point"),
+          std::pair(std::vector<std::string>{"--matlab-zero"}, "sign(0)"),
+          std::pair(std::vector<std::string>{"--iterations", "3"}, "every direction"),
+          std::pair(std::vector<std::string>{endless.string()}, "clocks")}) {
+        std::vector<std::string> arguments = {"cordic", "rtl-processor", "--out", out};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Ended refused = run(arguments);
+        EXPECT_EQ(refused.exit_code, 1);
+        EXPECT_THAT(refused.err, HasSubstr(reason));
+    }
 }
 
 TEST(Cordic, ComparesWithTheMicrocontrollerOfTheThesis) {

@@ -1,4 +1,4 @@
-#include "core/cordic/rtl.h"
+#include "core/cordic/processor_rtl.h"
 #include "tests/support/oracle.h"
 #include "tests/support/scratch_folder.h"
 
@@ -12,12 +12,14 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 using namespace cordic;
 
 class Iverilog : public OracleTest {
@@ -27,15 +29,15 @@ protected:
     /// What the test bench of `module` prints.
     [[nodiscard]] std::string simulated(const std::vector<RtlFile>& files, const std::string& module) const {
         const test::ScratchFolder folder;
+        std::vector<std::string> arguments = {
+            "-g2001", "-Wall", "-s", module + "_tb", "-o", (folder.path() / "sim").string()};
         for (const RtlFile& file : files) {
             std::ofstream(folder.path() / file.name) << file.text;
+            if (file.name.ends_with(".v")) {
+                arguments.push_back((folder.path() / file.name).string());
+            }
         }
-        const ProgramRun compiled = run({"-g2001",
-                                         "-Wall",
-                                         "-o",
-                                         (folder.path() / "sim").string(),
-                                         (folder.path() / (module + ".v")).string(),
-                                         (folder.path() / (module + "_tb.v")).string()});
+        const ProgramRun compiled = run(arguments);
         EXPECT_EQ(compiled.exit_code, 0) << compiled.output;
         EXPECT_EQ(compiled.output, "");
         return output_of("cd '" + folder.path().string() + "' && ./sim 2>&1 </dev/null");
@@ -50,6 +52,19 @@ protected:
             EXPECT_EQ(simulated(files, module), fmt::format("PASS {} vectors\n", count))
                 << module << " of " << to_text(format) << ", " << sequence.step_count << " steps";
         }
+    }
+
+    /// Programs of about so many random instructions in `format`, and all ways to stop, through the whole
+    /// processor.
+    void expect_processor_passes(const NumberFormat& format,
+                                 const ProcessorSettings& settings,
+                                 std::int64_t instructions,
+                                 std::uint64_t seed) const {
+        const std::string said = simulated(
+            make_processor_rtl(settings, rtl_test_programs(format, instructions, seed)), "gcode_processor");
+        const std::string passed = "PASS ";
+        ASSERT_THAT(said, StartsWith(passed)) << to_text(format);
+        EXPECT_GE(std::stoll(said.substr(passed.size())), instructions) << "the random program stopped early";
     }
 
 private:
@@ -105,6 +120,61 @@ TEST_F(Iverilog, FindsAWrongAngle) {
     EXPECT_THAT(simulated(files, "cordic_pipeline"), HasSubstr("FAIL"));
 }
 
+// Each clock of each instruction: pins, registers, records, clocks of CORDIC, and why it stops.
+TEST_F(Iverilog, ProcessorGivesTheModelsBitsAndPinsInEveryClock) {
+    expect_processor_passes(fixed_format(12, 20), {}, 300, 1);
+}
+
+TEST_F(Iverilog, ProcessorGivesThemOverTheBusWithWaitStatesAndOtherSettings) {
+    ProcessorSettings settings;
+    settings.publishing = Publishing::bus;
+    settings.wait_states = 2;
+    settings.sense = ArcSense::thesis;
+    settings.halves_acceleration = false;
+    settings.rounding = Rounding::nearest_even;
+    settings.sequence = classic_sequence(CoordinateSystem::circular, 24);
+    expect_processor_passes(fixed_format(10, 38), settings, 150, 2);
+}
+
+TEST_F(Iverilog, ProcessorGivesThemForTheNarrowestAndTheWidestWord) {
+    for (const Rounding rounding : {Rounding::truncate, Rounding::toward_zero, Rounding::nearest}) {
+        ProcessorSettings settings;
+        settings.rounding = rounding;
+        expect_processor_passes(fixed_format(3, 5), settings, 100, 3);
+        expect_processor_passes(fixed_format(3, 61), settings, 100, 4);
+    }
+}
+
+TEST_F(Iverilog, SequencerDoesItsSixteenOperationsAsTheModel) {
+    EXPECT_EQ(
+        simulated(make_processor_rtl({}, rtl_test_programs(fixed_format(2, 14), 10, 5)), "micro_sequencer"),
+        "PASS 4000 operations\n");
+}
+
+// The bench of the processor must be able to fail: one wrong digit of an angle, a flag of Pre, a clock of the
+// bus, and a signal of the micro-ROM are found.
+TEST_F(Iverilog, ProcessorsBenchFindsWhatIsWrong) {
+    const auto files = make_processor_rtl({}, rtl_test_programs(fixed_format(12, 20), 60, 6));
+    const std::vector<std::pair<std::string, std::string>> faults = {
+        {"32'h00076b1a", "32'h00076b1b"},
+        {"assign f2 = xq[W-1];", "assign f2 = 1'b0;"},
+        {"waits <= WAIT_STATES", "waits <= 1"},
+        {"count_chord = control[7]", "count_chord = 1'b0"}};
+    for (const auto& [right, wrong] : faults) {
+        auto spoilt = files;
+        int count = 0;
+        for (RtlFile& file : spoilt) {
+            for (auto at = file.text.find(right); at != std::string::npos;
+                 at = file.text.find(right, at + 1)) {
+                file.text.replace(at, right.size(), wrong);
+                ++count;
+            }
+        }
+        EXPECT_GT(count, 0) << right;
+        EXPECT_THAT(simulated(spoilt, "gcode_processor"), HasSubstr("FAIL")) << right;
+    }
+}
+
 // Two tests, so that both run at a time: half a minute and nearly one.
 using IverilogInFull = Iverilog;
 
@@ -116,6 +186,10 @@ TEST_F(IverilogInFull, CoreGivesTheBitsOfTheModelForAHundredThousandVectors) {
 TEST_F(IverilogInFull, PipelineGivesTheBitsOfTheModelForAHundredThousandVectors) {
     EXPECT_EQ(simulated(make_rtl(fixed_format(2, 22), thesis_sequence(), 100'000, 1), "cordic_pipeline"),
               "PASS 100000 vectors\n");
+}
+
+TEST_F(IverilogInFull, ProcessorGivesTheModelsBitsAndPinsForTenThousandInstructions) {
+    expect_processor_passes(fixed_format(12, 20), {}, 10'000, 7);
 }
 
 } // namespace

@@ -60,6 +60,22 @@ ArmPlay play_of(motion::Trajectory trajectory) {
     return {[motion = std::move(trajectory)](double time) { return motion.at(time).position; }, duration};
 }
 
+ArmPlay play_of(std::shared_ptr<machine::SharedMemoryStream> stream, kinematics::JointPositions start) {
+    constexpr double settling = 2.0; // s: the card begins, brakes, and its motors come to rest
+    const double duration = stream->count() * stream->move_time() + settling;
+    return {[stream = std::move(stream), start = std::move(start)](double time) {
+                while (stream->buffer().time < time && !stream->finished()) {
+                    stream->advance(time - stream->buffer().time);
+                }
+                kinematics::JointPositions joints = start;
+                for (std::size_t n = 0; n < stream->buffer().position.size(); ++n) {
+                    joints[static_cast<Eigen::Index>(n)] += from_degrees(stream->buffer().position[n]);
+                }
+                return joints;
+            },
+            duration};
+}
+
 void ArmBench::load(const std::string& name) {
     auto look = viewport::read_arm_look(project::arm_path(name, ".", assets_));
     name_ = name;
@@ -350,6 +366,12 @@ void ArmBench::hold_jog(const JointPositions& rates) {
 void ArmBench::hold_line(const Vec3& velocity) {
     stop();
     held_line_ = velocity;
+}
+
+void ArmBench::play_stream(std::shared_ptr<machine::SharedMemoryStream> stream) {
+    stream_ = std::move(stream);
+    play(play_of(stream_, home()));
+    clear_trace();
 }
 
 bool ArmBench::advance(double seconds) {

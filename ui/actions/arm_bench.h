@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/kinematics/arm_inverse.h"
+#include "core/machine/emulators/pmac/shared_memory_stream.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/trajectory.h"
 #include "core/project/arm_input.h"
@@ -46,6 +47,10 @@ struct ArmPlay {
 [[nodiscard]] ArmPlay play_of(motion::Trajectory trajectory);
 /// What the motors of an emulated card did, of its axes alone; there is a record.
 [[nodiscard]] ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation);
+/// What the motors do that an emulated card drives by the points of its dual-ported RAM, from the joints
+/// `start` on.
+[[nodiscard]] ArmPlay play_of(std::shared_ptr<machine::SharedMemoryStream> stream,
+                              kinematics::JointPositions start);
 
 class ArmBench {
 public:
@@ -144,6 +149,11 @@ public:
     [[nodiscard]] MotionFileBench& motion_file() { return motion_file_; }
     [[nodiscard]] const MotionFileBench& motion_file() const { return motion_file_; }
 
+    /// The dual-ported RAM of an emulated card, while points go through it and after that; null before.
+    [[nodiscard]] const machine::SharedMemoryStream* stream() const { return stream_.get(); }
+    /// Begins to move by its points, from home on.
+    void play_stream(std::shared_ptr<machine::SharedMemoryStream> stream);
+
     /// A program on the part that stands there is looked at, in the background; none: nothing is. The joints
     /// of the wish are those of now.
     void look_at_path(std::optional<ArmPathWish> wish);
@@ -193,6 +203,7 @@ private:
     std::optional<int> new_point_;
     MotionProgramBench program_;
     MotionFileBench motion_file_;
+    std::shared_ptr<machine::SharedMemoryStream> stream_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;
     bool of_card_ = false; ///< the motion that is wanted

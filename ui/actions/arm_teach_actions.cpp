@@ -282,6 +282,15 @@ void add_arm_teach_actions(Actions& actions) {
         can_simulate_motion,
         [](Hands& hands) { hands.workshop.simulate_motion_file(); });
     add(actions,
+        {"arm.stream_motion",
+         menu,
+         "Stream the motion file to an emulated card",
+         "Point by point through its dual-ported RAM, with the flags and the interrupt of the thesis.",
+         "",
+         icons::play},
+        can_simulate_motion,
+        [](Hands& hands) { hands.workshop.stream_motion_file(); });
+    add(actions,
         {"arm.play_motion",
          menu,
          "Play the motion file that is written",

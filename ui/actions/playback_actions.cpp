@@ -30,15 +30,18 @@ Permission can_step_lines(const Workbench& now) {
                             : Permission::refused("Lines are stepped in an opened G-code file.");
 }
 
-/// The listing of the Program workspace, or an editor of the arm.
+bool is_editor(LowerTab tab) {
+    return tab == LowerTab::motion_program || tab == LowerTab::motion_file || tab == LowerTab::assembler ||
+           tab == LowerTab::microprogram;
+}
+
+/// The listing of the Program workspace, or an editor of the arm or the processor.
 Permission has_text(const Workbench& now) {
-    const bool editor = now.session.workspace == Workspace::arm && now.session.panes.lower_shown &&
-                        (now.session.lower_tab_now() == LowerTab::motion_program ||
-                         now.session.lower_tab_now() == LowerTab::motion_file);
+    const bool editor = now.session.panes.lower_shown && is_editor(now.session.lower_tab_now());
     return editor || now.session.workspace == Workspace::program
                ? Permission{}
-               : Permission::refused(
-                     "Texts are searched in the Program workspace, and in the editors of the Arm workspace.");
+               : Permission::refused("Texts are searched in the Program workspace, and in the editors of the "
+                                     "Arm and the Processor workspace.");
 }
 
 void go_to(Hands& hands, gcode::Step step) {

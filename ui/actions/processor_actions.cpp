@@ -40,6 +40,40 @@ Permission has_program(const Workbench& now) {
     return now.listing() ? Permission{} : Permission::refused("The project has no program yet.");
 }
 
+Permission in_processor(const Workbench& now) {
+    return now.session.workspace == Workspace::processor
+               ? Permission{}
+               : Permission::refused("In the Processor workspace (F7) only.");
+}
+
+Permission has_assembler(const Workbench& now) {
+    return now.processor.written().input().assembler.empty()
+               ? Permission::refused("There is no assembler text yet: write or open one under Assembler.")
+               : Permission{};
+}
+
+Permission has_microprogram(const Workbench& now) {
+    return now.processor.written().input().microprogram.empty()
+               ? Permission::refused("There is no microprogram yet: start from ours, or open one.")
+               : Permission{};
+}
+
+/// Back to the processor's own in any case.
+Permission can_turn_microprogram(const Workbench& now) {
+    return now.processor.choice().own_microprogram ? Permission{} : has_microprogram(now);
+}
+
+void turn_own_microprogram(Hands& hands) {
+    ProcessorBench& bench = hands.workshop.processor();
+    ProcessorChoice choice = bench.choice();
+    choice.own_microprogram = !choice.own_microprogram;
+    bench.set(choice);
+}
+
+template <FileQuestion question> void ask_for_processor_file(Hands& hands) {
+    hands.session.question = question;
+}
+
 template <ProcessorStep step> void do_step(Hands& hands) {
     hands.workshop.processor().step(step);
 }
@@ -99,6 +133,93 @@ void add_steps(Actions& actions) {
         [](Hands& hands) { hands.workshop.processor().pause(); });
 }
 
+void add_texts(Actions& actions) {
+    constexpr std::string_view menu = "Processor";
+    add(actions,
+        {"processor.assembler",
+         menu,
+         "Execute the assembler text",
+         "As it is written under Assembler.",
+         "",
+         ""},
+        has_assembler,
+        load<ProcessorSource::assembler>,
+        is_loaded<ProcessorSource::assembler>);
+    add(actions,
+        {"processor.take_over",
+         menu,
+         "Take over as assembler text",
+         "The program that is executed, in place of the present text, to be changed there.",
+         "",
+         ""},
+        can_execute,
+        [](Hands& hands) { hands.workshop.take_over_assembler(); });
+    add(actions,
+        {"processor.open_assembler",
+         menu,
+         "Open assembler text or an image",
+         "In place of the present text; an image is disassembled.",
+         "",
+         icons::folder},
+        in_processor,
+        ask_for_processor_file<FileQuestion::open_assembler>);
+    add(actions,
+        {"processor.save_assembler",
+         menu,
+         "Save the assembler text",
+         "As a file of its own.",
+         "",
+         icons::save},
+        has_assembler,
+        ask_for_processor_file<FileQuestion::save_assembler>);
+    add(actions,
+        {"processor.save_image",
+         menu,
+         "Save the image",
+         "The bytes of the program that is executed, with its number format.",
+         "",
+         icons::save},
+        can_execute,
+        ask_for_processor_file<FileQuestion::save_image>);
+    add(actions,
+        {"processor.own_microprogram",
+         menu,
+         "Execute the microprogram that is written",
+         "In place of the processor's own; once more goes back to that.",
+         "",
+         ""},
+        can_turn_microprogram,
+        turn_own_microprogram,
+        [](const Workbench& now) { return now.processor.choice().own_microprogram; });
+    add(actions,
+        {"processor.start_microprogram",
+         menu,
+         "Start a microprogram from the processor's",
+         "A copy of it in place of the present text, to be changed there.",
+         "",
+         ""},
+        in_processor,
+        [](Hands& hands) { hands.workshop.start_microprogram(); });
+    add(actions,
+        {"processor.open_microprogram",
+         menu,
+         "Open a microprogram",
+         "In place of the present text.",
+         "",
+         icons::folder},
+        in_processor,
+        ask_for_processor_file<FileQuestion::open_microprogram>);
+    add(actions,
+        {"processor.save_microprogram",
+         menu,
+         "Save the microprogram",
+         "As a file of its own.",
+         "",
+         icons::save},
+        has_microprogram,
+        ask_for_processor_file<FileQuestion::save_microprogram>);
+}
+
 } // namespace
 
 void add_processor_actions(Actions& actions) {
@@ -129,6 +250,7 @@ void add_processor_actions(Actions& actions) {
         has_program,
         load<ProcessorSource::project>,
         is_loaded<ProcessorSource::project>);
+    add_texts(actions);
 }
 
 } // namespace millwright::actions

@@ -56,17 +56,53 @@ cordic::Processor nothing() {
 
 ProcessorBench::ProcessorBench(std::function<void()> wake)
     : debugger_(nothing(), {}), whole_(std::move(wake)) {
-    micro_lines_ = lines_of(cordic::microprogram_text(cordic::Publishing::latch));
+    show_microprogram(debugger_.processor().microprogram());
+}
+
+/// As chosen; assembler text may name something else.
+cordic::MadeFor ProcessorBench::made_for() const {
+    cordic::MadeFor made_for;
+    made_for.iterations = choice_.iterations;
+    made_for.sense = choice_.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
+    made_for.zero = choice_.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
+    return made_for;
 }
 
 cordic::ProcessorSettings ProcessorBench::settings() const {
+    const bool says_itself = choice_.source == ProcessorSource::assembler;
+    const cordic::MadeFor chosen = says_itself ? texts_.program().image.made_for : made_for();
     cordic::ProcessorSettings settings;
-    if (choice_.iterations > 0) {
-        settings.sequence = cordic::classic_sequence(cordic::CoordinateSystem::circular, choice_.iterations);
-    }
-    settings.sense = choice_.thesis_direction ? cordic::ArcSense::thesis : cordic::ArcSense::iso;
-    settings.zero = choice_.matlab_zero ? cordic::SignOfZero::zero : cordic::SignOfZero::positive;
+    settings.sequence = cordic::sequence_of(chosen);
+    settings.rounding = chosen.rounding;
+    settings.sense = chosen.sense;
+    settings.zero = chosen.zero;
     return settings;
+}
+
+bool ProcessorBench::follow(const project::ProcessorInput& input) {
+    const project::ProcessorInput before = texts_.input();
+    if (!texts_.follow(input)) {
+        return false;
+    }
+    const bool is_executed = choice_.source == ProcessorSource::assembler && !name_.empty();
+    if (is_executed && before.assembler != input.assembler) {
+        load_assembler();
+    } else if (choice_.own_microprogram && !name_.empty() && before.microprogram != input.microprogram) {
+        compile();
+    } else {
+        check_texts();
+    }
+    return true;
+}
+
+void ProcessorBench::load_assembler() {
+    load(ProcessorSource::assembler, texts_.input().assembler, "assembler text");
+}
+
+void ProcessorBench::check_texts() {
+    texts_.assemble(choice_.format, made_for());
+    const bool is_executed = choice_.source == ProcessorSource::assembler;
+    texts_.assemble_micro(settings().sequence, is_executed ? texts_.program().image.format : choice_.format);
 }
 
 void ProcessorBench::load(ProcessorSource source, std::string text, std::filesystem::path name) {
@@ -91,8 +127,7 @@ void ProcessorBench::set(const ProcessorChoice& choice) {
     }
 }
 
-void ProcessorBench::compile() {
-    running_ = false;
+void ProcessorBench::compile_gcode() {
     gcode::CordicProgramSettings wanted;
     wanted.format = choice_.format;
     wanted.processor = settings();
@@ -104,25 +139,58 @@ void ProcessorBench::compile() {
     gcode::Interpreter program(std::string_view(source_text_), name_, std::move(reading), builder);
     program.run();
     program_ = builder.take();
-    failure_.reset();
     if (!program.errors().empty()) {
         failure_ = program.errors().front();
     } else if (!program_.faults.empty()) {
         failure_ = program_.faults.front();
     }
+}
+
+void ProcessorBench::take_assembled() {
+    program_ = {};
+    program_.image = texts_.program().image;
+    program_.code_lines = texts_.program().lines;
+    failure_ = texts_.failure();
+}
+
+cordic::Processor ProcessorBench::processor_made() const {
+    if (failure_) {
+        return nothing();
+    }
+    return choice_.own_microprogram ? cordic::Processor(settings(), program_.image, texts_.microprogram())
+                                    : cordic::Processor(settings(), program_.image);
+}
+
+void ProcessorBench::show_microprogram(const cordic::Microprogram& words) {
+    micro_lines_ = lines_of(choice_.own_microprogram ? texts_.input().microprogram
+                                                     : cordic::microprogram_text(cordic::Publishing::latch));
+    micro_addresses_.assign(micro_lines_.size(), -1);
+    for (int address = 0; address < words.count; ++address) {
+        const int line = words.lines[static_cast<std::size_t>(address)];
+        micro_addresses_[static_cast<std::size_t>(line - 1)] = address;
+    }
+}
+
+void ProcessorBench::compile() {
+    running_ = false;
+    failure_.reset();
+    check_texts();
+    if (choice_.source == ProcessorSource::assembler) {
+        take_assembled();
+    } else {
+        compile_gcode();
+    }
+    if (choice_.own_microprogram && !failure_) {
+        failure_ = texts_.micro_failure();
+    }
     const auto micro = debugger_.micro_breakpoints();
-    const cordic::Processor made = failure_ ? nothing() : cordic::Processor(settings(), program_.image);
+    const cordic::Processor made = processor_made();
     debugger_ = cordic::Debugger(made, failure_ ? std::vector<cordic::CodeLine>() : program_.code_lines);
     for (const std::uint8_t address : micro) {
         debugger_.toggle_micro_breakpoint(address);
     }
     code_ = failure_ ? std::vector<CodeRow>() : rows_of(program_);
-    micro_addresses_.assign(micro_lines_.size(), -1);
-    const cordic::Microprogram& words = made.microprogram();
-    for (int address = 0; address < words.count; ++address) {
-        const int line = words.lines[static_cast<std::size_t>(address)];
-        micro_addresses_[static_cast<std::size_t>(line - 1)] = address;
-    }
+    show_microprogram(choice_.own_microprogram ? texts_.microprogram() : made.microprogram());
     if (failure_) {
         whole_.clear();
     } else {
@@ -143,6 +211,9 @@ int ProcessorBench::micro_address(std::ptrdiff_t row) const {
 }
 
 std::ptrdiff_t ProcessorBench::micro_row() const {
+    if (failure_) {
+        return -1; // the words may be those of another microprogram
+    }
     return debugger_.processor().microprogram().lines[debugger_.state().sequencer.address] - 1;
 }
 

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/cordic/debugger.h"
 #include "core/gcode/reader/cordic_program.h"
+#include "ui/actions/processor_texts.h"
 #include "ui/actions/whole_run.h"
 
 #include <cstdint>
@@ -18,7 +19,7 @@
 namespace millwright::actions {
 
 /// Which program it executes.
-enum class ProcessorSource : std::uint8_t { thesis_arc, thesis_path, opened_file, project };
+enum class ProcessorSource : std::uint8_t { thesis_arc, thesis_path, opened_file, project, assembler };
 
 struct ProcessorChoice {
     ProcessorSource source = ProcessorSource::thesis_arc;
@@ -26,6 +27,7 @@ struct ProcessorChoice {
     int iterations = 0;                                    ///< of the classic sequence; 0: the thesis's 29
     double chord_tolerance = gcode::usual_chord_tolerance; ///< mm
     bool thesis_direction = false;  ///< G02 counter-clockwise, as the thesis's model turns
+    bool own_microprogram = false;  ///< the project's, in place of the processor's
     bool matlab_zero = false;       ///< no turn where nothing is left to turn, as the thesis's MATLAB model
     double clocks_a_second = 200.0; ///< while it runs, to be watched; 0: as fast as it goes
     double clock_hz = 8e6;          ///< of the processor beside its machine, as in the thesis; > 0
@@ -50,13 +52,21 @@ public:
 
     /// Takes a program in place of the present one and compiles it. `name` is not empty.
     void load(ProcessorSource source, std::string text, std::filesystem::path name);
+    /// Takes the texts of the project; executes what is chosen of them anew where they changed. True if they
+    /// did.
+    bool follow(const project::ProcessorInput& input);
+    /// Executes the assembler text.
+    void load_assembler();
     /// Compiles the same program anew where that changes anything; breakpoints of instructions then go.
     void set(const ProcessorChoice& choice);
 
     [[nodiscard]] const ProcessorChoice& choice() const { return choice_; }
     [[nodiscard]] const std::filesystem::path& name() const { return name_; } ///< empty before load()
     [[nodiscard]] const std::vector<std::string>& text() const { return lines_; }
-    /// Why it does not compile; there is then nothing to execute.
+    [[nodiscard]] const ProcessorTexts& written() const { return texts_; }
+    /// Of the program that is executed; not of one with a failure.
+    [[nodiscard]] const cordic::Image& image() const { return program_.image; }
+    /// Why it, or the microprogram, cannot be executed; there is then nothing to execute.
     [[nodiscard]] const std::optional<Diagnostic>& failure() const { return failure_; }
 
     [[nodiscard]] const cordic::Debugger& debugger() const { return debugger_; }
@@ -103,6 +113,12 @@ public:
 
 private:
     void compile();
+    void check_texts();
+    void compile_gcode();
+    void take_assembled();
+    [[nodiscard]] cordic::MadeFor made_for() const;
+    [[nodiscard]] cordic::Processor processor_made() const;
+    void show_microprogram(const cordic::Microprogram& words);
     [[nodiscard]] RunTerms terms() const { return {choice_.clock_hz, choice_.needle_rpm}; }
     [[nodiscard]] const CodeRow* first_of_line(int line) const;
     [[nodiscard]] cordic::ProcessorSettings settings() const;
@@ -111,6 +127,7 @@ private:
     std::filesystem::path name_;
     std::string source_text_;
     std::vector<std::string> lines_;
+    ProcessorTexts texts_;
     std::optional<Diagnostic> failure_;
     gcode::CordicProgram program_;
     cordic::Debugger debugger_;

@@ -43,7 +43,9 @@ enum class LowerTab {
     points,
     motion_program,
     motion_file, ///< of the arm
-    gouges
+    gouges,
+    assembler, ///< of the processor
+    microprogram
 };
 
 /// Panes that can be hidden, with their sizes in pixels at scale 1.
@@ -97,6 +99,11 @@ enum class FileQuestion {
     save_motion_file,
     save_motion_result, ///< the points and joints of one
     load_card_settings,
+    open_assembler, ///< of the processor: text, or an image as text
+    save_assembler,
+    save_image,
+    open_microprogram,
+    save_microprogram,
     write_program ///< of the project, as G-code
 };
 
@@ -170,7 +177,7 @@ struct Session {
                                                      LowerTab::plots,
                                                      LowerTab::motion,
                                                      LowerTab::console,
-                                                     LowerTab::log,
+                                                     LowerTab::plots,
                                                      LowerTab::log,
                                                      LowerTab::motors};
     PaneSizes panes;

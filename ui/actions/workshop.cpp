@@ -261,41 +261,6 @@ bool Workshop::advance(double seconds) {
     return processed || playback.time < before || playback.time > before;
 }
 
-/// It has something to show once it is looked at.
-bool Workshop::follow_processor(double seconds) {
-    if (session_.workspace == Workspace::processor && processor_->name().empty()) {
-        guarded([this] { load_processor(processor_->choice().source); });
-        if (processor_->name().empty()) { // said once
-            processor_->load(processor_->choice().source, "M2\n", "nothing");
-        }
-    }
-    return processor_->advance(seconds);
-}
-
-void Workshop::load_processor(ProcessorSource source) {
-    const Workbench now = look();
-    const auto sample = [&](const char* file) {
-        const std::filesystem::path path = options_.assets / "samples" / file;
-        processor_->load(source, read_file(path), path.filename());
-    };
-    switch (source) {
-    case ProcessorSource::thesis_arc:
-        return sample("thesis-arc.ngc");
-    case ProcessorSource::thesis_path:
-        return sample("thesis-path.ngc");
-    case ProcessorSource::opened_file:
-        if (now.opened) {
-            processor_->load(source, read_file(now.opened->file), now.opened->file.filename());
-        }
-        return;
-    case ProcessorSource::project:
-        if (const auto listing = now.listing()) {
-            processor_->load(source, listing->text, "project");
-        }
-        return;
-    }
-}
-
 void Workshop::follow_begin() {
     const Workbench now = look();
     if (!session_.begin.on || now.job.running || !program_ready(now).allowed) {

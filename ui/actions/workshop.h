@@ -146,6 +146,9 @@ public:
     void play_motion_file(const std::filesystem::path& file);
     /// The motion file of the project, from the home of the thesis on: the drawn arm alone. Throws Error.
     void simulate_motion_file();
+    /// The same by the motors of an emulated card, which gets its points through its dual-ported RAM. Throws
+    /// Error.
+    void stream_motion_file();
     /// The same from where the arm stands: the drawn arm, or the connected one. Throws Error.
     void play_motion_text();
     /// The motion file as a file of its own, and the points and joints of it from the home of the thesis on,
@@ -174,6 +177,17 @@ public:
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);
+    /// Assembler text, an image, a microprogram as files of their own; opened ones go into the editors and
+    /// are executed. Each throws Error and ends the question.
+    void open_assembler(const std::filesystem::path& file);
+    void save_assembler(const std::filesystem::path& file);
+    void save_image(const std::filesystem::path& file); ///< of the program that is executed
+    void open_microprogram(const std::filesystem::path& file);
+    void save_microprogram(const std::filesystem::path& file);
+    /// The program that is executed becomes assembler text, to be changed there.
+    void take_over_assembler();
+    /// The processor's own microprogram becomes one of the project's, to be changed there.
+    void start_microprogram();
 
     [[nodiscard]] Session& session() { return session_; }
     /// Blocks until nothing runs in the background (tests, pictures).
@@ -217,6 +231,8 @@ private:
     void follow_begin();
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
+    void write_assembler(const std::string& title, const std::string& text);
+    void write_microprogram(const std::string& title, const std::string& text);
     [[nodiscard]] bool follow_arm(double seconds);
     void follow_arm_work();
     void guarded(const std::function<void()>& action);

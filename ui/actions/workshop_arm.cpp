@@ -188,6 +188,16 @@ void Workshop::simulate_motion_file() {
     arm_->clear_trace();
 }
 
+void Workshop::stream_motion_file() {
+    constexpr double deg_per_s = 10.0;
+    const auto blocks =
+        kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
+    const auto records = kinematics::simulate_arm(
+        arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
+    arm_->play_stream(
+        std::make_shared<machine::SharedMemoryStream>(kinematics::first_turns_deg(records), deg_per_s));
+}
+
 void Workshop::run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends) {
     auto listing = std::make_shared<gcode::Listing>();
     for (const std::string& line : lines) {

@@ -10,6 +10,7 @@
 #include "core/project/strategy_path.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/import_bench.h"
+#include "ui/actions/processor_texts.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/actions/surface_export.h"
 #include "ui/actions/workshop.h"
@@ -75,6 +76,10 @@ void Workshop::open(const fs::path& file) {
     }
     if (project::is_importable(file)) {
         open_surface(file);
+        return;
+    }
+    if (const auto kind = processor_file(file)) {
+        kind == ProcessorFile::microprogram ? open_microprogram(file) : open_assembler(file);
         return;
     }
     if (!is_project_file(file)) {

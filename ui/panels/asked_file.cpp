@@ -5,6 +5,7 @@
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
 #include "core/project/plot_input.h"
+#include "ui/actions/processor_texts.h"
 
 #include <algorithm>
 #include <array>
@@ -22,10 +23,15 @@ constexpr std::string_view extension = ".json";
 /// What "Open" can make something of.
 bool is_opened(const fs::path& file) {
     return file.extension() == extension || is_gcode(file) || project::is_importable(file) ||
-           project::is_plot_file(file);
+           project::is_plot_file(file) || actions::is_processor_file(file);
 }
 
-constexpr std::array<AskedFile, 15> questions{
+bool is_assembler_or_image(const fs::path& file) {
+    return actions::processor_file(file) == actions::ProcessorFile::assembler ||
+           actions::processor_file(file) == actions::ProcessorFile::image;
+}
+
+constexpr std::array<AskedFile, 20> questions{
     {{FileQuestion::open,
       "Open a project, G-code, a surface, a plot or a picture",
       true,
@@ -127,6 +133,42 @@ constexpr std::array<AskedFile, 15> questions{
       "",
       [](actions::Workshop& workshop, const fs::path& file) { workshop.load_card_settings(file); },
       "No files here."},
+     {FileQuestion::open_assembler,
+      "Open assembler text or an image",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_assembler(file); },
+      "No assembler text (.asm) or images (.bin) here.",
+      is_assembler_or_image},
+     {FileQuestion::save_assembler,
+      "Save the assembler text as",
+      false,
+      ".asm",
+      "program.asm",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_assembler(file); },
+      "No assembler text (.asm) here."},
+     {FileQuestion::save_image,
+      "Save the image as",
+      false,
+      ".bin",
+      "program.bin",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_image(file); },
+      "No images (.bin) here."},
+     {FileQuestion::open_microprogram,
+      "Open a microprogram",
+      true,
+      "",
+      "",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_microprogram(file); },
+      "No files here."},
+     {FileQuestion::save_microprogram,
+      "Save the microprogram as",
+      false,
+      ".micro",
+      "own.micro",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.save_microprogram(file); },
+      "No microprograms (.micro) here."},
      {FileQuestion::write_program,
       "Write the G-code to",
       false,

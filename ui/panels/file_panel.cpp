@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/project/imported_surface.h"
 #include "core/project/plot_input.h"
+#include "ui/actions/processor_texts.h"
 #include "ui/actions/workshop.h"
 #include "ui/panels/asked_file.h"
 #include "ui/widgets/icons.h"
@@ -55,12 +56,13 @@ Listed listed(const fs::path& folder, FileQuestion question) {
 
 /// Of a file; empty for a project.
 std::string file_kind(const fs::path& file) {
-    return is_gcode(file)                   ? "G-code"
-           : project::is_importable(file)   ? "surface"
-           : project::is_picture_file(file) ? "picture"
-           : project::is_path_file(file)    ? "path file"
-           : project::is_plot_file(file)    ? "plot"
-                                            : "";
+    return is_gcode(file)                     ? "G-code"
+           : project::is_importable(file)     ? "surface"
+           : project::is_picture_file(file)   ? "picture"
+           : project::is_path_file(file)      ? "path file"
+           : project::is_plot_file(file)      ? "plot"
+           : actions::is_processor_file(file) ? "for the processor"
+                                              : "";
 }
 
 /// The project's; for a surface that of the last one, which mostly comes from elsewhere.
@@ -253,6 +255,8 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
             now.session.workspace == actions::Workspace::plot
                 ? "A G-code program: it is cut as it stands, here in the Plot & Picture workspace."
                 : "A G-code program: it opens beside the project, in the Program workspace.");
+    } else if (actions::is_processor_file(chosen_)) {
+        ProjectPreview::draw_words(ui, "Of the CORDIC processor: it opens in the Processor workspace.");
     } else if (project::is_plot_file(chosen_)) {
         ProjectPreview::draw_words(
             ui, "A " + file_kind(chosen_) + ": it is cut in the Plot & Picture workspace.");

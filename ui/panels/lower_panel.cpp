@@ -131,6 +131,9 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return motion_program_.draw(ui, now, ask);
     case LowerTab::motion_file:
         return motion_file_.draw(ui, now, ask);
+    case LowerTab::assembler:
+    case LowerTab::microprogram:
+        return; // of the Processor workspace, which has a lower pane of its own
     case LowerTab::log:
         return draw_log(ui, now);
     }

@@ -63,7 +63,7 @@ bool has_room(std::string_view menu, Workspace workspace) {
 
 /// A line stands above these in their menu.
 bool begins_group(std::string_view id) {
-    constexpr std::array<std::string_view, 14> first{"file.save",
+    constexpr std::array<std::string_view, 15> first{"file.save",
                                                      "file.import",
                                                      "file.write_program",
                                                      "file.quit",
@@ -76,6 +76,7 @@ bool begins_group(std::string_view id) {
                                                      "grid.play",
                                                      "grid.use_uniform",
                                                      "processor.thesis_arc",
+                                                     "processor.take_over",
                                                      "work.cancel"};
     return std::find(first.begin(), first.end(), id) != first.end();
 }

@@ -3,18 +3,40 @@
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
 
+#include <fmt/format.h>
+
+#include <string>
+
 namespace millwright::panels {
 
 using widgets::Rank;
 
+namespace {
+
+/// The words and flags of the dual-ported RAM, and how far the stream has come.
+std::string buffer_text(const machine::SharedMemoryStream& stream) {
+    const machine::SharedMemoryBuffer& now = stream.buffer();
+    return fmt::format("M151 {} M152 {} M153 {}, M154 {}, M155 {}, EQU1 {} of {}",
+                       now.words[0],
+                       now.words[1],
+                       now.words[2],
+                       now.runs ? 1 : 0,
+                       now.ready ? 1 : 0,
+                       now.taken,
+                       stream.count());
+}
+
+} // namespace
+
 MotionFilePanel::MotionFilePanel(const actions::Catalogue& catalogue)
-    : catalogue_(catalogue),
-      editor_({&project::ArmInput::motion_file, "Write a motion file", "motion file"}) {}
+    : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::motion_file>(
+                                 "Write a motion file", "motion file")) {}
 
 void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {
-        const auto row = ui.row(6);
+        const auto row = ui.row(7);
         action_button(ui, now, ask, catalogue_, "arm.simulate_motion", Rank::primary, "Simulate");
+        action_button(ui, now, ask, catalogue_, "arm.stream_motion", Rank::normal, "Stream");
         action_button(ui, now, ask, catalogue_, "arm.play_motion", Rank::normal, "Play");
         action_button(ui, now, ask, catalogue_, "arm.save_result", Rank::normal, "Result");
         action_button(ui, now, ask, catalogue_, "arm.open_motion", Rank::normal, "Open");
@@ -33,8 +55,12 @@ void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
     }
     ui.beside();
-    fault_line(
-        ui, faults, "G1 X300 Z-50 ; from where the tool is, in mm; G2, G3 arcs; each block ends with ;");
+    const machine::SharedMemoryStream* const stream = now.arm.stream();
+    fault_line(ui,
+               faults,
+               stream != nullptr && now.arm.moving()
+                   ? buffer_text(*stream)
+                   : "G1 X300 Z-50 ; from where the tool is, in mm; G2, G3 arcs; each block ends with ;");
     editor_.draw(ui, now, ask, faults);
 }
 

@@ -8,8 +8,8 @@ namespace millwright::panels {
 using widgets::Rank;
 
 MotionProgramPanel::MotionProgramPanel(const actions::Catalogue& catalogue)
-    : catalogue_(catalogue),
-      editor_({&project::ArmInput::program, "Write a motion program", "motion program"}) {}
+    : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::program>(
+                                 "Write a motion program", "motion program")) {}
 
 void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {

@@ -16,7 +16,7 @@ namespace {
 using actions::ProcessorBench;
 
 constexpr std::array<widgets::Option, 3> tabs{
-    {{"instructions", "Instructions"}, {"microprogram", "Microprogram"}, {"program", "G-code"}}};
+    {{"instructions", "Instructions"}, {"microprogram", "Microprogram"}, {"program", "Program"}}};
 
 /// What a click on a line asks for, of which there are two kinds.
 template <class RunTo, class Toggle>

@@ -50,7 +50,9 @@ void choose_processor(ActionQueue& ask, const ProcessorChoice& choice) {
 
 std::string halt_text(const ProcessorBench& bench) {
     if (bench.failure()) {
-        return "Not for this processor";
+        const bool is_written =
+            bench.choice().source == ProcessorSource::assembler || bench.choice().own_microprogram;
+        return is_written ? "Has errors" : "Not for this processor";
     }
     if (bench.running()) {
         return "Running";
@@ -95,8 +97,11 @@ std::string bits_text(const cordic::Processor& processor, Register name) {
     return fmt::format("{:0{}x}", cordic::lowest_bits(word, bits), (bits + 3) / 4);
 }
 
-constexpr std::array<std::string_view, 4> source_actions{
-    "processor.thesis_arc", "processor.thesis_path", "processor.opened_file", "processor.project"};
+constexpr std::array<std::string_view, 5> source_actions{"processor.thesis_arc",
+                                                         "processor.thesis_path",
+                                                         "processor.opened_file",
+                                                         "processor.project",
+                                                         "processor.assembler"};
 
 constexpr widgets::FieldInfo integer_field{
     "integer", "Integer bits", {}, "Before the point, the sign among them", 1.0, 32.0};
@@ -254,6 +259,28 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
     ui.words(halt_text(bench), fault ? widgets::Tone::danger : widgets::Tone::good);
 }
 
+void ProcessorPanel::draw_lower(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    using actions::LowerTab;
+    constexpr std::array<LowerTab, 3> shown{LowerTab::plots, LowerTab::assembler, LowerTab::microprogram};
+    const std::array<widgets::Option, 3> options{{{"drawings", "Drawings", widgets::icons::plot},
+                                                  {"assembler", "Assembler", widgets::icons::file},
+                                                  {"microprogram", "Microprogram", widgets::icons::program}}};
+    const LowerTab tab = now.session.lower_tab_now();
+    const auto at = static_cast<int>(std::ranges::find(shown, tab) - shown.begin());
+    if (const auto chosen = ui.tabs("tabs", at, options)) {
+        ask.show([to = shown[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
+            session.lower_tab_now() = to;
+        });
+    }
+    if (tab == LowerTab::assembler) {
+        return texts_.draw_assembler(ui, now, ask);
+    }
+    if (tab == LowerTab::microprogram) {
+        return texts_.draw_microprogram(ui, now, ask);
+    }
+    plots_.draw(ui, now, ask);
+}
+
 void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_registers(ui, now); // first, so that the smallest window has all of them in sight
     draw_errors(ui, now);
@@ -281,16 +308,26 @@ void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask)
 }
 
 void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    std::array<widgets::Option, 4> sources{{{"arc", "Thesis: arc"},
+    std::array<widgets::Option, 5> sources{{{"arc", "Thesis: arc"},
                                             {"path", "Thesis: path"},
                                             {"file", "G-code file"},
-                                            {"project", "This project"}}};
+                                            {"project", "This project"},
+                                            {"assembler", "Assembler"}}};
     for (std::size_t n = 0; n < sources.size(); ++n) {
         sources[n].permission = catalogue_.find(source_actions[n]).permission(now);
     }
     const auto source = static_cast<int>(now.processor.choice().source);
     if (const auto chosen = ui.choice("source", "Program", source, sources)) {
         ask.run(std::string(source_actions[static_cast<std::size_t>(*chosen)]));
+    }
+    if (now.processor.choice().source == ProcessorSource::assembler && !now.processor.failure()) {
+        const cordic::Image& image = now.processor.image();
+        const int iterations = image.made_for.iterations;
+        ui.value("says",
+                 "The text is for",
+                 fmt::format("{}, {} steps",
+                             cordic::to_text(image.format),
+                             iterations == 0 ? thesis_steps : iterations));
     }
 }
 
@@ -305,6 +342,12 @@ void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
     }
     const cordic::RunReport& report = now.processor.report();
     constexpr double micrometres = 1e3;
+    const bool stopped = report.stop != cordic::Stop::none && report.stop != cordic::Stop::halted;
+    if (now.processor.choice().source == ProcessorSource::assembler) {
+        ui.text(stopped ? followed_text(now.processor)
+                        : "Assembler text names no exact path to compare with.");
+        return;
+    }
     ui.value("position", "Position", fmt::format("{:.4g}", micrometres * report.position_error), "\u00b5m");
     ui.value("speed", "Speed", fmt::format("{:.3g}", 100.0 * report.speed_error), "% of the feed");
     if (report.stop != cordic::Stop::halted) {

@@ -5,13 +5,14 @@
 #include "ui/panels/processor_code.h"
 #include "ui/panels/processor_pass.h"
 #include "ui/panels/processor_plots.h"
+#include "ui/panels/processor_texts_panel.h"
 
 namespace millwright::panels {
 
 class ProcessorPanel final : public Panel {
 public:
     /// `catalogue` must outlive it.
-    explicit ProcessorPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
+    explicit ProcessorPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue), texts_(catalogue) {}
 
     /// The inspector.
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
@@ -19,8 +20,8 @@ public:
     void draw_code(Ui& ui, const Workbench& now, ActionQueue& ask) { code_.draw(ui, now, ask); }
     /// Below the diagram.
     void draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    /// The lower pane.
-    void draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) { plots_.draw(ui, now, ask); }
+    /// The lower pane: drawings, and the editors.
+    void draw_lower(Ui& ui, const Workbench& now, ActionQueue& ask);
 
 private:
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
@@ -34,6 +35,7 @@ private:
     ProcessorCode code_;
     ProcessorPass pass_;
     ProcessorPlots plots_;
+    ProcessorTextsPanel texts_;
 };
 
 } // namespace millwright::panels

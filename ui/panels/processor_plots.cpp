@@ -30,10 +30,10 @@ std::string pass_title(const cordic::IterationTrace& trace) {
     }
     const auto steps = std::ranges::count_if(trace.points, [](const auto& p) { return !p.corrects; }) - 1;
     const auto corrections = std::ranges::count_if(trace.points, [](const auto& p) { return p.corrects; });
-    return fmt::format("{}, step {}{}",
+    return fmt::format("{}, {} {}",
                        trace.mode == cordic::Mode::rotation ? "Rotation" : "Vectoring",
-                       steps,
-                       corrections > 0 ? fmt::format(", correction {}", corrections) : "");
+                       corrections > 0 ? "correction" : "step", // which come behind all steps
+                       corrections > 0 ? corrections : steps);
 }
 
 /// The vectors of a pass about the middle of a square, the longest reaching its edge.

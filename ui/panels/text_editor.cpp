@@ -60,7 +60,7 @@ void TextEditor::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const std:
 
 /// What was found is no longer there in another text.
 void TextEditor::follow(const Workbench& now, ActionQueue& ask) {
-    const std::string& text = now.project.arm.*edited_.text;
+    const std::string& text = edited_.shown(now.project);
     if (text != text_) {
         text_ = text;
         found_.reset();
@@ -241,7 +241,7 @@ void TextEditor::replace_all(ActionQueue& ask) {
 void TextEditor::put(ActionQueue& ask, std::string text) {
     ask.edit(
         edited_.title,
-        [where = edited_.text, text = std::move(text)](project::Project& draft) { draft.arm.*where = text; },
+        [where = edited_.draft, text = std::move(text)](project::Project& draft) { where(draft) = text; },
         edited_.merge_key);
 }
 

@@ -15,10 +15,21 @@ namespace millwright::panels {
 
 /// Which text of the project it is, and how the writing of it is called in the list of what can be undone.
 struct EditedText {
-    std::string project::ArmInput::*text = nullptr;
+    std::string& (*draft)(project::Project&) = nullptr;
+    const std::string& (*shown)(const project::Project&) = nullptr;
     const char* title = "";
     const char* merge_key = "";
 };
+
+/// Of a part of the project: edited_text<&project::Project::arm, &project::ArmInput::program>("Write ...",
+/// "...").
+template <auto part, auto text>
+[[nodiscard]] constexpr EditedText edited_text(const char* title, const char* merge_key) {
+    return {[](project::Project& draft) -> std::string& { return (draft.*part).*text; },
+            [](const project::Project& shown) -> const std::string& { return (shown.*part).*text; },
+            title,
+            merge_key};
+}
 
 class TextEditor {
 public:

@@ -190,7 +190,7 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
     if (place.lower.h > 0.0F) {
         const auto pane = ui.pane("lower", place.lower);
         if (now.session.workspace == Workspace::processor) {
-            processor_.draw_plots(ui, now, ask_);
+            processor_.draw_lower(ui, now, ask_);
         } else if (now.session.workspace == Workspace::plot) {
             plot_.draw_bench(ui, now, ask_);
         } else {

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdlib>
+#include <utility>
+
 namespace millwright::cordic::internal {
 namespace {
 
@@ -136,6 +140,37 @@ std::string Verilog::functions() const {
                             rounded_product(format_.rounding));
     }
     return text;
+}
+
+std::string Verilog::step_cases() const {
+    std::string text;
+    for (int i = 0; i < sequence_.step_count; ++i) {
+        text += fmt::format("            {}: begin s = {}; angle = {}; end\n", i, shift(i), angle(i));
+    }
+    for (int j = 0; j < sequence_.correction_count; ++j) {
+        if (const int a = correction(j); a != 0) {
+            text += fmt::format("            {}: begin s = {}; corrects = 1; subtracts = {}; end\n",
+                                sequence_.step_count + j,
+                                std::abs(a),
+                                a < 0 ? 1 : 0);
+        }
+    }
+    return text;
+}
+
+std::string Verilog::filled(std::string_view text) const {
+    const std::array<std::pair<std::string_view, std::string>, 3> values = {{
+        {"WORD", fmt::format("signed [{}:0]", word() - 1)},
+        {"STEPS", std::to_string(sequence_.step_count)},
+        {"CLOCKS", std::to_string(sequence_.clock_count())},
+    }};
+    std::string made(text);
+    for (const auto& [name, value] : values) {
+        for (auto at = made.find(name); at != std::string::npos; at = made.find(name, at + value.size())) {
+            made.replace(at, name.size(), value);
+        }
+    }
+    return made;
 }
 
 std::string Verilog::turned(const VerilogStep& s) const {

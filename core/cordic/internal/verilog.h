@@ -43,6 +43,10 @@ public:
     [[nodiscard]] std::string outputs(std::string_view kind) const;
     /// Word, its ends, sum, difference, shift and, where it is needed, the product with 1/k.
     [[nodiscard]] std::string functions() const;
+    /// What each step and correction shifts by, as cases of a counter: s, angle, corrects, subtracts.
+    [[nodiscard]] std::string step_cases() const;
+    /// `text` with ports and wires of a word for its WORD, constants of the sequence for STEPS and CLOCKS.
+    [[nodiscard]] std::string filled(std::string_view text) const;
     /// The three wires of an iteration's step.
     [[nodiscard]] std::string turned(const VerilogStep& step) const;
 

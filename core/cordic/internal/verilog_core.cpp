@@ -2,29 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 namespace millwright::cordic::internal {
 namespace {
-
-/// What each step and correction shifts by, as cases of the counter.
-std::string steps_of(const Verilog& verilog) {
-    const Sequence& sequence = verilog.sequence();
-    std::string text;
-    for (int i = 0; i < sequence.step_count; ++i) {
-        text += fmt::format(
-            "            {}: begin s = {}; angle = {}; end\n", i, verilog.shift(i), verilog.angle(i));
-    }
-    for (int j = 0; j < sequence.correction_count; ++j) {
-        if (const int a = verilog.correction(j); a != 0) {
-            text += fmt::format("            {}: begin s = {}; corrects = 1; subtracts = {}; end\n",
-                                sequence.step_count + j,
-                                std::abs(a),
-                                a < 0 ? 1 : 0);
-        }
-    }
-    return text;
-}
 
 /// Shift, angle and kind of each step and correction, by the counter.
 std::string selection(const Verilog& verilog) {
@@ -51,7 +30,7 @@ std::string selection(const Verilog& verilog) {
 )",
                        verilog.sequence().step_count,
                        verilog.sequence().clock_count(),
-                       steps_of(verilog));
+                       verilog.step_cases());
 }
 
 } // namespace

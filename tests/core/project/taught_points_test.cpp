@@ -46,6 +46,13 @@ TEST(TaughtPointsC6, AProjectKeepsPointsProgramAndPlace) {
     EXPECT_THAT(project_text(without), testing::Not(HasSubstr("\"arm\"")));
 }
 
+TEST(ProcessorInput, AProjectKeepsAssemblerTextAndMicroprogram) {
+    Project project = project_from_preset("dome");
+    EXPECT_THAT(project_text(project), testing::Not(HasSubstr("\"processor\"")));
+    project.processor = {".format q12.20\n\tHLT ; \"there\"\n", "FETCH: CONT | read_program\n"};
+    EXPECT_EQ(project_from_text(project_text(project), "p.json"), project);
+}
+
 TEST(TaughtPointsC6, WhatIsWrongIsToldWithItsPlace) {
     const std::string head = "{\"format\": \"millwright-arm-points\", \"version\": 1,\n\"points\": [";
     const auto point = [](const std::string& name, const std::string& rest) {

@@ -2,6 +2,7 @@
 // of what replaces the program of Saengsasri, Nittayachin 1996).
 #include "core/base/files.h"
 #include "core/base/units.h"
+#include "core/kinematics/arm_forward.h"
 #include "tests/ui/panels/person.h"
 #include "ui/actions/arm_bench.h"
 
@@ -122,6 +123,27 @@ TEST_F(ArmMotionFileS7, IsOpenedSavedUndoneAndPlayedFromWhereTheArmIs) {
     const auto copy = person_.folder() / "copy.mot";
     person_.workshop().save_motion_file(copy);
     EXPECT_EQ(read_file(copy), "G1 Y50 ;\n");
+}
+
+TEST_F(ArmMotionFileS7, IsStreamedThroughTheDualPortedRamOfAnEmulatedCard) {
+    write("G1 X0 Y100 Z-50 ;");
+    const Vec3 begin = kinematics::base_T_tool(arm().arm(), arm().home()).translation();
+    person_.click("lower/arm_stream_motion");
+    ASSERT_NE(arm().stream(), nullptr);
+    person_.frames(20);
+    EXPECT_TRUE(arm().stream()->buffer().runs);
+    EXPECT_GT(arm().stream()->buffer().taken, 0);
+    person_.keep("arm-stream");
+    for (const std::string& cut : person_.desktop().ui().cut_texts()) {
+        ADD_FAILURE() << cut;
+    }
+    for (int n = 0; n < 60 * 60 && arm().moving(); ++n) {
+        person_.frames(1);
+    }
+    EXPECT_EQ(arm().stream()->buffer().taken, arm().stream()->count());
+    EXPECT_TRUE(arm().stream()->finished());
+    const Vec3 way = arm().tool().translation() - begin;
+    EXPECT_LT((way - Vec3(0.0, 100.0, -50.0)).norm(), 1.0);
 }
 
 TEST_F(ArmMotionFileS7, FindsAgainAndReplacesOneOrAll) {

@@ -1,0 +1,106 @@
+#include "app/commands/arm_stream.h"
+
+#include "app/arm_choice.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/kinematics/arm_motion_file.h"
+#include "core/kinematics/arm_simulation.h"
+#include "core/machine/emulators/pmac/shared_memory_stream.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+namespace {
+
+using machine::SharedMemoryBuffer;
+using machine::SharedMemoryStream;
+
+struct StreamOptions {
+    std::string arm = "motoman-l3";
+    std::string file;
+    std::string watch;
+    double step_mm = 5.0;
+    double deg_per_s = 10.0;
+};
+
+std::vector<SharedMemoryStream::Point> points_of(const StreamOptions& options) {
+    const kinematics::ArmModel arm = arm_of(options.arm);
+    const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
+    return kinematics::first_turns_deg(
+        kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file));
+}
+
+std::string row_of(const SharedMemoryBuffer& now) {
+    return fmt::format("{:.4f},{},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f}\n",
+                       now.time,
+                       now.words[0],
+                       now.words[1],
+                       now.words[2],
+                       now.runs ? 1 : 0,
+                       now.ready ? 1 : 0,
+                       now.sent,
+                       now.taken,
+                       now.position[0],
+                       now.position[1],
+                       now.position[2]);
+}
+
+int stream(const StreamOptions& options) {
+    constexpr double glance = 1.0; // s of the card, unless the buffer changes before
+    SharedMemoryStream stream(points_of(options), options.deg_per_s);
+    std::string rows =
+        "time_s,m151,m152,m153,m154,m155,sent,equ1,x_deg,y_deg,z_deg\n" + row_of(stream.buffer());
+    while (!stream.finished()) {
+        stream.advance(glance);
+        rows += row_of(stream.buffer());
+    }
+    const SharedMemoryBuffer& end = stream.buffer();
+    if (!options.watch.empty()) {
+        write_file(options.watch, rows);
+    }
+    double farthest = 0.0;
+    for (std::size_t axis = 0; axis < end.position.size(); ++axis) {
+        constexpr double words_per_degree = 1000.0;
+        farthest = std::max(farthest, std::abs(end.position[axis] - end.words[axis] / words_per_degree));
+    }
+    fmt::print("{} points, {} interrupts of EQU1, {:.0f} ms per move, {:.2f} s\n"
+               "the motors stand at X{:.3f} Y{:.3f} Z{:.3f} degrees, {:.3f} from the last point\n",
+               stream.count(),
+               end.taken,
+               1e3 * stream.move_time(),
+               end.time,
+               end.position[0],
+               end.position[1],
+               end.position[2],
+               farthest);
+    return 0;
+}
+
+} // namespace
+
+void add_arm_stream_command(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<StreamOptions>();
+    CLI::App& command = *group.add_subcommand(
+        "stream", "Stream a motion file through the dual-ported RAM of an emulated PMAC, point by point");
+    add_arm_option(command, options->arm);
+    command.add_option("FILE", options->file, "Motion file: blocks of words that end with ;")->required();
+    command.add_option("--step", options->step_mm, "Distance of the points, mm")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str();
+    command.add_option("--speed", options->deg_per_s, "No motor turns faster, degrees per second")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+    command.add_option("--watch", options->watch, "CSV file: words and flags of the RAM at each change")
+        ->type_name("FILE");
+    command.callback([&chosen, options] { chosen = [options] { return stream(*options); }; });
+}
+
+} // namespace millwright::app
