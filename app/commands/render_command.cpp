@@ -1,6 +1,7 @@
 #include "app/commands/render_command.h"
 
 #include "app/interrupt.h"
+#include "app/names.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_solids.h"
 #include "core/project/assets.h"
@@ -11,7 +12,9 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +32,42 @@ struct RenderOptions {
     std::string view;
     std::string size = "1280x800";
     std::string out;
+    viewport::PictureLook look;
 };
+
+using render::StandardView;
+const std::map<std::string, StandardView> render_sides{{"iso", StandardView::iso},
+                                                       {"oblique", StandardView::oblique},
+                                                       {"top", StandardView::top},
+                                                       {"bottom", StandardView::bottom},
+                                                       {"front", StandardView::front},
+                                                       {"back", StandardView::back},
+                                                       {"left", StandardView::left},
+                                                       {"right", StandardView::right}};
+
+std::string listed_colors() {
+    std::string text;
+    for (const render::LayerColorInfo& info : render::layer_color_infos()) {
+        text += (text.empty() ? "" : ", ") + std::string(info.id);
+    }
+    return text;
+}
+
+/// Puts "ID=#rrggbb" into `colors`; the sentence that says what is wrong with it, or "".
+std::string take_color(const std::string& text, render::LayerColors& colors) {
+    const std::size_t equals = text.find('=');
+    const auto infos = render::layer_color_infos();
+    const auto info = std::ranges::find(infos, text.substr(0, equals), &render::LayerColorInfo::id);
+    if (equals == std::string::npos || info == infos.end()) {
+        return fmt::format("'{}' does not name a colour as ID=#rrggbb; there are {}", text, listed_colors());
+    }
+    const auto color = render::color_from(text.substr(equals + 1));
+    if (!color) {
+        return fmt::format("'{}' is not a colour as #rrggbb", text.substr(equals + 1));
+    }
+    colors.set(info->which, color);
+    return {};
+}
 
 /// Nothing unless `text` is WIDTHxHEIGHT within the limits.
 std::optional<render::PixelSize> size_from(const std::string& text) {
@@ -75,7 +113,8 @@ int render_project(const RenderOptions& options) {
                                                           *viewport::view_kind(options.view),
                                                           *size_from(options.size),
                                                           render::Theme::dark,
-                                                          solids_of(opened, plan));
+                                                          solids_of(opened, plan),
+                                                          options.look);
     render::write_png(picture, options.out);
     fmt::print("{}\n", options.out);
     return 0;
@@ -93,6 +132,29 @@ void add_render_command(CLI::App& app, Command& chosen) {
     command.add_option("--size", options->size, "Size of the picture in pixels")
         ->check(CLI::Validator(fault_of_size, "WIDTHxHEIGHT"))
         ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--side",
+            [options](const std::string& name) { options->look.side = render_sides.at(name); },
+            "From where it is seen (default: iso); oblique is the thesis's view")
+        ->check(CLI::IsMember(render_sides).description(""))
+        ->type_name(listed(render_sides));
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--color",
+            [options](const std::vector<std::string>& all) {
+                for (const std::string& one : all) {
+                    (void)take_color(one, options->look.colors);
+                }
+            },
+            "A colour in place of the theme's, as background=#ffffff; may be repeated")
+        ->allow_extra_args(false)
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                render::LayerColors unused;
+                return take_color(text, unused);
+            },
+            "ID=#rrggbb"));
     command.add_option("--out", options->out, "PNG file")->required()->type_name("FILE");
     command.callback([&chosen, options] { chosen = [options] { return render_project(*options); }; });
 }

@@ -1,6 +1,7 @@
 #include "app/commands/study_command.h"
 
 #include "app/commands/study_fewest.h"
+#include "app/commands/study_run_time.h"
 #include "app/commands/study_set_up.h"
 #include "app/interrupt.h"
 #include "app/outputs.h"
@@ -280,6 +281,7 @@ void add_study_command(CLI::App& app, Command& chosen) {
     group.require_subcommand(1);
     add_study_fewest_command(group, chosen);
     add_study_set_up_command(group, chosen);
+    add_study_run_time_command(group, chosen);
     const auto options = std::make_shared<StudyOptions>();
     CLI::App& command =
         *group.add_subcommand("kinematic-error", "The error of each way to make the grid, side by side");

@@ -1,21 +1,23 @@
 #include "app/commands/thesis_command.h"
 
-#include "app/interrupt.h"
+#include "app/commands/thesis_form.h"
+#include "app/commands/thesis_grid.h"
 #include "app/names.h"
 #include "app/outputs.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/grid/grid_file.h"
-#include "core/project/strategy_path.h"
+#include "core/kinematics/rotary_tilt_machine.h"
+#include "core/project/settings.h"
 #include "core/toolpath/thesis_files.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,51 +29,61 @@ constexpr int most_nodes = 1000;
 
 struct PictureOptions {
     std::string project, out;
-    int nodes = 20;
-    kinematics::RotaryTilt constants = kinematics::listing_values;
+    std::vector<int> nodes; ///< n_u and n_v, or one number for both; empty: the project's
+    std::optional<grid::TrackDirection> direction;
+    std::optional<kinematics::RotaryTilt> constants; ///< nothing: the project's machine
     bool with_faults = false;
 };
+
+toolpath::ListingGrid listing_grid(const PictureOptions& options, const project::Project& project) {
+    const project::GridInput& grid = project.grid;
+    return {.nu = options.nodes.empty() ? grid.nu : options.nodes.front(),
+            .nv = options.nodes.empty() ? grid.nv : options.nodes.back(),
+            .direction = options.direction.value_or(grid.direction),
+            .flipped = project.surface.flipped};
+}
+
+/// By the listing's formulas where the machine is built like the thesis's, else by its own kinematics.
+std::vector<Vec3> mid_points(const PictureOptions& options,
+                             const OpenedProject& opened,
+                             const geometry::BezierPatch& patch,
+                             const toolpath::ListingGrid& grid) {
+    const auto faults =
+        options.with_faults ? toolpath::ListingFaults::all : toolpath::ListingFaults::corrected;
+    if (options.constants) {
+        return toolpath::listing_mid_points(patch, *options.constants, grid, faults);
+    }
+    const kinematics::MachineModel machine = project::workpiece_of(opened.project, opened.folders).machine;
+    if (const auto constants = kinematics::rotary_tilt_of(machine)) {
+        return toolpath::listing_mid_points(patch, *constants, grid, faults);
+    }
+    if (options.with_faults) {
+        throw UsageError(fmt::format("the listing's faults are of its own machine, and the project has '{}'",
+                                     machine.name()),
+                         {},
+                         "name its constants: --constants listing");
+    }
+    return toolpath::machine_mid_points(patch, machine, grid);
+}
 
 int write_pictures(const PictureOptions& options) {
     const OpenedProject opened = open_project(options.project);
     const auto n = static_cast<std::size_t>(opened.project.surface.machined_patch);
     const geometry::BezierPatch patch(opened.project.surface.patches.at(n));
-    const auto faults =
-        options.with_faults ? toolpath::ListingFaults::all : toolpath::ListingFaults::corrected;
+    const toolpath::ListingGrid grid = listing_grid(options, opened.project);
+    const std::vector<Vec3> middles = mid_points(options, opened, patch, grid);
     make_folder(options.out);
     write_outputs(options.out,
-                  {{"Surface.dat", toolpath::surface_dat(patch, options.nodes)},
-                   {"Toolpath.dat", toolpath::toolpath_dat(patch, options.constants, options.nodes, faults)}},
+                  {{"Surface.dat", toolpath::surface_dat(patch, grid)},
+                   {"Toolpath.dat", toolpath::toolpath_dat(patch, middles, grid)}},
                   opened.file);
     fmt::print("{0}/Surface.dat\n{0}/Toolpath.dat\n", options.out);
     return 0;
 }
 
-enum class Form { pairs, blocks };
-const std::map<std::string, Form> forms{{"pairs", Form::pairs}, {"blocks", Form::blocks}};
-
-std::string grid_text(const grid::NodeArray& nodes, Form form) {
-    return form == Form::pairs ? grid::pairs_text(nodes) : grid::blocks_text(nodes);
-}
-
-struct GridOptions {
-    std::string project, out;
-    Form form = Form::blocks;
-};
-
-int write_grid(const GridOptions& options) {
-    const Interrupt interrupt;
-    const OpenedProject opened = open_project(options.project);
-    const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
-    const grid::Grid& grid = plan.evaluation(project::program_grid(opened.project))->outcome.grid;
-    write_file(options.out, grid_text(grid.array(), options.form));
-    fmt::print("{}: {} x {} nodes, u and v from 0 to 1\n", options.out, grid.nu(), grid.nv());
-    return 0;
-}
-
 struct ConvertOptions {
     std::string file, out;
-    Form to = Form::blocks;
+    GridForm to = GridForm::blocks;
     std::vector<int> size; ///< rows, columns of pairs; empty: blocks
     bool residuals = false;
 };
@@ -94,42 +106,44 @@ int convert_grid(const ConvertOptions& options) {
 void add_files(CLI::App& thesis, Command& chosen) {
     const auto options = std::make_shared<PictureOptions>();
     CLI::App& command = *thesis.add_subcommand(
-        "files", "Surface.dat and Toolpath.dat of a project's surface, as the listing makes them");
+        "files", "Surface.dat and Toolpath.dat of a project, as the listing makes them");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "Folder for both")->required()->type_name("DIR");
-    command.add_option("--nodes", options->nodes, "Points each way")
+    command
+        .add_option(
+            "--nodes", options->nodes, "Points along u and along v, or one number for both (project's)")
+        ->delimiter(',')
+        ->expected(1, 2)
+        ->allow_extra_args(false)
         ->check(CLI::Range(2, most_nodes))
-        ->capture_default_str();
-    const auto constants = std::make_shared<const std::map<std::string, const kinematics::RotaryTilt*>>(
-        std::map<std::string, const kinematics::RotaryTilt*>{{"listing", &kinematics::listing_values},
-                                                             {"chapter-3", &kinematics::chapter_3_values},
-                                                             {"gui", &kinematics::gui_values}});
-    std::vector<std::string> names;
-    for (const auto& [name, values] : *constants) {
-        names.push_back(name);
+        ->type_name("NU[,NV]");
+    std::map<std::string, grid::TrackDirection> directions;
+    for (const auto& row : project::track_directions()) {
+        directions.emplace(row.id, row.value);
     }
     command
         .add_option_function<std::string>(
+            "--direction",
+            [options, directions](const std::string& name) { options->direction = directions.at(name); },
+            "Tracks along u (Tool Path 1) or along v (Tool Path 2); default: the project's")
+        ->check(CLI::IsMember(directions).description(""))
+        ->type_name(listed(directions));
+    const std::map<std::string, std::optional<kinematics::RotaryTilt>> constants{
+        {"project", std::nullopt},
+        {"listing", kinematics::listing_values},
+        {"chapter-3", kinematics::chapter_3_values},
+        {"gui", kinematics::gui_values}};
+    command
+        .add_option_function<std::string>(
             "--constants",
-            [options, constants](const std::string& name) { options->constants = *constants->at(name); },
-            "Whose machine constants and place of the part (default: listing)")
-        ->check(CLI::IsMember(names));
+            [options, constants](const std::string& name) { options->constants = constants.at(name); },
+            "Machine and place of the part: the project's (default), or one of the thesis's three sets")
+        ->check(CLI::IsMember(constants).description(""))
+        ->type_name(listed(constants));
     command.add_flag("--listing-faults",
                      options->with_faults,
                      "With the listing's wrong parenthesis and integer absolute value");
     command.callback([&chosen, options] { chosen = [options] { return write_pictures(*options); }; });
-}
-
-void add_grid(CLI::App& thesis, Command& chosen) {
-    const auto options = std::make_shared<GridOptions>();
-    CLI::App& command = *thesis.add_subcommand(
-        "grid", "The grid that the program of a project uses, for the thesis's solver");
-    command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
-    command.add_option("--form", options->form, "A node a line, or blocks of u and of v (default)")
-        ->transform(one_of(forms))
-        ->type_name(listed(forms));
-    command.callback([&chosen, options] { chosen = [options] { return write_grid(*options); }; });
 }
 
 void add_convert(CLI::App& thesis, Command& chosen) {
@@ -140,8 +154,8 @@ void add_convert(CLI::App& thesis, Command& chosen) {
     command.add_option("FILE", options->file, "Blocks, or pairs with --size")->required();
     command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
     command.add_option("--to", options->to, "A node a line, or blocks (default)")
-        ->transform(one_of(forms))
-        ->type_name(listed(forms));
+        ->transform(one_of(grid_forms))
+        ->type_name(listed(grid_forms));
     CLI::Option& size =
         *command.add_option("--size", options->size, "FILE has pairs, of so many rows and columns")
              ->delimiter(',')
@@ -162,7 +176,7 @@ void add_thesis_command(CLI::App& app, Command& chosen) {
         *app.add_subcommand("thesis", "Files of the thesis's own programs, for comparison with the original");
     thesis.require_subcommand(1);
     add_files(thesis, chosen);
-    add_grid(thesis, chosen);
+    add_thesis_grid(thesis, chosen);
     add_convert(thesis, chosen);
 }
 

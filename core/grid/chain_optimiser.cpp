@@ -305,7 +305,7 @@ void ChainOptimiser::finish(const Progress& progress) {
     const bool gained = bests_.size() > 1;
     state_.status = gained ? ImproverStatus::converged : ImproverStatus::no_gain;
     state_.note = gained ? found_by(state_.links, state_.of_best) : none_taken(state_.links, better_by_move);
-    state_.current = state_.best.array();
+    state_.reached = std::exchange(state_.current, state_.best.array());
     state_.now = state_.of_best;
     state_.done = 1.0;
     stage_ = Stage::done;

@@ -7,6 +7,7 @@
 #include "core/grid/discrete_minimiser.h"
 #include "core/grid/grid_promise.h"
 #include "core/grid/harmonic_functional.h"
+#include "core/grid/internal/adaptation_text.h"
 #include "core/grid/jacobi_newton.h"
 #include "core/grid/multigrid_then_minimiser.h"
 #include "core/grid/region.h"
@@ -30,7 +31,6 @@ constexpr double fall_of_adaptation = 0.1;
 // What of the whole way is done, by where the time goes.
 constexpr double iterated = 0.5;
 constexpr double adaptation_judged = 0.99;
-constexpr int shown_decimals = 4; // of a mean error in mm
 
 /// A cycle does what hundreds of plain iterations do.
 int measured_every(EllipticMethod method) {
@@ -60,57 +60,6 @@ ImproverStatus as_improver_status(SolverStatus status) {
     return ImproverStatus::iteration_limit;
 }
 
-std::string failure_sentence(SolverStatus status) {
-    switch (status) {
-    case SolverStatus::folded:
-        return "a cell folded";
-    case SolverStatus::singular:
-        return "a node's equations have no solution";
-    default:
-        return "a number left the finite range";
-    }
-}
-
-std::string mean_sentence(const ErrorSummary& error) {
-    return std::isfinite(error.mean)
-               ? "mean distance to the curve " + fixed(error.mean, shown_decimals) + " mm"
-               : "some moves are out of reach";
-}
-
-std::string iteration_sentence(const ImproverState& state, int iteration) {
-    return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(iteration) + ": " +
-           mean_sentence(state.now);
-}
-
-std::string counted_below(const std::vector<double>& means, double than, const std::string& why) {
-    const auto count = std::ranges::count_if(means, [&](double mean) { return mean < than; });
-    return count == 0 ? std::string() : std::to_string(count) + " " + why;
-}
-
-/// Of the refused grids those with a lower mean than the one that was taken: how good they were, and why not.
-std::string refusals(const std::vector<double>& too_wide,
-                     const std::vector<double>& worse_elsewhere,
-                     double taken,
-                     double gap_allowance) {
-    const std::string wide = counted_below(too_wide,
-                                           taken,
-                                           "for tracks more than " + shortest(100.0 * gap_allowance) +
-                                               " % farther apart than the start's");
-    const std::string worse = counted_below(
-        worse_elsewhere, taken, "for a larger error or tool axis somewhere on the path than the start has");
-    if (wide.empty() && worse.empty()) {
-        return {};
-    }
-    double least = infinity;
-    for (const std::vector<double>* means : {&too_wide, &worse_elsewhere}) {
-        for (const double mean : *means) {
-            least = std::min(least, mean);
-        }
-    }
-    return ". Grids with a smaller mean distance to the curve, down to " + fixed(least, shown_decimals) +
-           " mm, were refused: " + wide + (wide.empty() || worse.empty() ? "" : ", ") + worse;
-}
-
 /// Copies the outline of `from`, so that no rounding on the way to solver coordinates and back moves it.
 void keep_outline(NodeArray& nodes, const NodeArray& from) {
     for (int i = 0; i < nodes.rows; ++i) {
@@ -126,6 +75,13 @@ void keep_outline(NodeArray& nodes, const NodeArray& from) {
 /// No reason is left to prefer the other grid.
 bool dominates(const ErrorSummary& one, const ErrorSummary& other) {
     return one.mean <= other.mean && one.axis_max <= other.axis_max;
+}
+
+/// Not finite where the last iteration has none.
+double norm_after(const EllipticSolver& solver) {
+    const bool has_norm =
+        solver.status() != SolverStatus::not_finite && !exactly_equal(solver.norm(), norm_at_start);
+    return has_norm ? solver.norm() : std::numeric_limits<double>::quiet_NaN();
 }
 
 void expects_valid_settings(const EllipticAdaptationSettings& settings) {
@@ -235,6 +191,9 @@ bool EllipticAdaptation::advance(const Progress& progress) {
     }
     at_ = std::move(next);
     const bool more = at_.state.status == ImproverStatus::running;
+    if (!more) {
+        at_.state.reached = at_.state.current;
+    }
     at_.state.done = more ? std::max(at_.state.done, share_done(at_)) : 1.0;
     progress.report(std::min(at_.state.done, adaptation_judged), at_.state.note);
     return more;
@@ -300,6 +259,7 @@ std::unique_ptr<EllipticSolver> EllipticAdaptation::new_solver(Position& at) con
                                   .boundary = settings_.boundary};
     if (at.round_weight == nullptr) {
         at.round_weight = weight_of_round(at);
+        at.last_weight = at.round_weight;
         if (at.weight_warning.empty()) { // else it was counted on the start grid, which a person knows
             at.weight_warning =
                 warning_of(at.round_weight.get(),
@@ -334,6 +294,7 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
     for (int n = 0; more && n < settings_.iterations_per_step; ++n) {
         progress.check();
         more = solver->iterate();
+        at.state.norms.push_back({at.state.round + 1, at.functional.adaptation, norm_after(*solver)});
         if (has_failed(solver->status())) {
             at.state.iteration = at.iterations_before + solver->iterations();
             fall(at, solver->status());
@@ -353,6 +314,18 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
     if (!more) {
         end_round(at, solver->status());
     }
+}
+
+std::optional<NodeArray> EllipticAdaptation::residuals() const {
+    const NodeArray& nodes = at_.state.current;
+    if (at_.last_weight == nullptr || settings_.method == EllipticMethod::harmonic || nodes.rows < 3 ||
+        nodes.columns < 3) {
+        return std::nullopt;
+    }
+    const JacobiNewton equations(to_solver_coordinates(nodes),
+                                 at_.last_weight,
+                                 {.functional = at_.functional, .boundary = settings_.boundary});
+    return grid::residuals(equations.equations(), nodes.rows, nodes.columns);
 }
 
 NodeArray EllipticAdaptation::parameters_of(const NodeArray& nodes) const {

@@ -81,6 +81,12 @@ public:
     /// LV of the round that is running: that of the settings until a solver failed.
     [[nodiscard]] double adaptation() const { return at_.functional.adaptation; }
 
+    /// R_X and R_Y of the thesis's equations (elliptic_equations.h) at the nodes of state().current, in
+    /// solver coordinates [nu x nv], with weight and LV of the round that ran last; 0 where a node does not
+    /// move. Nothing before the first round, for the harmonic map, which has no such equations, and below 3 x
+    /// 3 nodes.
+    [[nodiscard]] std::optional<NodeArray> residuals() const override;
+
 private:
     struct Candidate {
         Grid grid;
@@ -98,6 +104,7 @@ private:
         std::vector<MoveError> moves{};                 ///< of the last complete grid
         WeightPtr density{};                            ///< the error density, remembered from round to round
         WeightPtr round_weight{};                       ///< null between two rounds
+        WeightPtr last_weight{};                        ///< of the round that runs or ran last
         std::shared_ptr<const EllipticSolver> solver{}; ///< null between two rounds
         std::vector<CandidatePtr> candidates{};         ///< none dominated by one before it
         std::vector<double> too_wide{};                 ///< the means of those whose tracks lie too far apart

@@ -7,6 +7,7 @@
 #include "core/grid/error_model.h"
 #include "core/grid/grid.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,15 @@ struct ImproverLink {
         refused; ///< why the nodes at its end were not taken, "tracks too far apart"; empty: they were
 };
 
+/// One iteration of a solver that works on a norm.
+struct IterationNorm {
+    int round = 1;           ///< of the outer loop, from 1
+    double adaptation = 0.0; ///< LV that it ran with
+    double norm = 0.0;       ///< after it; not finite where the solver has none
+
+    friend bool operator==(const IterationNorm&, const IterationNorm&) = default;
+};
+
 /// What a person watches. `best` is never worse than the start in the mean error.
 struct ImproverState {
     ImproverStatus status = ImproverStatus::running;
@@ -38,13 +48,16 @@ struct ImproverState {
     int iteration = 0;      ///< inner iterations done in all rounds
     double norm = 0.0;      ///< residual norm (elliptic) or largest node step of the last sweep (tracks)
     NodeArray current{};    ///< as it stands now; may be between two grids
+    NodeArray reached{};    ///< at the end: the nodes that the method itself ended with, kept or not
     Grid best;              ///< the best grid seen
     ErrorSummary start{};   ///< of the start grid
     ErrorSummary now{};     ///< of the last complete grid
     ErrorSummary of_best{}; ///< of `best`
     std::string note{};     ///< one sentence: what was just done, or why it ended
     std::string warning{};  ///< sentences: a weight that makes no sense, settings that could not be kept
-    double done = 0.0;      ///< of the whole way, 0 to 1, never falling; 1 at the end only
+    std::vector<IterationNorm>
+        norms{};                       ///< of every iteration; of the elliptic grid and the harmonic map only
+    double done = 0.0;                 ///< of the whole way, 0 to 1, never falling; 1 at the end only
     std::vector<ImproverLink> links{}; ///< that are done; of the whole chain only
 };
 
@@ -58,6 +71,10 @@ public:
     virtual bool advance(const Progress& progress) = 0;
 
     [[nodiscard]] virtual const ImproverState& state() const = 0;
+
+    /// What the equations that the method solves leave at the nodes of state().current, in solver coordinates
+    /// [nu x nv]; nothing where it solves none.
+    [[nodiscard]] virtual std::optional<NodeArray> residuals() const { return std::nullopt; }
 };
 
 /// Advances to the end and returns the last state.

@@ -99,6 +99,7 @@ bool Redistribution::advance(const Progress& progress) {
     }
     state_.best = Grid(array_of(tracks));
     state_.current = state_.best.array();
+    state_.reached = array_of(placed);
     state_.round = 1;
     state_.done = 1.0;
     const bool gained = best.kept_from_start < static_cast<int>(std::ssize(start_));

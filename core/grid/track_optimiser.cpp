@@ -215,6 +215,7 @@ void TrackOptimiser::end_polish(const std::vector<TrackPolish>& polished,
     const std::vector<MeasuredTrack> after = measured(model_, tracks, fine, progress);
     const GuardedTracks best = never_worse(model_, {after, paths_}, measured_start_, promise_, progress);
     publish(best);
+    state_.current = array_of(tracks);
     state_.note = note_of("Polished", best);
     finish(status);
 }
@@ -227,7 +228,7 @@ void TrackOptimiser::publish(const GuardedTracks& best) {
 void TrackOptimiser::finish(ImproverStatus status) {
     const bool gained = !(state_.best.array() == array_of(start_));
     state_.status = gained ? status : ImproverStatus::no_gain;
-    state_.current = state_.best.array();
+    state_.reached = std::exchange(state_.current, state_.best.array());
     state_.now = state_.of_best;
     state_.done = 1.0;
     stage_ = Stage::done;

@@ -55,6 +55,25 @@ WeightPtr weight_w1() {
     return ring_weight({});
 }
 
+WeightPtr weight_w1_on(int side) {
+    expects(side >= 2, "a grid has at least 2 x 2 nodes");
+    const double scale = 24.0 / (side - 1);
+    const WeightPtr w1 = weight_w1();
+    const auto value = [w1, scale](const Vec2& p) {
+        const Vec2 at = scale * p;
+        double w = 0.0;
+        w1->values({&at, 1}, {&w, 1});
+        return w;
+    };
+    const auto gradient = [w1, scale](const Vec2& p) -> Vec2 {
+        const Vec2 at = scale * p;
+        Vec2 found = Vec2::Zero();
+        w1->gradients({&at, 1}, {&found, 1});
+        return scale * found;
+    };
+    return formula(value, gradient);
+}
+
 WeightPtr weight_w2(int rows) {
     return ring_weight({.centre = {10.0, 10.0}, .radius_squared = 1.0 * rows});
 }

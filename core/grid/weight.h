@@ -38,6 +38,8 @@ struct Ring {
 
 /// Circle of radius 5 about (10, 10).
 [[nodiscard]] WeightPtr weight_w1();
+/// W1 stretched over side x side nodes: as wide there as on 25 x 25.
+[[nodiscard]] WeightPtr weight_w1_on(int side);
 /// Circle of radius sqrt(rows) about (10, 10).
 [[nodiscard]] WeightPtr weight_w2(int rows);
 /// Quarter circle of radius 5 about (rows, columns).

@@ -137,6 +137,7 @@ MachineModel read_machine(const std::filesystem::path& file) {
                       "workpiece_offset",
                       "tool_tip",
                       "tool_axis",
+                      "tip_to_base",
                       "tool_length",
                       "angle_formulas",
                       "bodies",
@@ -154,6 +155,9 @@ MachineModel read_machine(const std::filesystem::path& file) {
     machine.workpiece_offset = point(root.at("workpiece_offset"));
     machine.tool_tip = point(root.at("tool_tip"));
     machine.tool_axis = direction(root.at("tool_axis"));
+    if (const auto length = root.find("tip_to_base")) {
+        machine.tip_to_base = length->number(-farthest_mm, farthest_mm);
+    }
     if (const auto length = root.find("tool_length")) {
         machine.tool_length = length->number(0.0, farthest_mm);
     }

@@ -58,6 +58,8 @@ struct MachineDescription {
     Vec3 workpiece_offset = Vec3::Zero(); ///< of the workpiece's origin on the table: the set-up (a, b, c)
     Vec3 tool_tip = Vec3::Zero();         ///< of the tool in the spindle
     Vec3 tool_axis = Vec3::UnitZ();       ///< unit, from the tip towards the spindle
+    /// OF of the thesis's machine: from the tool tip to the machine's base, mm. Nullopt if unknown.
+    std::optional<double> tip_to_base;
     /// Gauge length of the tool in the spindle: from the spindle's gauge line to the tip, mm. Nullopt if
     /// unknown.
     std::optional<double> tool_length;

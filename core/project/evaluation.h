@@ -26,9 +26,10 @@ struct GridOutcome {
     /// Of the moves inside tracks: distance to the surface curve between the nodes, as the improver measured
     /// it at its start and for `grid`. Nothing for the uniform grid.
     std::optional<grid::ErrorSummary> start_by_curve = {}, by_curve = {};
-    std::string note = {};                      ///< one sentence; empty for the uniform grid
-    std::string warning = {};                   ///< as grid::ImproverState::warning
-    std::vector<grid::ImproverLink> links = {}; ///< of the whole chain
+    std::string note = {};                       ///< one sentence; empty for the uniform grid
+    std::string warning = {};                    ///< as grid::ImproverState::warning
+    std::vector<grid::ImproverLink> links = {};  ///< of the whole chain
+    std::vector<grid::IterationNorm> norms = {}; ///< as grid::ImproverState::norms
 };
 
 struct Evaluation {

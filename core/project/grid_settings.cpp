@@ -61,7 +61,7 @@ constexpr std::array<NumberSetting<grid::Region>, 1> numbers_of_region{{
      field<&grid::Region::border_mm>},
 }};
 
-constexpr std::array<NumberSetting<EllipticInput>, 5> of_elliptic{{
+constexpr std::array<NumberSetting<EllipticInput>, 8> of_elliptic{{
     {"adaptation",
      "Adaptation",
      "",
@@ -78,6 +78,14 @@ constexpr std::array<NumberSetting<EllipticInput>, 5> of_elliptic{{
      1e4,
      2,
      field<&EllipticInput::orthogonality>},
+    {"relaxation",
+     "Relaxation",
+     "",
+     "WW of the thesis's iteration: a node keeps this share of its old position; the other solvers have none",
+     0.0,
+     0.999,
+     3,
+     field<&EllipticInput::relaxation>},
     {"tolerance",
      "Residual tolerance",
      "",
@@ -102,6 +110,23 @@ constexpr std::array<NumberSetting<EllipticInput>, 5> of_elliptic{{
      1000,
      0,
      field<&EllipticInput::max_rounds>},
+    {"error_change",
+     "Settled change",
+     "",
+     "Delta of the outer loop: it ends when a round changes the mean error by no more than this share of the "
+     "mean error at the start",
+     0.0,
+     1.0,
+     6,
+     field<&EllipticInput::error_change>},
+    {"iterations_per_step",
+     "Iterations per refresh",
+     "",
+     "Iterations between two pictures of an adaptation that is watched; the result is the same",
+     1,
+     10000,
+     0,
+     field<&EllipticInput::iterations_per_step>},
 }};
 
 constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
@@ -292,7 +317,7 @@ std::span<const NumberSetting<grid::Region>> region_numbers() {
     return numbers_of_region;
 }
 bool is_of_harmonic_map(std::string_view id) {
-    return id != "adaptation" && id != "orthogonality";
+    return id != "adaptation" && id != "orthogonality" && id != "relaxation";
 }
 std::span<const NumberSetting<EllipticInput>> elliptic_numbers() {
     return of_elliptic;

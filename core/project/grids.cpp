@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/base/numbers.h"
 #include "core/base/sentences.h"
 #include "core/grid/chain_optimiser.h"
 #include "core/grid/elliptic_adaptation.h"
@@ -97,15 +98,19 @@ adaptation_settings(GridMethod method, const GridInput& input, const geometry::B
     settings.direction = input.direction;
     settings.region = region_weight(input, patch);
     settings.boundary = input.elliptic.sliding_boundary ? grid::Boundary::sliding : grid::Boundary::fixed;
+    settings.relaxation = input.elliptic.relaxation;
     settings.tolerance = input.elliptic.tolerance;
     settings.max_iterations = input.elliptic.max_iterations;
     settings.max_rounds = input.elliptic.max_rounds;
+    settings.error_change = input.elliptic.error_change;
+    settings.iterations_per_step = input.elliptic.iterations_per_step;
     return settings;
 }
 
-std::unique_ptr<grid::GridImprover>
-make_adaptation(GridMethod method, const GridInput& input, const toolpath::KinematicError& error) {
-    const grid::Grid start = grid::Grid::uniform(input.nu, input.nv);
+std::unique_ptr<grid::GridImprover> make_adaptation(GridMethod method,
+                                                    const GridInput& input,
+                                                    const toolpath::KinematicError& error,
+                                                    const grid::Grid& start) {
     const grid::EllipticAdaptationSettings settings = adaptation_settings(method, input, error.patch());
     if (input.elliptic.weight == WeightSource::error) {
         return std::make_unique<grid::EllipticAdaptation>(error, start, settings);
@@ -259,17 +264,58 @@ void expect_enough_nodes(GridMethod method, const GridInput& input) {
     }
 }
 
+/// Throws Error where nodes are to slide along sides that `start` does not have.
+void expect_straight_sides(const GridInput& input, const grid::Grid& start) {
+    if (!input.elliptic.sliding_boundary) {
+        return;
+    }
+    const auto is = [](double value, double wanted) { return exactly_equal(value, wanted); };
+    const int last_u = start.nu() - 1, last_v = start.nv() - 1;
+    bool straight = true;
+    for (int i = 0; i <= last_u; ++i) {
+        straight = straight && is(start.node(i, 0).y(), 0.0) && is(start.node(i, last_v).y(), 1.0);
+    }
+    for (int j = 0; j <= last_v; ++j) {
+        straight = straight && is(start.node(0, j).x(), 0.0) && is(start.node(last_u, j).x(), 1.0);
+    }
+    if (!straight) {
+        throw Error(
+            "the boundary of the start grid is not that of the surface, so its nodes cannot slide on it",
+            {},
+            "hold the boundary: grid/elliptic/sliding_boundary false");
+    }
+}
+
+/// Throws Error for tracks that bend, which only the elliptic grid and the harmonic map can start from.
+void expect_straight_tracks(grid::TrackDirection direction, const grid::Grid& start) {
+    const Eigen::Index across = direction == grid::TrackDirection::along_v ? 0 : 1;
+    for (int t = 0; t < start.track_count(direction); ++t) {
+        const double first = start.track_node(direction, t, 0)[across];
+        for (int k = 1; k < start.nodes_per_track(direction); ++k) {
+            if (!exactly_equal(start.track_node(direction, t, k)[across], first)) {
+                throw Error(fmt::format("track {} of the start grid is not straight, counted from 0", t),
+                            {},
+                            "the elliptic grid and the harmonic map start from any grid");
+            }
+        }
+    }
+}
+
 std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
                                                   const GridInput& input,
                                                   const toolpath::KinematicError& error,
-                                                  Effort effort) {
+                                                  Effort effort,
+                                                  const std::optional<grid::Grid>& given) {
     expects(method != GridMethod::uniform, "the uniform grid is not improved");
     expect_memory(method, input);
     expect_enough_nodes(method, input);
+    grid::Grid start = given ? *given : grid::Grid::uniform(input.nu, input.nv);
+    expects(start.nu() == input.nu && start.nv() == input.nv, "a start grid has nu x nv nodes");
     if (method == GridMethod::elliptic || method == GridMethod::harmonic) {
-        return make_adaptation(method, input, error);
+        expect_straight_sides(input, start);
+        return make_adaptation(method, input, error, start);
     }
-    grid::Grid start = grid::Grid::uniform(input.nu, input.nv);
+    expect_straight_tracks(input.direction, start);
     if (method == GridMethod::redistribution) {
         const grid::RedistributionSettings settings{.floor = input.redistribution.floor,
                                                     .smoothings = input.redistribution.smoothing_passes};
@@ -299,7 +345,8 @@ GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progr
             state.of_best,
             state.note,
             state.warning,
-            state.links};
+            state.links,
+            state.norms};
 }
 
 std::string_view title_of_making(GridMethod method) {

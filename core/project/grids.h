@@ -60,12 +60,16 @@ memory_fault(GridMethod method, const GridInput& input, const std::optional<std:
 /// Throws Error for a memory_fault() that the settings do not allow.
 void expect_memory(GridMethod method, const GridInput& input);
 
-/// A new improver for `method` (not uniform) from the uniform grid. `error` must outlive it. Throws Error if
-/// an expression of the settings has no sense or the solver needs more nodes, and as expect_memory().
-[[nodiscard]] std::unique_ptr<grid::GridImprover> make_improver(GridMethod method,
-                                                                const GridInput& input,
-                                                                const toolpath::KinematicError& error,
-                                                                Effort effort = Effort::full);
+/// A new improver for `method` (not uniform) from `start` of nu x nv nodes, or from the uniform grid without
+/// one. `error` must outlive it. Throws Error if an expression of the settings has no sense, the solver needs
+/// more nodes, `start` does not suit the method (a boundary that slides and is not the square's; bent tracks
+/// where tracks are optimised), and as expect_memory().
+[[nodiscard]] std::unique_ptr<grid::GridImprover>
+make_improver(GridMethod method,
+              const GridInput& input,
+              const toolpath::KinematicError& error,
+              Effort effort = Effort::full,
+              const std::optional<grid::Grid>& start = std::nullopt);
 
 [[nodiscard]] GridOutcome uniform_outcome(const GridInput& input);
 

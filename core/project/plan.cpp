@@ -7,6 +7,7 @@
 #include "core/gcode/posts/release.h"
 #include "core/geometry/self_crossing.h"
 #include "core/kinematics/machine_file.h"
+#include "core/kinematics/rotary_tilt_machine.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"
 #include "core/project/cut_study.h"
@@ -133,6 +134,17 @@ Workpiece workpiece_of(const Project& project, const Folders& folders) {
     refuse_crossing(patch, project.surface.trim(project.surface.machined_patch));
     kinematics::MachineModel machine =
         kinematics::read_machine(machine_path(project, folders.project, folders.assets));
+    if (const auto& set = project.machine.tool_set) {
+        const Vec3 part = machine.description().workpiece_offset;
+        machine = kinematics::with_rotary_tilt(machine,
+                                               {.a = part.x(),
+                                                .b = part.y(),
+                                                .c = part.z(),
+                                                .e = set->e,
+                                                .AB = set->AB,
+                                                .B4 = set->B4,
+                                                .OF = set->OF});
+    }
     machine = machine_with(project.tool, machine);
     if (project.machine.workpiece_offset) {
         machine = machine.with_workpiece_offset(*project.machine.workpiece_offset);

@@ -1,10 +1,12 @@
 #include "core/project/project.h"
 
+#include "core/base/numbers.h"
 #include "core/geometry/presets.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/internal/region_area.h"
 #include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
+#include "core/project/settings.h"
 #include "core/project/taught_points.h"
 #include "core/project/tool_settings.h"
 
@@ -122,6 +124,14 @@ void check_machine(Faults& faults, const MachineInput& machine) {
     if (machine.workpiece_offset && !within(*machine.workpiece_offset, farthest_point_mm)) {
         faults.push_back(
             fmt::format("machine/workpiece_offset: not finite, or more than {} mm", farthest_point_mm));
+    }
+    if (machine.tool_set) {
+        for (const NumberSetting<ToolSetInput>& number : tool_set_numbers()) {
+            if (!lies_between(number.value(*machine.tool_set), number.min, number.max)) {
+                faults.push_back(fmt::format(
+                    "machine/tool_set/{}: not within {} and {} mm", number.id, number.min, number.max));
+            }
+        }
     }
 }
 

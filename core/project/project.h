@@ -39,9 +39,20 @@ struct SurfaceInput {
     friend bool operator==(const SurfaceInput&, const SurfaceInput&) = default;
 };
 
+/// The constants of the thesis's machine (its dialog Tool Set), mm; a, b, c are the workpiece offset.
+struct ToolSetInput {
+    double e = 0.08;     ///< eccentricity of the tilt axis
+    double OF = 119.644; ///< tool tip to machine base
+    double AB = 251.286; ///< rotary table to tilt axis
+    double B4 = 371.943; ///< tilt axis to machine base
+
+    friend bool operator==(const ToolSetInput&, const ToolSetInput&) = default;
+};
+
 struct MachineInput {
     std::string file = "rotary-tilt-listing"; ///< id of a shipped machine, or a path relative to the project
     std::optional<Vec3> workpiece_offset;     ///< set-up (a, b, c), mm; the machine file's own if not set
+    std::optional<ToolSetInput> tool_set;     ///< of the thesis's machine only; that of its file if not set
     kinematics::AngleMode angle_mode = kinematics::AngleMode::consistent;
 
     friend bool operator==(const MachineInput&, const MachineInput&) = default;
@@ -83,9 +94,12 @@ struct EllipticInput {
     grid::EllipticMethod solver = grid::EllipticMethod::minimiser; ///< not harmonic: that is a grid method
     double adaptation = 100.0;                                     ///< LV
     double orthogonality = 0.0;                                    ///< LO
+    double relaxation = 0.81;                                      ///< WW of the thesis's iteration
     double tolerance = 1e-3;                                       ///< of the residual norm
     int max_iterations = 250;                                      ///< inner, a round
     int max_rounds = 10;                                           ///< outer
+    double error_change = 1e-4;   ///< delta of the outer loop: share of the mean error at the start
+    int iterations_per_step = 10; ///< between two pictures, where it is watched
     bool sliding_boundary = true;
     bool any_memory = false; ///< it is made even where it takes more than half of what is free
 

@@ -143,8 +143,18 @@ SurfaceInput read_surface(const JsonValue& value) {
     return result;
 }
 
+/// All four, since those that are missing would be of another machine.
+ToolSetInput tool_set_of(const JsonValue& value) {
+    expect_fields<ToolSetInput>(value, tool_set_numbers(), {});
+    ToolSetInput result;
+    for (const NumberSetting<ToolSetInput>& number : tool_set_numbers()) {
+        number.set(result, value.at(number.id).number(number.min, number.max));
+    }
+    return result;
+}
+
 MachineInput read_machine(const JsonValue& value) {
-    value.expect_only({"file", "workpiece_offset", "angle_mode"});
+    value.expect_only({"file", "workpiece_offset", "tool_set", "angle_mode"});
     MachineInput result;
     result.file = value.at("file").text();
     if (result.file.empty()) {
@@ -152,6 +162,9 @@ MachineInput read_machine(const JsonValue& value) {
     }
     if (const auto offset = value.find("workpiece_offset")) {
         result.workpiece_offset = point(*offset);
+    }
+    if (const auto set = value.find("tool_set")) {
+        result.tool_set = tool_set_of(*set);
     }
     read_choice(value, "angle_mode", angle_modes(), result.angle_mode);
     return result;
@@ -346,6 +359,9 @@ Json machine_input_json(const MachineInput& machine) {
     json["file"] = machine.file;
     if (machine.workpiece_offset) {
         json["workpiece_offset"] = point_json(*machine.workpiece_offset);
+    }
+    if (machine.tool_set) {
+        add_numbers<ToolSetInput>(json["tool_set"], tool_set_numbers(), *machine.tool_set);
     }
     json["angle_mode"] = row_of(angle_modes(), machine.angle_mode).id;
     return json;

@@ -11,6 +11,34 @@ namespace {
 using kinematics::AngleMode;
 using toolpath::SequencingGoal;
 
+constexpr std::array<NumberSetting<ToolSetInput>, 4> of_tool_set{{
+    {"e", "Eccentricity e", "mm", "Of the tilt axis B", -1e4, 1e4, 3, field<&ToolSetInput::e>},
+    {"OF",
+     "Tip to base OF",
+     "mm",
+     "From the tool tip to the machine's base; the machine has the difference B4 - OF",
+     -1e4,
+     1e4,
+     3,
+     field<&ToolSetInput::OF>},
+    {"AB",
+     "Table to tilt AB",
+     "mm",
+     "From the rotary table, axis A, to the tilt axis B",
+     -1e4,
+     1e4,
+     3,
+     field<&ToolSetInput::AB>},
+    {"B4",
+     "Tilt to base B4",
+     "mm",
+     "From the tilt axis B to the machine's base",
+     -1e4,
+     1e4,
+     3,
+     field<&ToolSetInput::B4>},
+}};
+
 constexpr std::array<NumberSetting<ToolpathInput>, 1> of_toolpath{{
     {"tolerance_mm",
      "Tolerance",
@@ -145,6 +173,9 @@ std::span<const Choice<SequencingGoal>> sequencing_goals() {
 }
 std::span<const Choice<LinkInput>> links() {
     return of_link;
+}
+std::span<const NumberSetting<ToolSetInput>> tool_set_numbers() {
+    return of_tool_set;
 }
 std::span<const Choice<AngleMode>> angle_modes() {
     return of_angles;

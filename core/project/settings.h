@@ -53,6 +53,8 @@ template <class Owner> struct NumberSetting {
 /// Nodes of a grid along u or v: a path of a million moves.
 inline constexpr int most_nodes_a_side = 1000;
 
+/// The names are the thesis's letters.
+[[nodiscard]] std::span<const NumberSetting<ToolSetInput>> tool_set_numbers();
 [[nodiscard]] std::span<const NumberSetting<GridInput>> grid_numbers();
 [[nodiscard]] std::span<const NumberSetting<RedistributionInput>> redistribution_numbers();
 [[nodiscard]] std::span<const NumberSetting<EllipticInput>> elliptic_numbers();

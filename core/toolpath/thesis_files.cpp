@@ -1,11 +1,16 @@
 #include "core/toolpath/thesis_files.h"
 
 #include "core/base/error.h"
+#include "core/toolpath/actual_trajectory.h"
+#include "core/toolpath/fixed_axis.h"
+#include "core/toolpath/sequencing.h"
+#include "core/toolpath/zigzag.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace millwright::toolpath {
 
@@ -20,12 +25,16 @@ double listing_parameter(int i, int n) {
     return static_cast<double>(static_cast<float>(i) / static_cast<float>(n));
 }
 
-/// The zigzag order of the listing: inner index j, odd rows backwards. Flat indices i * n + j.
-std::vector<int> zigzag_order(int n) {
-    std::vector<int> order;
-    for (int i = 0; i < n; ++i) {
-        for (int step = 0; step < n; ++step) {
-            order.push_back(i * n + (i % 2 == 0 ? step : n - 1 - step));
+/// The zigzag order of the listing, odd tracks backwards, as indices into samples [nu x nv].
+std::vector<std::size_t> zigzag_order(const ListingGrid& grid) {
+    const bool along_v = grid.direction == grid::TrackDirection::along_v;
+    const int tracks = along_v ? grid.nu : grid.nv, nodes = along_v ? grid.nv : grid.nu;
+    std::vector<std::size_t> order;
+    for (int track = 0; track < tracks; ++track) {
+        for (int step = 0; step < nodes; ++step) {
+            const int node = track % 2 == 0 ? step : nodes - 1 - step;
+            const int i = along_v ? track : node, j = along_v ? node : track;
+            order.push_back(static_cast<std::size_t>(i * grid.nv + j));
         }
     }
     return order;
@@ -52,16 +61,16 @@ struct Contact {
     Vec3 point, normal;
 };
 
-std::vector<Contact> contacts(const geometry::BezierPatch& patch, int n) {
+std::vector<Contact> contacts(const geometry::BezierPatch& patch, const ListingGrid& grid) {
     std::vector<Contact> result;
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-            const auto at = patch.derivatives(listing_parameter(i, n), listing_parameter(j, n));
+    for (int i = 0; i < grid.nu; ++i) {
+        for (int j = 0; j < grid.nv; ++j) {
+            const auto at = patch.derivatives(listing_parameter(i, grid.nu), listing_parameter(j, grid.nv));
             const auto normal = patch.unit_normal(at);
             if (!normal) {
                 throw Error(fmt::format("the surface has no normal at sample ({},{})", i, j));
             }
-            result.push_back({at.position, *normal});
+            result.push_back({at.position, grid.flipped ? Vec3(-*normal) : *normal});
         }
     }
     return result;
@@ -105,29 +114,32 @@ Eigen::Vector2i ObliqueView::pixel(const Vec3& p) const {
             static_cast<int>(400.0 - R_ * (p.z() + p.y() * s))};
 }
 
-std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, int n) {
+std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, const ListingGrid& grid) {
+    expects(grid.nu >= 2 && grid.nv >= 2, "the listing's grid has 2 x 2 points at least");
     std::vector<Vec3> samples;
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-            samples.push_back(patch.position(listing_parameter(i, n), listing_parameter(j, n)));
+    for (int i = 0; i < grid.nu; ++i) {
+        for (int j = 0; j < grid.nv; ++j) {
+            samples.push_back(patch.position(listing_parameter(i, grid.nu), listing_parameter(j, grid.nv)));
         }
     }
     return samples;
 }
 
-std::string surface_dat(const geometry::BezierPatch& patch, int n) {
-    const std::vector<Vec3> samples = listing_samples(patch, n);
+std::string surface_dat(const geometry::BezierPatch& patch, const ListingGrid& grid) {
+    const std::vector<Vec3> samples = listing_samples(patch, grid);
     const ObliqueView view(samples);
-    const auto pixel = [&](int i, int j) { return view.pixel(samples[static_cast<std::size_t>(i * n + j)]); };
+    const auto pixel = [&](int i, int j) {
+        return view.pixel(samples[static_cast<std::size_t>(i * grid.nv + j)]);
+    };
     std::string text;
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j + 1 < n; ++j) {
+    for (int i = 0; i < grid.nu; ++i) {
+        for (int j = 0; j + 1 < grid.nv; ++j) {
             const auto a = pixel(i, j), b = pixel(i, j + 1);
             text += fmt::format("{} {} {} {}\n", a.x(), a.y(), b.x(), b.y());
         }
     }
-    for (int j = 0; j < n; ++j) {
-        for (int i = 0; i + 1 < n; ++i) {
+    for (int j = 0; j < grid.nv; ++j) {
+        for (int i = 0; i + 1 < grid.nu; ++i) {
             const auto a = pixel(i, j), b = pixel(i + 1, j);
             text += fmt::format("{} {} {} {} \n", a.x(), a.y(), b.x(), b.y());
         }
@@ -137,30 +149,46 @@ std::string surface_dat(const geometry::BezierPatch& patch, int n) {
 
 std::vector<Vec3> listing_mid_points(const geometry::BezierPatch& patch,
                                      const RotaryTilt& machine,
-                                     int n,
+                                     const ListingGrid& grid,
                                      ListingFaults faults) {
-    const std::vector<Contact> at = contacts(patch, n);
-    const std::vector<int> order = zigzag_order(n);
+    const std::vector<Contact> at = contacts(patch, grid);
+    const std::vector<std::size_t> order = zigzag_order(grid);
     std::vector<Vec3> result;
     for (std::size_t move = 1; move < order.size(); ++move) {
-        result.push_back(mid_point(machine,
-                                   at[static_cast<std::size_t>(order[move - 1])],
-                                   at[static_cast<std::size_t>(order[move])],
-                                   faults));
+        result.push_back(mid_point(machine, at[order[move - 1]], at[order[move]], faults));
+    }
+    return result;
+}
+
+std::vector<Vec3> machine_mid_points(const geometry::BezierPatch& patch,
+                                     const kinematics::MachineModel& machine,
+                                     const ListingGrid& grid) {
+    grid::NodeArray nodes(grid.nu, grid.nv);
+    for (int i = 0; i < grid.nu; ++i) {
+        for (int j = 0; j < grid.nv; ++j) {
+            nodes.at(i, j) = Vec2(listing_parameter(i, grid.nu), listing_parameter(j, grid.nv));
+        }
+    }
+    const Toolpath path =
+        on_machine(machine, zigzag(patch, grid::Grid(std::move(nodes)), grid.direction, grid.flipped));
+    const AxisPath axes = sequence(machine, path);
+    std::vector<Vec3> result;
+    for (std::size_t move = 1; move < axes.positions.size(); ++move) {
+        result.push_back(actual_pose(machine, axes.positions[move - 1], axes.positions[move], 0.5).tip);
     }
     return result;
 }
 
 std::string
-toolpath_dat(const geometry::BezierPatch& patch, const RotaryTilt& machine, int n, ListingFaults faults) {
-    const std::vector<Vec3> samples = listing_samples(patch, n);
+toolpath_dat(const geometry::BezierPatch& patch, const std::vector<Vec3>& middles, const ListingGrid& grid) {
+    const std::vector<Vec3> samples = listing_samples(patch, grid);
+    const std::vector<std::size_t> order = zigzag_order(grid);
+    expects(middles.size() + 1 == order.size(), "every move has its mid-point");
     const ObliqueView view(samples);
-    const std::vector<Vec3> middles = listing_mid_points(patch, machine, n, faults);
-    const std::vector<int> order = zigzag_order(n);
     std::string text;
     for (std::size_t move = 0; move < middles.size(); ++move) {
         const auto middle = view.pixel(middles[move]);
-        const auto end = view.pixel(samples[static_cast<std::size_t>(order[move + 1])]);
+        const auto end = view.pixel(samples[order[move + 1]]);
         text += fmt::format("{} {} \n {} {}\n", middle.x(), middle.y(), end.x(), end.y());
     }
     return text;

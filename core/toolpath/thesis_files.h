@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
+#include "core/kinematics/machine_model.h"
 #include "core/kinematics/rotary_tilt.h"
 #include "core/toolpath/toolpath.h"
 
@@ -25,12 +26,20 @@ private:
     double R_ = 1.0;
 };
 
-/// The listing's samples: u = i/n, v = j/n in single precision, so that u = 1 is never reached. [n x n]
-[[nodiscard]] std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, int n);
+/// Which points of the surface the listing takes, and how its zigzag follows them: along v is the listing's
+/// own (Tool Path 2 of the window), along u Tool Path 1.
+struct ListingGrid {
+    int nu = 20, nv = 20; ///< points each way, 2 or more
+    grid::TrackDirection direction = grid::TrackDirection::along_v;
+    bool flipped = false; ///< the tool is on the side against S_u x S_v
+};
 
-/// Throws Error as the view. Surface.dat: "x1 y1 x2 y2" a line; first the lines of constant i, then of
+/// The listing's samples: u = i/nu, v = j/nv in single precision, so that u = 1 is never reached. [nu x nv]
+[[nodiscard]] std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, const ListingGrid& grid);
+
+/// Throws Error as the view. Surface.dat: "x1 y1 x2 y2" per line; first the lines of constant i, then of
 /// constant j.
-[[nodiscard]] std::string surface_dat(const geometry::BezierPatch& patch, int n);
+[[nodiscard]] std::string surface_dat(const geometry::BezierPatch& patch, const ListingGrid& grid);
 
 /// How faithful the listing's mid-points are computed.
 enum class ListingFaults {
@@ -38,16 +47,21 @@ enum class ListingFaults {
     all,       ///< early parenthesis and integer absolute value too
 };
 
-/// Mid-points of the actual trajectory, one a zigzag move (n*n - 1), by the listing's rules.
+/// Mid-points of the actual trajectory, one per zigzag move (nu * nv - 1), by the listing's rules. Throws
+/// Error where the surface has no normal.
 [[nodiscard]] std::vector<Vec3> listing_mid_points(const geometry::BezierPatch& patch,
                                                    const kinematics::RotaryTilt& machine,
-                                                   int n,
+                                                   const ListingGrid& grid,
                                                    ListingFaults faults);
 
-/// Throws Error as the view. Toolpath.dat: mid-point line "x y " and end-point line " x y" a move.
-[[nodiscard]] std::string toolpath_dat(const geometry::BezierPatch& patch,
-                                       const kinematics::RotaryTilt& machine,
-                                       int n,
-                                       ListingFaults faults);
+/// The same on any machine: the angles of sequence() (sequencing.h). Throws Error as that.
+[[nodiscard]] std::vector<Vec3> machine_mid_points(const geometry::BezierPatch& patch,
+                                                   const kinematics::MachineModel& machine,
+                                                   const ListingGrid& grid);
+
+/// Throws Error as the view. Toolpath.dat: mid-point line "x y " and end-point line " x y" per move.
+/// `middles`: mid-points of the moves over `grid`.
+[[nodiscard]] std::string
+toolpath_dat(const geometry::BezierPatch& patch, const std::vector<Vec3>& middles, const ListingGrid& grid);
 
 } // namespace millwright::toolpath

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -24,7 +26,7 @@ TEST(RenderCommand, DrawsEveryViewWithoutADisplay) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");
     std::set<std::string> pictures;
-    for (const std::string view : {"design", "grid", "toolpath", "error", "machine"}) {
+    for (const std::string view : {"design", "grid", "toolpath", "error", "machine", "produced"}) {
         const auto file = scratch / (view + ".png");
         const Ended ended = run({"render", project, "--view", view, "--size", "320x200", "--out", file});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -33,6 +35,32 @@ TEST(RenderCommand, DrawsEveryViewWithoutADisplay) {
         EXPECT_EQ(header_number(png, 20), 200u) << view;
         EXPECT_TRUE(pictures.insert(png).second) << view << " looks like another view";
     }
+}
+
+TEST(RenderCommand, DrawsFromOtherSidesInOtherColours) {
+    const ScratchFolder scratch;
+    const auto project = small_project(scratch.path(), "dome");
+    std::set<std::string> pictures;
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+             {},
+             {"--side", "oblique"},
+             {"--side", "top"},
+             {"--color", "background=#ffffff", "--color", "surface=#C02020"}}) {
+        std::vector<std::string> words{
+            "render", project, "--view", "design", "--size", "320x200", "--out", scratch / "o.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run(words);
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_TRUE(pictures.insert(content_of(scratch / "o.png")).second);
+    }
+    const Ended wrong =
+        run({"render", project, "--view", "design", "--color", "sky=#ffffff", "--out", scratch / "o.png"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("there are background, surface,"));
+    EXPECT_EQ(
+        run({"render", project, "--view", "design", "--color", "grid_u=red", "--out", scratch / "o.png"})
+            .exit_code,
+        2);
 }
 
 TEST(RenderCommand, FailsWithoutTouchingWhatIsThere) {

@@ -30,6 +30,33 @@ TEST(StudyCommand, CountsTheFewestPoints) {
     EXPECT_EQ(run({"study", "fewest-points", "--surface", "dune"}).exit_code, 1);
 }
 
+// T23: how fast this machine is, nobody knows here; the tables are there, and the nodes the same.
+TEST(StudyCommand, TimesTheAdaptationBesideTheThesis) {
+    const ScratchFolder scratch;
+    const Ended ended = run({"study",
+                             "run-time",
+                             "--side",
+                             "50,9",
+                             "--threads",
+                             "1,2",
+                             "--iterations",
+                             "2",
+                             "--repeats",
+                             "1",
+                             "--out",
+                             scratch / "out"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(
+        ended.out,
+        AllOf(HasSubstr("Table 7-1: 2 iterations on 1 thread."), HasSubstr("Table 7-2"), HasSubstr("-O3")));
+    EXPECT_THAT(ended.out, HasSubstr(" 53.3 ")) << "the thesis's 479.352 s for 18 iterations on 2500 nodes";
+    const std::string rows = content_of(scratch / "out/run-time.csv");
+    EXPECT_THAT(rows, AllOf(HasSubstr("\n2500,1,2,"), HasSubstr("\n2500,2,2,"), HasSubstr("\n81,2,2,")));
+    EXPECT_EQ(rows.find(",0\n"), std::string::npos) << "other nodes on other threads";
+    EXPECT_THAT(content_of(scratch / "out/run-time-profile.csv"), HasSubstr("\n2500,"));
+    EXPECT_EQ(run({"study", "run-time", "--side", "2"}).exit_code, 2);
+}
+
 TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsTooAndSetsAnUnfinishedStudyAside) {
     const ScratchFolder scratch;
     std::filesystem::create_directories(scratch / "out/unfinished");

@@ -2,11 +2,16 @@
 #include "tests/app/shipped_files.h"
 #include "tests/support/scratch_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -78,6 +83,201 @@ TEST(ThesisCommand, ReadsResidualsWhichNeedNoCells) {
         {"thesis", "convert", scratch / "r.dat", "--residuals", "--to", "pairs", "--out", scratch / "o.dat"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("2 x 2 residuals"));
+}
+
+/// The thesis's test: 25 x 25 nodes, W1, its iteration, one round, nodes of the boundary held.
+std::filesystem::path thesis_case(const ScratchFolder& scratch, double lv, int iterations) {
+    auto json = nlohmann::json::parse(content_of(dome_project));
+    json["grid"]["nu"] = json["grid"]["nv"] = 25;
+    auto& elliptic = json["grid"]["elliptic"];
+    elliptic["weight"] = "w1";
+    elliptic["solver"] = "reference";
+    elliptic["adaptation"] = lv;
+    elliptic["max_iterations"] = iterations;
+    elliptic["max_rounds"] = 1;
+    elliptic["sliding_boundary"] = false;
+    write_content(scratch / "case.json", json.dump());
+    return scratch / "case.json";
+}
+
+// T13, T19: figures of an independent implementation; the grid is written though it does not improve the
+// path.
+TEST(ThesisCommand, WritesTheAdaptedGridWithItsResidualsAndNorms) {
+    const ScratchFolder scratch;
+    const Ended ended = run({"thesis",
+                             "grid",
+                             thesis_case(scratch, 1.0, 250),
+                             "--method",
+                             "elliptic",
+                             "--units",
+                             "nodes",
+                             "--form",
+                             "pairs",
+                             "--out",
+                             scratch / "grid.dat",
+                             "--residuals",
+                             scratch / "orx.dat",
+                             "--norms",
+                             scratch / "norms.csv"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("25 x 25 nodes, x from 0 to 24, y from 0 to 24"));
+    EXPECT_THAT(ended.out, HasSubstr("250 iterations in 1 round, norm 5.26083"));
+    EXPECT_THAT(ended.out, HasSubstr("Smallest cell area 0.800441"));
+    const std::string norms = content_of(scratch / "norms.csv");
+    EXPECT_THAT(norms, StartsWith("iteration,round,lv,norm\n1,1,1,4.04592246"));
+    EXPECT_EQ(std::ranges::count(norms, '\n'), 251);
+    const std::string residuals = content_of(scratch / "orx.dat");
+    EXPECT_EQ(std::ranges::count(residuals, '\n'), 50);
+    EXPECT_EQ(run({"thesis", "convert", scratch / "orx.dat", "--residuals", "--out", scratch / "again.dat"})
+                  .exit_code,
+              0);
+    // Not the uniform grid, which the program keeps.
+    ASSERT_EQ(run({"thesis",
+                   "grid",
+                   scratch / "case.json",
+                   "--method",
+                   "uniform",
+                   "--units",
+                   "nodes",
+                   "--form",
+                   "pairs",
+                   "--out",
+                   scratch / "uniform.dat"})
+                  .exit_code,
+              0);
+    EXPECT_NE(content_of(scratch / "grid.dat"), content_of(scratch / "uniform.dat"));
+}
+
+/// The displaced grid of the thesis's smoothing test, as pairs x, y.
+std::string displaced_pairs() {
+    std::string text;
+    const double turn = 8.0 * std::atan(1.0) / 24.0;
+    for (int i = 0; i < 25; ++i) {
+        for (int j = 0; j < 25; ++j) {
+            const double wave = 1.2 * std::sin(turn * j);
+            const double x = i + wave * std::sin(turn * i), y = j + wave * std::sin(0.5 * turn * i);
+            const bool edge = i == 0 || j == 0 || i == 24 || j == 24;
+            text += fmt::format("{:.12f} {:.12f}\n", edge ? i : x, edge ? j : y);
+        }
+    }
+    return text;
+}
+
+// T13: 982 iterations smooth it.
+TEST(ThesisCommand, SmoothsADisplacedStartGrid) {
+    const ScratchFolder scratch;
+    const auto project = thesis_case(scratch, 0.0, 5000);
+    write_content(scratch / "source", displaced_pairs());
+    const std::vector<std::string> words{"thesis",
+                                         "grid",
+                                         project,
+                                         "--method",
+                                         "elliptic",
+                                         "--units",
+                                         "nodes",
+                                         "--start",
+                                         scratch / "source",
+                                         "--out",
+                                         scratch / "smooth.dat",
+                                         "--norms",
+                                         scratch / "norms.csv"};
+    const Ended ended = run(words);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("982 iterations in 1 round, norm 9.98641"));
+    EXPECT_THAT(content_of(scratch / "norms.csv"), HasSubstr("\n1,1,0,1.50633122"));
+}
+
+TEST(ThesisCommand, RefusesAStartGridThatIsNone) {
+    const ScratchFolder scratch;
+    const auto project = thesis_case(scratch, 0.0, 10);
+    const auto with_start = [&](const std::string& units) {
+        return run({"thesis",
+                    "grid",
+                    project,
+                    "--method",
+                    "elliptic",
+                    "--units",
+                    units,
+                    "--start",
+                    scratch / "source",
+                    "--out",
+                    scratch / "o.dat"});
+    };
+    write_content(scratch / "source", displaced_pairs());
+    const Ended outside = with_start("parameters");
+    EXPECT_EQ(outside.exit_code, 1);
+    EXPECT_THAT(outside.err, HasSubstr("source: node (0, 2) is outside of the surface"));
+    const Ended bent = run({"thesis",
+                            "grid",
+                            project,
+                            "--method",
+                            "tracks",
+                            "--units",
+                            "nodes",
+                            "--start",
+                            scratch / "source",
+                            "--out",
+                            scratch / "o.dat"});
+    EXPECT_EQ(bent.exit_code, 1);
+    EXPECT_THAT(bent.err, HasSubstr("track 1 of the start grid is not straight"));
+    write_content(scratch / "source", "0 0\n1 1\n");
+    EXPECT_EQ(with_start("nodes").exit_code, 1);
+    const Ended no_method =
+        run({"thesis", "grid", project, "--start", scratch / "source", "--out", scratch / "o.dat"});
+    EXPECT_EQ(no_method.exit_code, 2);
+    const Ended none = run({"thesis",
+                            "grid",
+                            project,
+                            "--method",
+                            "tracks",
+                            "--residuals",
+                            scratch / "r.dat",
+                            "--out",
+                            scratch / "o.dat"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_THAT(none.err, HasSubstr("--residuals is of --method elliptic"));
+}
+
+TEST(ThesisCommand, WritesTheGridOfEveryMethod) {
+    const ScratchFolder scratch;
+    const auto project = small_project(scratch.path(), "dome");
+    for (const char* method : {"uniform", "redistribution", "elliptic", "harmonic", "tracks", "chain"}) {
+        const auto file = scratch / (std::string(method) + ".dat");
+        const Ended ended = run({"thesis", "grid", project, "--method", method, "--out", file});
+        ASSERT_EQ(ended.exit_code, 0) << method << ended.err;
+        EXPECT_EQ(std::ranges::count(content_of(file), '\n'), 12) << method;
+    }
+}
+
+TEST(ThesisCommand, WritesTheFilesOfTheProjectsOwnMachineAndDirection) {
+    const ScratchFolder scratch;
+    const auto path = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"thesis", "files", scratch / "dome.json", "--out", scratch / "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return content_of(scratch / "out/Toolpath.dat");
+    };
+    auto json = nlohmann::json::parse(content_of(dome_project));
+    json["grid"]["nu"] = 7;
+    json["grid"]["nv"] = 5;
+    const auto written = [&] { write_content(scratch / "dome.json", json.dump()); };
+    written();
+    const std::string own = path({});
+    EXPECT_EQ(std::ranges::count(own, '\n'), 2 * (7 * 5 - 1));
+    EXPECT_EQ(path({"--constants", "listing"}), own) << "the dome is on the listing's machine";
+    EXPECT_EQ(path({"--direction", "along-v", "--nodes", "7,5"}), own);
+    EXPECT_NE(path({"--direction", "along-u"}), own);
+    json["machine"]["workpiece_offset"] = {-15.0, 0.0, 100.0};
+    written();
+    EXPECT_NE(path({}), own) << "another place of the part";
+    json["machine"]["file"] = "ac-table";
+    written();
+    EXPECT_NE(path({}), own) << "another machine";
+    EXPECT_EQ(run({"thesis", "files", scratch / "dome.json", "--out", scratch / "out", "--listing-faults"})
+                  .exit_code,
+              2);
+    EXPECT_EQ(path({"--constants", "listing"}), own);
 }
 
 } // namespace

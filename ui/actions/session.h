@@ -9,6 +9,7 @@
 #include "ui/actions/hand_settings.h"
 #include "ui/actions/start_question.h"
 #include "ui/render/camera.h"
+#include "ui/render/view_colors.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/theme.h"
@@ -130,12 +131,13 @@ struct KeptResult {
     std::vector<toolpath::SingularPoint> singular_points;
 };
 
-/// What is shown beside the result: another grid's, or the one that was kept.
+/// What is shown beside the result: another grid's, the one that was kept, or the designed surface alone.
 struct Beside {
     std::optional<project::GridMethod> method;
     bool kept = false;
+    bool design = false;
 
-    [[nodiscard]] bool any() const { return kept || method; }
+    [[nodiscard]] bool any() const { return kept || method || design; }
     friend bool operator==(const Beside&, const Beside&) = default;
 };
 
@@ -182,6 +184,8 @@ struct Session {
                                                      LowerTab::motors};
     PaneSizes panes;
     widgets::Theme theme = widgets::Theme::dark;
+    render::LayerColors colors; ///< chosen by a person, in place of the theme's
+    bool colors_shown = false;  ///< the dialog that chooses them
     double machine_speed = 1.0; ///< of the virtual machine, times real time
     FileQuestion question = FileQuestion::none;
     std::optional<Replacing> replacing; ///< waits for the person's word

@@ -62,6 +62,15 @@ void add_sides(Actions& actions) {
         {"view.into_space", "View", "Look into space", "From the front, the right and above.", "", ""},
         always,
         look_from<StandardView::iso>);
+    add(actions,
+        {"view.oblique",
+         "View",
+         "Oblique view",
+         "From the front, with the depth at 30 degrees, as in the thesis: X + Y cos 30, Z + Y sin 30.",
+         "",
+         ""},
+        always,
+        look_from<StandardView::oblique>);
 }
 
 template <bool PaneSizes::*pane> void toggle_pane(Hands& hands) {
@@ -222,6 +231,15 @@ void add_view_actions(Actions& actions) {
             hands.session.theme = dark ? widgets::Theme::light : widgets::Theme::dark;
         },
         [](const Workbench& now) { return now.session.theme == widgets::Theme::light; });
+    add(actions,
+        {"view.colors",
+         "View",
+         "Colours of the view ...",
+         "Colours of background, surfaces, lines, paths and axes in place of the theme's.",
+         "",
+         ""},
+        always,
+        [](Hands& hands) { hands.session.colors_shown = true; });
     add(actions,
         {"view.search",
          "View",

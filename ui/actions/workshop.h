@@ -22,11 +22,11 @@ class SurfaceExport;
 enum class ProcessorSource : std::uint8_t; // processor_bench.h
 
 struct WorkshopOptions {
-    std::filesystem::path assets;               ///< what ships with the program
-    std::filesystem::path log_folder;           ///< of jobs
-    std::filesystem::path settings;             ///< file of the recent files; empty: keep none
-    std::filesystem::path recovery;             ///< folder of the copies of unsaved work; empty: keep none
-    std::function<void()> wake;                 ///< from any thread: draw a frame
+    std::filesystem::path assets;     ///< what ships with the program
+    std::filesystem::path log_folder; ///< of jobs
+    std::filesystem::path settings;   ///< file of the recent files, beside those of colours; empty: keep none
+    std::filesystem::path recovery;   ///< folder of the copies of unsaved work; empty: keep none
+    std::function<void()> wake;       ///< from any thread: draw a frame
     std::optional<project::Project> start = {}; ///< the project to begin with; empty: the sample
     std::chrono::milliseconds autosave_interval = std::chrono::seconds(3); ///< between two copies
 };
@@ -42,6 +42,9 @@ public:
     [[nodiscard]] const Catalogue& catalogue() const { return catalogue_; }
     /// For one frame; valid until the next call of a member that is not const.
     [[nodiscard]] Workbench look() const;
+
+    /// From now on, and at later starts; nothing: the theme's. Throws Error where that cannot be kept.
+    void choose_color(render::LayerColor which, const std::optional<glm::vec3>& color);
 
     /// Carries out what was asked; what an Error says becomes a notice and changes nothing.
     /// `focused`: the window has the keyboard; without it no jog goes on.
@@ -224,6 +227,8 @@ private:
     void give_place_back();
     void finish_writing_plot();
     void remember(const std::filesystem::path& file);
+    [[nodiscard]] std::filesystem::path colors_file() const;
+    void read_colors();
     void start_autosave();
     void follow_autosave();
     void follow_project();

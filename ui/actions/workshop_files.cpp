@@ -4,6 +4,7 @@
 #include "core/base/sentences.h"
 #include "core/machine/job.h"
 #include "core/machine/way_on.h"
+#include "core/project/color_choices.h"
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
@@ -347,6 +348,35 @@ void Workshop::remember(const fs::path& file) {
     if (!options_.settings.empty()) {
         project::write_recent(recent_, options_.settings);
     }
+}
+
+fs::path Workshop::colors_file() const {
+    return options_.settings.empty() ? fs::path() : options_.settings.parent_path() / "colors.json";
+}
+
+/// Layers that a later version knows are left alone.
+void Workshop::read_colors() {
+    const project::ColorChoices chosen = project::read_colors(colors_file());
+    for (const render::LayerColorInfo& info : render::layer_color_infos()) {
+        if (const auto found = chosen.find(std::string(info.id)); found != chosen.end()) {
+            session_.colors.set(info.which, render::color_from(found->second));
+        }
+    }
+}
+
+void Workshop::choose_color(render::LayerColor which, const std::optional<glm::vec3>& color) {
+    session_.colors.set(which, color);
+    if (colors_file().empty()) {
+        return;
+    }
+    project::ColorChoices chosen = project::read_colors(colors_file());
+    for (const render::LayerColorInfo& info : render::layer_color_infos()) {
+        chosen.erase(std::string(info.id));
+        if (const auto& own = session_.colors.of(info.which)) {
+            chosen[std::string(info.id)] = render::color_text(*own);
+        }
+    }
+    project::write_colors(chosen, colors_file());
 }
 
 void Workshop::quit() {

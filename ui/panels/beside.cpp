@@ -27,6 +27,8 @@ std::vector<Choice> choices_of(const Workbench& now) {
             choices.push_back({{method, false}, {row.id, row.label, {}, row.tip, {}}});
         }
     }
+    choices.push_back(
+        {{{}, false, true}, {"design", "Designed surface", {}, "To compare the produced surface with", {}}});
     if (now.session.kept) {
         choices.push_back({{{}, true}, {"kept", {}, {}, "The result that was kept", {}}});
     }
@@ -49,6 +51,15 @@ toolpath::SetUpPlace kept_place(const actions::KeptResult& kept, const project::
     toolpath::SetUpPlace place = map.now;
     place.head<3>() = kept.workpiece->machine.description().workpiece_offset;
     return place;
+}
+
+/// Nothing of the path.
+NamedScene designed_beside(const viewport::Scene& shown) {
+    NamedScene designed{shown, "Designed"};
+    designed.scene.now.reset();
+    designed.scene.layers = {
+        .surface_lines = true, .floor = shown.layers.floor, .origin = shown.layers.origin};
+    return designed;
 }
 
 } // namespace
@@ -75,7 +86,7 @@ void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions
 
 std::optional<PathBeside> path_beside(const Workbench& now) {
     const Beside& beside = now.session.beside;
-    if (now.session.workspace != actions::Workspace::toolpath || !beside.any()) {
+    if (now.session.workspace != actions::Workspace::toolpath || !beside.any() || beside.design) {
         return std::nullopt;
     }
     if (beside.kept) {
@@ -89,6 +100,9 @@ std::optional<PathBeside> path_beside(const Workbench& now) {
 
 std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown) {
     const Beside& beside = now.session.beside;
+    if (beside.design && now.session.workspace == actions::Workspace::toolpath && shown.shown) {
+        return designed_beside(shown);
+    }
     const auto path = path_beside(now);
     if (!path || !shown.shown) {
         return std::nullopt;

@@ -28,7 +28,7 @@ struct NamedScene {
 };
 
 /// What stands beside `shown`, in the Toolpath workspace alone; nothing where there is none, or not yet. Both
-/// get the same colours for the same error.
+/// paths get the same colours for the same error.
 [[nodiscard]] std::optional<NamedScene> scene_beside(const Workbench& now, viewport::Scene& shown);
 
 /// The name of the shown result: as much of it as may differ from what stands beside it.

@@ -2,6 +2,7 @@
 
 #include "core/machine/way_on.h"
 #include "ui/actions/at_rest.h"
+#include "ui/panels/color_dialog.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
@@ -60,6 +61,8 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_broken_job(ui, now, ask);
     } else if (now.session.help != actions::HelpPage::none) {
         help_.draw(ui, now, ask);
+    } else if (now.session.colors_shown) {
+        color_dialog(ui, now, ask);
     }
 }
 

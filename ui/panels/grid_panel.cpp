@@ -11,6 +11,7 @@
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/link_text.h"
 #include "ui/panels/no_gain_notes.h"
+#include "ui/panels/norm_plot.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/strategy_fields.h"
 #include "ui/panels/surface_tool.h"
@@ -269,6 +270,9 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         }
     }
     ui.note(status_text(*now.watched));
+    if (const auto& state = now.watched->state) {
+        norm_plot(ui, state->norms);
+    }
     if (const auto& state = now.watched->state; state && state->links.size() > 1) {
         draw_links(ui, state->links, turns_the_tool(now));
     }
@@ -392,6 +396,10 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
             [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });
     }
     draw_memory(ui, ask, harmonic ? GridMethod::harmonic : GridMethod::elliptic, now.project.grid);
+    const auto made = now.evaluation(harmonic ? GridMethod::harmonic : GridMethod::elliptic);
+    if (made && !now.watched) {
+        norm_plot(ui, made->outcome.norms);
+    }
 }
 
 } // namespace millwright::panels

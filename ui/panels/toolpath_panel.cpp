@@ -10,6 +10,7 @@
 #include "ui/panels/set_up_fields.h"
 #include "ui/panels/strategy_fields.h"
 #include "ui/panels/tool_fields.h"
+#include "ui/panels/tool_set_fields.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -181,6 +182,7 @@ void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ask.edit("Choose the machine", [id = ids[static_cast<std::size_t>(*chosen)]](Project& p) {
             p.machine.file = id;
             p.machine.workpiece_offset.reset();
+            p.machine.tool_set.reset();
         });
     }
     const Vec3 offset = workpiece_offset(now);
@@ -190,6 +192,7 @@ void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ask.edit("Move the part on the table",
                  [v = *value](Project& p) { p.machine.workpiece_offset = Vec3(v[0], v[1], v[2]); });
     }
+    tool_set_fields(ui, now, ask);
     choice_field<kinematics::AngleMode>(
         ui,
         ask,

@@ -260,8 +260,9 @@ void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
 /// A plane as it is measured, and space as it is seen.
 void ViewPanel::look_from(render::StandardView side, ActionQueue& ask) {
     view_.look_from(side);
-    view_.set_projection(side == render::StandardView::iso ? render::Projection::perspective
-                                                           : render::Projection::orthographic);
+    view_.set_projection(side == render::StandardView::iso       ? render::Projection::perspective
+                         : side == render::StandardView::oblique ? render::Projection::oblique
+                                                                 : render::Projection::orthographic);
     view_.fit();
     ask.show([](actions::Session& session) { session.side_wanted.reset(); });
 }
@@ -336,6 +337,7 @@ void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widge
         ask.show([](actions::Session& session) { session.fit_wanted = false; });
     }
     viewport::Scene shown = scene_of(now);
+    shown.colors = now.session.colors;
     fit_set_up(shown);
     const auto beside = scene_beside(now, shown);
     const auto events =

@@ -21,6 +21,7 @@ constexpr double farthest_mm = 1e7;
 constexpr double fit_margin = 1.08;             // part of the picture left free around a fitted box
 constexpr double depth_margin = 0.02;           // of the scene's depth, so that no plane cuts its border
 constexpr double nearest_to_far = 1.0 / 5000.0; // keeps a 24-bit depth buffer finer than a pixel
+const glm::dvec2 oblique_shift{std::cos(pi / 6.0), std::sin(pi / 6.0)}; // of a depth of 1
 const double tan_half_field = std::tan(0.5 * Camera::field_of_view);
 
 bool finite(const glm::dvec3& p) {
@@ -49,20 +50,35 @@ std::pair<double, double> depth_range(const Camera& camera, const Bounds& scene)
     return {low - margin, high + margin};
 }
 
+/// What a point's place in the picture goes by: right and up, to which an oblique projection adds the depth.
+struct PictureAxes {
+    glm::dvec3 x, y;
+};
+
+PictureAxes picture_axes(const Camera& camera) {
+    if (camera.pose().projection != Projection::oblique) {
+        return {camera.right(), camera.up()};
+    }
+    return {camera.right() - oblique_shift.x * camera.backward(),
+            camera.up() - oblique_shift.y * camera.backward()};
+}
+
+/// The target plane stays where it is.
 glm::dmat4 scene_to_eye(const Camera& camera) {
-    const glm::dvec3 x = camera.right();
-    const glm::dvec3 y = camera.up();
+    const auto [x, y] = picture_axes(camera);
     const glm::dvec3 z = camera.backward();
     const glm::dvec3 eye = camera.eye();
+    const glm::dvec3 in_picture =
+        camera.pose().projection == Projection::oblique ? camera.pose().target : eye;
     return {{x.x, y.x, z.x, 0.0},
             {x.y, y.y, z.y, 0.0},
             {x.z, y.z, z.z, 0.0},
-            {-glm::dot(x, eye), -glm::dot(y, eye), -glm::dot(z, eye), 1.0}};
+            {-glm::dot(x, in_picture), -glm::dot(y, in_picture), -glm::dot(z, eye), 1.0}};
 }
 
 glm::dmat4 eye_to_clip(const Camera& camera, double width_to_height, const Bounds& scene) {
     const auto [low, high] = depth_range(camera, scene);
-    if (camera.pose().projection == Projection::orthographic) {
+    if (camera.pose().projection != Projection::perspective) {
         const double half = half_height(camera);
         return glm::ortho(-half * width_to_height, half * width_to_height, -half, half, low, high);
     }
@@ -183,15 +199,18 @@ Camera Camera::fitted(std::span<const glm::dvec3> points, double aspect) const {
     }
     const double tan_up = tan_half_field / fit_margin;
     const bool perspective = pose_.projection == Projection::perspective;
-    const Extent across = extent(points, right(), backward(), perspective ? tan_up * aspect : 0.0);
-    const Extent upright = extent(points, up(), backward(), perspective ? tan_up : 0.0);
+    const auto [x, y] = picture_axes(*this);
+    const Extent across = extent(points, x, backward(), perspective ? tan_up * aspect : 0.0);
+    const Extent upright = extent(points, y, backward(), perspective ? tan_up : 0.0);
     const Extent depth = extent(points, backward(), right(), 0.0);
     const double needed = std::max(across.size() / (tan_up * aspect), upright.size() / tan_up) * 0.5;
     CameraPose pose = pose_;
     // In perspective the sides of the picture meet at the eye, otherwise they are `needed` apart at the
     // target.
     pose.distance = perspective ? needed - depth.middle() : needed;
-    pose.target = across.middle() * right() + upright.middle() * up() + depth.middle() * backward();
+    const glm::dvec2 shift = pose_.projection == Projection::oblique ? oblique_shift : glm::dvec2(0.0);
+    pose.target = (across.middle() + depth.middle() * shift.x) * right() +
+                  (upright.middle() + depth.middle() * shift.y) * up() + depth.middle() * backward();
     pose.distance = pose.distance > 0.0 ? pose.distance : pose_.distance;
     return Camera(pose);
 }
@@ -200,8 +219,14 @@ Camera Camera::seen_from(StandardView side) const {
     CameraPose pose = pose_;
     pose.pitch = 0.0;
     pose.yaw = -0.5 * pi;
+    if (pose.projection == Projection::oblique) {
+        pose.projection = Projection::orthographic;
+    }
     switch (side) {
     case StandardView::front:
+        break;
+    case StandardView::oblique:
+        pose.projection = Projection::oblique;
         break;
     case StandardView::top:
         pose.pitch = 0.5 * pi;

@@ -14,8 +14,11 @@
 
 namespace millwright::render {
 
-enum class Projection { perspective, orthographic };
-enum class StandardView { top, bottom, front, back, left, right, iso };
+/// Oblique: parallel, and what lies behind the target plane appears shifted by cos 30 deg of its depth to the
+/// right and sin 30 deg upwards: from the front x = X + Y cos 30, y = Z + Y sin 30 as in the listing of
+/// (Parasilmongkol 1997, KMITL).
+enum class Projection { perspective, orthographic, oblique };
+enum class StandardView { top, bottom, front, back, left, right, iso, oblique };
 
 struct CameraPose {
     glm::dvec3 target{0.0};
@@ -28,7 +31,7 @@ struct CameraPose {
     friend bool operator==(const CameraPose& a, const CameraPose& b);
 };
 
-/// A value: moving it gives another camera. Both projections show the target plane at the same size.
+/// A value: moving it gives another camera. All projections show the target plane at the same size.
 class Camera {
 public:
     static constexpr double field_of_view = 0.6108652381980153; ///< top to bottom: 35 degrees
@@ -59,6 +62,8 @@ public:
     /// The target moves to their middle. No points, or an empty box, change nothing.
     [[nodiscard]] Camera fitted(std::span<const glm::dvec3> points, double aspect) const;
     [[nodiscard]] Camera fitted(const Bounds& box, double aspect) const;
+    /// Oblique brings its projection along; the other sides turn an oblique projection into an orthographic
+    /// one.
     [[nodiscard]] Camera seen_from(StandardView side) const;
     [[nodiscard]] Camera with(Projection projection) const;
 

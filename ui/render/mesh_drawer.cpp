@@ -50,7 +50,9 @@ void MeshDrawer::draw(const MeshBuffer& buffer,
     program_.use();
     set_view(program_, view, style.model);
     set_coloring(program_, style.coloring, maps);
-    program_.set("up", glm::vec3(view.view[2]));
+    const glm::dmat4 light = unsheared(view);
+    program_.set("light_from_buffer", glm::mat4(light * glm::dmat4(style.model)));
+    program_.set("up", glm::vec3(light[2]));
     program_.set("lit", style.lit ? 1 : 0);
     program_.set("highlight", style.highlight);
     program_.set("has_back", style.back_color ? 1 : 0);

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
@@ -15,6 +16,17 @@ namespace {
 glm::dvec3 unprojected(const glm::dmat4& scene_from_clip, const glm::dvec3& device) {
     const glm::dvec4 point = scene_from_clip * glm::dvec4(device, 1.0);
     return glm::dvec3(point) / point.w;
+}
+
+/// Row of the view's matrix: 0 right, 1 up, 2 backward.
+glm::dvec3 picture_axis(const View& view, int row) {
+    return {view.view[0][row], view.view[1][row], view.view[2][row]};
+}
+
+/// Whether the picture's axes are not at right angles to the depth.
+bool is_sheared(const View& view) {
+    constexpr double right_angle = 1e-9; // cosine
+    return std::abs(glm::dot(picture_axis(view, 0), picture_axis(view, 2))) > right_angle;
 }
 
 } // namespace
@@ -40,8 +52,23 @@ Ray ray(const View& view, const glm::dvec2& pixel) {
     return {.origin = near_point, .direction = glm::normalize(far_point - near_point)};
 }
 
+glm::dmat4 unsheared(const View& view) {
+    glm::dmat4 plain = view.view;
+    if (is_sheared(view)) {
+        const glm::dvec3 backward = picture_axis(view, 2);
+        for (const int row : {0, 1}) {
+            const double shear = glm::dot(picture_axis(view, row), backward) / glm::dot(backward, backward);
+            for (int column = 0; column < 4; ++column) {
+                plain[column][row] -= shear * plain[column][2];
+            }
+        }
+    }
+    return plain;
+}
+
 glm::dvec3 looking_along(const View& view) {
-    return -glm::dvec3(view.view[0][2], view.view[1][2], view.view[2][2]);
+    return is_sheared(view) ? glm::normalize(glm::inverse(glm::dmat3(view.view)) * glm::dvec3(0.0, 0.0, -1.0))
+                            : -picture_axis(view, 2);
 }
 
 double pixel_length(const View& view, const glm::dvec3& point) {

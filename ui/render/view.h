@@ -26,7 +26,7 @@ struct Projected {
 };
 
 struct View {
-    glm::dmat4 view{1.0};       ///< scene to eye (x right, y up, looking along -z)
+    glm::dmat4 view{1.0}; ///< scene to eye (x right, y up, looking along -z); an oblique one shears, too
     glm::dmat4 projection{1.0}; ///< eye to clip
     PixelSize size{1, 1};
     double content_scale = 1.0; ///< widths and sizes of styles are multiplied by it
@@ -37,6 +37,9 @@ struct View {
 
 /// The line of sight through a pixel position, from the near plane on.
 [[nodiscard]] Ray ray(const View& view, const glm::dvec2& pixel);
+
+/// `view.view` without the shear of an oblique view: what light falls by.
+[[nodiscard]] glm::dmat4 unsheared(const View& view);
 
 /// The direction in which the view looks, unit length.
 [[nodiscard]] glm::dvec3 looking_along(const View& view);

@@ -1,5 +1,10 @@
 #include "ui/render/view_colors.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
 namespace millwright::render {
 
 namespace {
@@ -82,8 +87,67 @@ ViewColors light() {
 
 } // namespace
 
+std::span<const LayerColorInfo> layer_color_infos() {
+    static constexpr std::array<LayerColorInfo, layer_color_count> infos{
+        {{LayerColor::background, "background", "Background"},
+         {LayerColor::surface, "surface", "Surface"},
+         {LayerColor::surface_u, "surface_u", "Surface lines along u"},
+         {LayerColor::surface_v, "surface_v", "Surface lines along v"},
+         {LayerColor::produced, "produced", "Produced surface"},
+         {LayerColor::produced_u, "produced_u", "Produced lines along u"},
+         {LayerColor::produced_v, "produced_v", "Produced lines along v"},
+         {LayerColor::grid_u, "grid_u", "Grid lines along u"},
+         {LayerColor::grid_v, "grid_v", "Grid lines along v"},
+         {LayerColor::toolpath, "toolpath", "Toolpath"},
+         {LayerColor::axis_names, "axis_names", "Names of the axes"},
+         {LayerColor::axis_x, "axis_x", "X axis"},
+         {LayerColor::axis_y, "axis_y", "Y axis"},
+         {LayerColor::axis_z, "axis_z", "Z axis"}}};
+    return infos;
+}
+
+std::optional<glm::vec3> color_from(std::string_view text) {
+    constexpr std::size_t digits = 6;
+    unsigned value = 0;
+    if (text.size() != digits + 1 || text.front() != '#') {
+        return std::nullopt;
+    }
+    const auto [end, fault] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+    if (fault != std::errc{} || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return rgb(static_cast<int>(value >> 16U),
+               static_cast<int>((value >> 8U) & 0xFFU),
+               static_cast<int>(value & 0xFFU));
+}
+
+std::string color_text(const glm::vec3& color) {
+    constexpr std::string_view hex = "0123456789abcdef";
+    std::string text = "#";
+    for (const float channel : {color.r, color.g, color.b}) {
+        const auto byte = static_cast<unsigned>(std::lround(std::clamp(channel, 0.0F, 1.0F) * 255.0F));
+        text += hex[byte >> 4U];
+        text += hex[byte & 0xFU];
+    }
+    return text;
+}
+
 ViewColors view_colors(Theme theme) {
     return theme == Theme::dark ? dark() : light();
+}
+
+ViewColors view_colors(Theme theme, const LayerColors& chosen) {
+    ViewColors colors = view_colors(theme);
+    const auto take = [&](LayerColor which, glm::vec3& to) { to = chosen.of(which).value_or(to); };
+    take(LayerColor::background, colors.background_top);
+    take(LayerColor::background, colors.background_bottom);
+    take(LayerColor::surface, colors.surface);
+    take(LayerColor::toolpath, colors.path);
+    take(LayerColor::axis_x, colors.axis_x);
+    take(LayerColor::axis_y, colors.axis_y);
+    take(LayerColor::axis_z, colors.axis_z);
+    colors.chosen = chosen;
+    return colors;
 }
 
 } // namespace millwright::render

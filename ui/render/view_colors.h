@@ -5,10 +5,61 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace millwright::render {
 
 enum class Theme { dark, light };
+
+/// What a person can give a colour of their own, in place of the theme's.
+enum class LayerColor {
+    background,
+    surface,
+    surface_u, ///< lines of the designed surface along u
+    surface_v,
+    produced, ///< the produced surface
+    produced_u,
+    produced_v,
+    grid_u,
+    grid_v,
+    toolpath,
+    axis_names,
+    axis_x,
+    axis_y,
+    axis_z
+};
+inline constexpr std::size_t layer_color_count = 14;
+
+/// sRGB, 0 to 1; nothing: the theme's.
+class LayerColors {
+public:
+    [[nodiscard]] const std::optional<glm::vec3>& of(LayerColor which) const {
+        return chosen_[static_cast<std::size_t>(which)];
+    }
+    void set(LayerColor which, const std::optional<glm::vec3>& color) {
+        chosen_[static_cast<std::size_t>(which)] = color;
+    }
+    friend bool operator==(const LayerColors&, const LayerColors&) = default;
+
+private:
+    std::array<std::optional<glm::vec3>, layer_color_count> chosen_{};
+};
+
+struct LayerColorInfo {
+    LayerColor which;
+    std::string_view id;
+    std::string_view label;
+};
+/// In the order of LayerColor.
+[[nodiscard]] std::span<const LayerColorInfo> layer_color_infos();
+
+/// Of "#rrggbb", in either case; nothing if `text` is not such.
+[[nodiscard]] std::optional<glm::vec3> color_from(std::string_view text);
+[[nodiscard]] std::string color_text(const glm::vec3& color);
 
 struct ViewColors {
     Theme theme = Theme::dark;
@@ -41,8 +92,11 @@ struct ViewColors {
     glm::vec3 axis_x{};
     glm::vec3 axis_y{};
     glm::vec3 axis_z{};
+    LayerColors chosen{}; ///< by a person; of what has no colour above
 };
 
 [[nodiscard]] ViewColors view_colors(Theme theme);
+/// With the chosen colours in place of the theme's.
+[[nodiscard]] ViewColors view_colors(Theme theme, const LayerColors& chosen);
 
 } // namespace millwright::render

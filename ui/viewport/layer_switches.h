@@ -31,6 +31,12 @@ inline constexpr std::array layer_switches{
                 "Deviation",
                 "What the surface was fitted to, coloured by its distance from the surface.",
                 &Layers::deviation},
+    LayerSwitch{
+        "produced",
+        "Produced surface",
+        "The surface that the true path makes, with straight lines from track to track. For a tool that is "
+        "a point, on tracks with equally many moves.",
+        &Layers::produced},
     LayerSwitch{"grid", "Grid", "The grid that is used, or is being adapted.", &Layers::grid},
     LayerSwitch{
         "start_grid", "Start grid", "The uniform grid that the adaptation begins with.", &Layers::start_grid},
@@ -73,7 +79,7 @@ inline constexpr std::array layer_switches{
     LayerSwitch{"machine", "Machine", "The bodies of the machine, where its axes are.", &Layers::machine},
     LayerSwitch{"tool", "Tool", "The tool where the motion stands.", &Layers::tool},
     LayerSwitch{"trace",
-                "Simulated cut",
+                "Travelled path",
                 "The true path up to where the motion stands.",
                 &Layers::trace,
                 LayerSwitch::Of::both},

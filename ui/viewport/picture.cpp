@@ -46,6 +46,13 @@ std::vector<Part> parts_of(const project::Project& project,
     if (kind == ViewKind::machine && part.scene.shown && !part.scene.shown->axes.positions.empty()) {
         part.scene.now = moment_at(*part.scene.shown, machine_moment);
     }
+    if (kind == ViewKind::produced) {
+        part.caption = "Produced";
+        Part designed = {.scene = part.scene, .caption = "Designed"};
+        designed.scene.layers.surface = designed.scene.layers.surface_lines = true;
+        designed.scene.layers.produced = false;
+        return {designed, part};
+    }
     const bool compared = kind == ViewKind::grid || kind == ViewKind::error;
     if (!compared || !part.scene.start || part.scene.start == part.scene.shown) {
         return {part};
@@ -58,15 +65,27 @@ std::vector<Part> parts_of(const project::Project& project,
     return {before, part};
 }
 
+/// Space in perspective, planes without.
+render::Camera camera_from(render::StandardView side) {
+    const render::Camera camera = render::Camera().seen_from(side);
+    const bool plane = side != render::StandardView::iso && side != render::StandardView::oblique;
+    return plane ? camera.with(render::Projection::orthographic) : camera;
+}
+
 /// A part on the sheet with what it is drawn by.
 class DrawnPart {
 public:
-    DrawnPart(Part part, const widgets::Rect& place, const widgets::Rect& free, double scale)
+    DrawnPart(Part part,
+              render::StandardView side,
+              const widgets::Rect& place,
+              const widgets::Rect& free,
+              double scale)
         : part_(std::move(part)), place_(place) {
         scene_.update(part_.scene);
         picker_.follow(part_.scene.surface);
-        const render::Camera iso = render::Camera().seen_from(render::StandardView::iso);
-        const render::Camera turned = part_.scene.layers.machine ? part_in_sight(part_.scene, iso) : iso;
+        const render::Camera seen = camera_from(side);
+        const bool in_machine = part_.scene.layers.machine && side == render::StandardView::iso;
+        const render::Camera turned = in_machine ? part_in_sight(part_.scene, seen) : seen;
         camera_ = turned.fitted(scene_.outline(), render::aspect(pixel_size(free)));
         view_ = framed(camera_, place, free, scene_.depth_range(), scale);
     }
@@ -124,18 +143,22 @@ render::Picture render_view(const project::Project& project,
                             ViewKind kind,
                             const PixelSize& size,
                             render::Theme theme,
-                            const MachineSolids& machine_solids) {
+                            const MachineSolids& machine_solids,
+                            const PictureLook& look) {
     expects(size.width > 0 && size.height > 0, "a picture has an area");
     const PictureFacts facts = picture_facts(project, plan, kind);
-    const std::vector<Part> parts = parts_of(project, plan, kind, machine_solids);
+    std::vector<Part> parts = parts_of(project, plan, kind, machine_solids);
+    for (Part& part : parts) {
+        part.scene.colors = look.colors;
+    }
     const bool has_legend = parts.front().scene.layers.error_path && parts.front().scene.shown;
     const Sheet sheet = sheet_for(size, static_cast<int>(parts.size()), facts, has_legend);
-    const render::ViewColors colors = render::view_colors(theme);
+    const render::ViewColors colors = render::view_colors(theme, look.colors);
     Desk desk(size, sheet.scale, theme);
     std::vector<std::unique_ptr<DrawnPart>> drawn;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         drawn.push_back(std::make_unique<DrawnPart>(
-            parts[k], sheet.parts[k].place, sheet.parts[k].free, sheet.line_scale));
+            parts[k], look.side, sheet.parts[k].place, sheet.parts[k].free, sheet.line_scale));
     }
     return desk.picture([&](widgets::Ui& ui) {
         for (std::size_t k = 0; k < drawn.size(); ++k) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/project/plan.h"
+#include "ui/render/camera.h"
 #include "ui/render/picture.h"
 #include "ui/render/view_colors.h"
 #include "ui/viewport/scene.h"
@@ -18,6 +19,12 @@ void show_plan(Scene& scene, const project::Plan& plan);
 /// All of `plan` as one view shows it at first, on the grid that the project chose.
 [[nodiscard]] Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind);
 
+/// How a view is drawn, beside its contents.
+struct PictureLook {
+    render::StandardView side = render::StandardView::iso;
+    render::LayerColors colors = {};
+};
+
 /// The same bytes each time. Makes a context of its own, which is current while it draws: a caller that has
 /// one makes it current again. Not within a frame of ImGui. `machine_solids` as in a Scene. Throws Error if
 /// there is no EGL or no OpenGL 3.3, Defect if the size has no area.
@@ -26,6 +33,7 @@ void show_plan(Scene& scene, const project::Plan& plan);
                                           ViewKind kind,
                                           const render::PixelSize& size,
                                           render::Theme theme,
-                                          const MachineSolids& machine_solids = nullptr);
+                                          const MachineSolids& machine_solids = nullptr,
+                                          const PictureLook& look = {});
 
 } // namespace millwright::viewport

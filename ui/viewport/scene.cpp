@@ -23,7 +23,8 @@ constexpr std::array<KindNames, view_kind_count> view_kind_names = {{{"design", 
                                                                      {"grid", "Grid"},
                                                                      {"toolpath", "Toolpath"},
                                                                      {"error", "Error map"},
-                                                                     {"machine", "Machine"}}};
+                                                                     {"machine", "Machine"},
+                                                                     {"produced", "Produced surface"}}};
 
 const KindNames& names(ViewKind kind) {
     return view_kind_names[static_cast<std::size_t>(kind)];
@@ -85,6 +86,8 @@ Layers layers_of(ViewKind kind) {
     case ViewKind::error:
         return {
             .error_path = true, .singular_points = true, .gouges = true, .set_up_map = true, .tool = true};
+    case ViewKind::produced:
+        return {.surface = false, .produced = true};
     case ViewKind::machine:
         break;
     }
@@ -111,7 +114,8 @@ bool operator==(const Scene& a, const Scene& b) {
            a.opened == b.opened && a.opened_now == b.opened_now && a.plot == b.plot &&
            a.table_tip == b.table_tip && a.against_light == b.against_light && a.arm == b.arm &&
            same(a.now, b.now) && a.selected == b.selected && a.error == b.error && a.cut == b.cut &&
-           a.machine_solids == b.machine_solids && a.set_up == b.set_up && a.set_up_place == b.set_up_place;
+           a.machine_solids == b.machine_solids && a.set_up == b.set_up && a.set_up_place == b.set_up_place &&
+           a.colors == b.colors;
 }
 
 std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {

@@ -19,6 +19,7 @@
 #include "ui/render/bounds.h"
 #include "ui/render/color_map.h"
 #include "ui/render/view.h"
+#include "ui/render/view_colors.h"
 #include "ui/viewport/arm_scene.h"
 
 #include <memory>
@@ -28,8 +29,8 @@
 
 namespace millwright::viewport {
 
-enum class ViewKind { design, grid, toolpath, error, machine };
-inline constexpr int view_kind_count = 5;
+enum class ViewKind { design, grid, toolpath, error, machine, produced };
+inline constexpr int view_kind_count = 6;
 
 /// The word of the command line: "design", "grid" ...
 [[nodiscard]] std::string_view id(ViewKind kind);
@@ -45,6 +46,7 @@ struct Layers {
     bool control_net = false;     ///< with handles
     bool reference = false;       ///< triangles of another program beside the surface
     bool deviation = false;       ///< those that were fitted, coloured by their distance from the patch
+    bool produced = false;        ///< the surface that the true path makes
     bool grid = false;            ///< of `shown`, or what is being adapted
     bool start_grid = false;      ///< of `start`, dim
     bool toolpath = false;        ///< the intended path
@@ -151,6 +153,7 @@ struct Scene {
     std::vector<ControlPointId> selected; ///< ascending
     geometry::NetSymmetry symmetry = {};  ///< of dragging them; not of the picture itself
     ErrorScale error;
+    render::LayerColors colors = {}; ///< chosen by a person
 };
 
 /// Whether both look the same.

@@ -107,7 +107,7 @@ struct Viewport::State {
             at.y += ui.px(button_px);
             return ui.icon_button(id, icon, tip, {}, chosen);
         };
-        const bool flat = now().camera().pose().projection == Projection::orthographic;
+        const bool flat = now().camera().pose().projection != Projection::perspective;
         const bool four = arrangement == Arrangement::four;
         bool changed = false;
         if (button("fit", widgets::icons::fit_view, "Fit everything in the view (F)", false)) {
@@ -165,7 +165,7 @@ std::vector<ViewEvent> Viewport::draw(widgets::Ui& ui, const Rect& place, const 
                      .scene = scene,
                      .view = state.view,
                      .picker = state.picker,
-                     .colors = render::view_colors(theme_of(ui))};
+                     .colors = render::view_colors(theme_of(ui), scene.colors)};
     if (state.arrangement == Arrangement::one) {
         state.active = isometric_pane;
         std::vector<ViewEvent> events = state.draw_pane(frame, isometric_pane, place);
@@ -204,7 +204,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     state.dragging = false;
     state.pair[0].set_caption(left.caption);
     state.pair[1].set_caption(right.caption);
-    const render::ViewColors colors = render::view_colors(theme_of(ui));
+    const render::ViewColors colors = render::view_colors(theme_of(ui), right.scene.colors);
     const float space = ui.px(pane_gap);
     const float w = std::floor(0.5F * (place.w - space));
     const float h = draw_shared_legends(ui, place, right.scene, left.scene, colors);

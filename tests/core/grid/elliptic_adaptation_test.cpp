@@ -388,5 +388,55 @@ TEST(EllipticAdaptation, RefusesSettingsWithoutSense) {
     EXPECT_NO_THROW(EllipticAdaptation(model, Grid::uniform(2, 5), {}));
 }
 
+// The norm of the thesis's log, iteration by iteration: an independent implementation's first five.
+TEST(EllipticAdaptation, KeepsTheNormOfEveryIterationAndWhatTheEquationsLeave) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings;
+    settings.method = EllipticMethod::reference;
+    settings.boundary = Boundary::fixed;
+    settings.functional.adaptation = 1.0;
+    settings.max_iterations = 35;
+    settings.max_rounds = 2;
+    EllipticAdaptation adaptation(model, Grid::uniform(25, 25), settings, weight_w1());
+    EXPECT_FALSE(adaptation.residuals()) << "nothing was iterated";
+    const ImproverState state = run(adaptation, Progress());
+    ASSERT_EQ(state.norms.size(), 70U);
+    EXPECT_EQ(state.iteration, 70);
+    const double first[]{0.4045922466, 0.328164831, 0.2664142164, 0.2161995387, 0.175208779};
+    for (std::size_t n = 0; n < std::size(first); ++n) {
+        EXPECT_NEAR(state.norms[n].norm, first[n], 1e-8 * first[n]) << n;
+    }
+    EXPECT_EQ(state.norms[34].round, 1);
+    EXPECT_EQ(state.norms[35].round, 2);
+    EXPECT_DOUBLE_EQ(state.norms[69].norm, state.norm);
+    EXPECT_DOUBLE_EQ(state.norms[69].adaptation, 1.0);
+    EXPECT_EQ(state.reached, state.current);
+    const auto residuals = adaptation.residuals();
+    ASSERT_TRUE(residuals);
+    double largest = 0.0;
+    for (const Vec2& r : residuals->nodes) {
+        largest = std::max(largest, 0.5 * (std::abs(r.x()) + std::abs(r.y())));
+    }
+    EXPECT_NEAR(largest, state.norm, 1e-9 * state.norm);
+}
+
+/// LV = 100 folds the grid in its first iteration: the norm of that one is there, and LV of the next is less.
+TEST(EllipticAdaptation, NormsTellWhereTheSolverFellBack) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings;
+    settings.method = EllipticMethod::reference;
+    settings.boundary = Boundary::fixed;
+    settings.functional.adaptation = 100.0;
+    settings.max_iterations = 12;
+    settings.max_rounds = 1;
+    EllipticAdaptation adaptation(model, Grid::uniform(25, 25), settings, weight_w1());
+    const ImproverState state = run(adaptation, Progress());
+    ASSERT_EQ(state.norms.size(), 13U);
+    EXPECT_NEAR(state.norms[0].norm, 189.082913, 1e-4);
+    EXPECT_DOUBLE_EQ(state.norms[0].adaptation, 100.0);
+    EXPECT_DOUBLE_EQ(state.norms[1].adaptation, 10.0);
+    EXPECT_EQ(state.norms[1].round, 1);
+}
+
 } // namespace
 } // namespace millwright::grid

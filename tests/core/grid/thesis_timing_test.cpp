@@ -1,5 +1,5 @@
 // Tables 7-1 and 7-2 of (Parasilmongkol 1997, KMITL): ten iterations on 50 x 50 to 150 x 150 nodes, how long
-// they take and what threads change. bench/elliptic_bench prints the tables.
+// they take and what threads change. `millwright study run-time` prints the tables.
 #include "core/base/parallel.h"
 #include "core/grid/jacobi_newton.h"
 #include "tests/support/grid_arrays.h"

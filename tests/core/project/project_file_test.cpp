@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/project/assets.h"
+#include "core/project/plan.h"
 #include "core/project/settings.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/without_traps.h"
@@ -54,7 +55,10 @@ TEST(ProjectFile, WhatIsWrittenIsRead) {
     project.surface.patches[1].weight(1, 1) = 1.0 / 3.0;
     project.surface.machined_patch = 1;
     project.surface.flipped = true;
-    project.machine = {"../ours.json", Vec3(0.1, 1e-9, -3.0), kinematics::AngleMode::faulty_text};
+    project.machine = {"../ours.json",
+                       Vec3(0.1, 1e-9, -3.0),
+                       ToolSetInput{.e = 0.1, .OF = 1e-9, .AB = 250.0, .B4 = 1.0 / 3.0},
+                       kinematics::AngleMode::faulty_text};
     project.grid.direction = grid::TrackDirection::along_u;
     project.grid.method = GridMethod::elliptic;
     project.grid.elliptic.weight = WeightSource::expression;
@@ -247,6 +251,28 @@ TEST(ProjectFile, AFaultyProjectIsNotWrittenAndTheOldFileStays) {
     project.name = "\xff";
     EXPECT_THROW(write_project(project, scratch / "part.json"), Error);
     EXPECT_EQ(read_file(scratch / "part.json"), before);
+}
+
+TEST(ProjectFile, TheConstantsOfTheThesissMachineAreKeptAndUsed) {
+    Project project = project_from_preset("dome");
+    EXPECT_EQ(project_text(project).find("tool_set"), std::string::npos);
+    project.machine.tool_set = ToolSetInput{.e = 0.5, .OF = 119.0, .AB = 240.0, .B4 = 360.25};
+    project.grid.elliptic.relaxation = 0.5;
+    project.grid.elliptic.error_change = 0.01;
+    project.grid.elliptic.iterations_per_step = 3;
+    const std::string text = project_text(project);
+    EXPECT_EQ(project_from_text(text, "part.json"), project);
+    const Workpiece workpiece = workpiece_of(project, {{}, "assets"});
+    EXPECT_DOUBLE_EQ(workpiece.machine.description().tool_tip.z(), 241.25);
+    EXPECT_DOUBLE_EQ(workpiece.machine.description().table_origin.z(), -240.0);
+    EXPECT_EQ(workpiece.machine.description().workpiece_offset, Vec3(-15.0, 0.0, 175.0));
+    project.machine.file = "ac-table";
+    EXPECT_THROW((void)workpiece_of(project, {{}, "assets"}), Error);
+    std::string without = text;
+    without.replace(without.find("\"AB\""), 4, "\"AC\"");
+    EXPECT_THAT(fault_in(without), HasSubstr("machine/tool_set"));
+    project.machine.tool_set->B4 = 1e7;
+    EXPECT_THAT(faults_of(project), testing::Contains(HasSubstr("machine/tool_set/B4")));
 }
 
 TEST(ProjectFile, OutlinesOfTrimmedPatchesAreKept) {

@@ -20,9 +20,14 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
+std::string dat_of(const kinematics::RotaryTilt& machine, const ListingGrid& grid, ListingFaults faults) {
+    const auto dome = test::patch("dome");
+    return toolpath_dat(dome, listing_mid_points(dome, machine, grid, faults), grid);
+}
+
 // T4.
 TEST(ObliqueView, HasTheScaleOfTheListing) {
-    EXPECT_NEAR(ObliqueView(listing_samples(test::patch("dome"), 20)).scale(), 2.944258501924, 1e-9);
+    EXPECT_NEAR(ObliqueView(listing_samples(test::patch("dome"), {})).scale(), 2.944258501924, 1e-9);
 }
 
 TEST(ObliqueView, HasNoScaleForPointsOnTheWrongSide) {
@@ -33,7 +38,7 @@ TEST(ObliqueView, HasNoScaleForPointsOnTheWrongSide) {
 
 // T4, T11.
 TEST(SurfaceDat, HasTheReferenceRecords) {
-    const auto lines = lines_of(surface_dat(test::patch("dome"), 20));
+    const auto lines = lines_of(surface_dat(test::patch("dome"), {}));
     ASSERT_EQ(lines.size(), 760U);
     EXPECT_EQ(lines[0], "64 382 72 377");
     EXPECT_EQ(lines[1], "72 377 80 373");
@@ -45,7 +50,7 @@ TEST(SurfaceDat, HasTheReferenceRecords) {
 // T8.
 TEST(ListingMidPoints, CorrectedForwardEquationsGiveTheReferencePoints) {
     const auto points =
-        listing_mid_points(test::patch("dome"), kinematics::listing_values, 20, ListingFaults::corrected);
+        listing_mid_points(test::patch("dome"), kinematics::listing_values, {}, ListingFaults::corrected);
     ASSERT_EQ(points.size(), 399U);
     EXPECT_LT((points[0] - Vec3(10.195113, 11.536875, 3.985629)).cwiseAbs().maxCoeff(), 2e-6);
     EXPECT_LT((points[1] - Vec3(10.059569, 14.681875, 1.911524)).cwiseAbs().maxCoeff(), 2e-6);
@@ -54,25 +59,53 @@ TEST(ListingMidPoints, CorrectedForwardEquationsGiveTheReferencePoints) {
 
 TEST(ListingMidPoints, AllFaultsGiveTheOriginalsPoint) {
     const auto points =
-        listing_mid_points(test::patch("dome"), kinematics::listing_values, 20, ListingFaults::all);
+        listing_mid_points(test::patch("dome"), kinematics::listing_values, {}, ListingFaults::all);
     EXPECT_LT((points[0] - Vec3(11.934237, 11.536875, 9.975673)).cwiseAbs().maxCoeff(), 2e-6);
 }
 
 // T11.
 TEST(ToolpathDat, HasTheReferenceLines) {
-    const auto corrected =
-        lines_of(toolpath_dat(test::patch("dome"), kinematics::listing_values, 20, ListingFaults::corrected));
+    const auto corrected = lines_of(dat_of(kinematics::listing_values, {}, ListingFaults::corrected));
     ASSERT_EQ(corrected.size(), 798U);
     EXPECT_EQ(corrected[0], "69 371 ");
     EXPECT_EQ(corrected[1], " 72 377");
-    const auto original =
-        lines_of(toolpath_dat(test::patch("dome"), kinematics::listing_values, 20, ListingFaults::all));
+    const auto original = lines_of(dat_of(kinematics::listing_values, {}, ListingFaults::all));
     EXPECT_EQ(original[0], "74 353 ");
     EXPECT_EQ(original[1], " 72 377");
     // The last move ends at node (19,0).
-    const auto samples = listing_samples(test::patch("dome"), 20);
+    const auto samples = listing_samples(test::patch("dome"), {});
     const auto end = ObliqueView(samples).pixel(samples[19 * 20]);
     EXPECT_EQ(corrected.back(), " " + std::to_string(end.x()) + " " + std::to_string(end.y()));
+}
+
+// T7: "Tool Path 1" of the thesis's window, whose listing has "Tool Path 2" alone.
+TEST(ToolpathDat, FollowsTheOtherDirectionOverAnyNumberOfPoints) {
+    const ListingGrid along_u{.nu = 7, .nv = 5, .direction = grid::TrackDirection::along_u};
+    const ListingGrid along_v{.nu = 7, .nv = 5};
+    const std::string text = dat_of(kinematics::listing_values, along_u, ListingFaults::corrected);
+    const auto lines = lines_of(text);
+    ASSERT_EQ(lines.size(), 2U * (7 * 5 - 1));
+    EXPECT_NE(text, dat_of(kinematics::listing_values, along_v, ListingFaults::corrected));
+    const auto samples = listing_samples(test::patch("dome"), along_u);
+    const ObliqueView view(samples);
+    const auto ends_at = [&](int i, int j) {
+        const auto end = view.pixel(samples[static_cast<std::size_t>(i * 5 + j)]);
+        return " " + std::to_string(end.x()) + " " + std::to_string(end.y());
+    };
+    EXPECT_EQ(lines[1], ends_at(1, 0));     // along u first
+    EXPECT_EQ(lines[13], ends_at(6, 1));    // from track to track
+    EXPECT_EQ(lines.back(), ends_at(6, 4)); // the fifth track goes forward
+    EXPECT_EQ(lines_of(surface_dat(test::patch("dome"), along_u)).size(), 7U * 4 + 5U * 6);
+}
+
+// The independent program's single move from (0.2, 0.2) to (0.2, 0.25), consistent kinematics.
+TEST(MachineMidPoints, AreThoseOfTheMachinesOwnKinematics) {
+    const auto points = machine_mid_points(test::patch("dome"), test::machine("rotary-tilt-listing"), {});
+    ASSERT_EQ(points.size(), 399U);
+    EXPECT_LT((points[4 * 20 + 4] - Vec3(22.924189, 24.817318, 23.268023)).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_EQ(machine_mid_points(test::patch("dome"), test::machine("ac-table"), {.nu = 6, .nv = 4}).size(),
+              23U);
+    EXPECT_THROW((void)listing_samples(test::patch("dome"), {.nu = 1}), Defect);
 }
 
 } // namespace

@@ -206,5 +206,61 @@ TEST(Camera, CannotBeMadeOfNumbersThatAreNone) {
     EXPECT_THROW(static_cast<void>(Camera().zoomed(0.0, {0.0, 0.0}, picture_size)), Defect);
 }
 
+// T4: x_s = X + Y cos 30, y_s = Z + Y sin 30 of the thesis's listing, in one scale.
+TEST(Camera, SeesObliquelyAsTheThesisDoes) {
+    const Camera camera =
+        Camera(CameraPose{.target = {4.0, -3.0, 2.0}, .distance = 250.0}).seen_from(StandardView::oblique);
+    EXPECT_EQ(camera.pose().projection, Projection::oblique);
+    const View view = camera.view(picture_size, part);
+    const auto origin = project(view, {0.0, 0.0, 0.0});
+    ASSERT_TRUE(origin);
+    const double scale = 0.5 * picture_size.height / half_height(camera);
+    for (const glm::dvec3& point : corners(part)) {
+        const auto seen = project(view, point);
+        ASSERT_TRUE(seen);
+        EXPECT_NEAR(seen->pixel.x - origin->pixel.x, scale * (point.x + point.y * std::cos(pi / 6.0)), 1e-6);
+        EXPECT_NEAR(origin->pixel.y - seen->pixel.y, scale * (point.z + point.y * std::sin(pi / 6.0)), 1e-6);
+        EXPECT_GT(seen->depth, 0.0);
+        EXPECT_LT(seen->depth, 1.0);
+        // The line of sight through the pixel goes through the point, along the view.
+        const Ray sight = ray(view, seen->pixel);
+        const glm::dvec3 off = glm::cross(point - sight.origin, sight.direction);
+        EXPECT_LT(glm::length(off), 1e-6);
+        expect_same(sight.direction, looking_along(view));
+    }
+    const auto target = project(view, camera.pose().target);
+    EXPECT_NEAR(target->pixel.x, 400.0, near_zero);
+    EXPECT_NEAR(target->pixel.y, 250.0, near_zero);
+}
+
+TEST(Camera, FitsAnObliqueViewIntoThePicture) {
+    const Camera camera = Camera().seen_from(StandardView::oblique).fitted(part, aspect(picture_size));
+    double low_x = 1e9, high_x = -1e9, low_y = 1e9, high_y = -1e9;
+    for (const glm::dvec3& point : corners(part)) {
+        const auto seen = project(camera.view(picture_size, part), point);
+        ASSERT_TRUE(seen);
+        low_x = std::min(low_x, seen->pixel.x);
+        high_x = std::max(high_x, seen->pixel.x);
+        low_y = std::min(low_y, seen->pixel.y);
+        high_y = std::max(high_y, seen->pixel.y);
+    }
+    EXPECT_NEAR(low_x + high_x, picture_size.width, 1e-6);
+    EXPECT_NEAR(low_y + high_y, picture_size.height, 1e-6);
+    EXPECT_GT(low_x, 0.0);
+    EXPECT_GT(low_y, 0.0);
+    EXPECT_LT(std::min(low_x, low_y), 60.0);
+}
+
+TEST(Camera, LeavesAnObliqueViewForAPlane) {
+    const Camera oblique = Camera().seen_from(StandardView::oblique);
+    EXPECT_EQ(oblique.seen_from(StandardView::front).pose().projection, Projection::orthographic);
+    // Light falls as from the front.
+    const glm::dmat4 plain = unsheared(oblique.view(picture_size, part));
+    const glm::dmat4 front = oblique.with(Projection::orthographic).view(picture_size, part).view;
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_LT(glm::length(plain[i] - front[i]), near_zero);
+    }
+}
+
 } // namespace
 } // namespace millwright::render

@@ -45,5 +45,23 @@ TEST_P(EachTheme, KeepsTheMarksOfTheViewOffItsBackground) {
 
 INSTANTIATE_TEST_SUITE_P(ViewColors, EachTheme, ::testing::Values(Theme::dark, Theme::light));
 
+TEST(ViewColors, TakesChosenColoursInPlaceOfTheThemes) {
+    LayerColors chosen;
+    EXPECT_EQ(view_colors(Theme::dark, chosen).surface, view_colors(Theme::dark).surface);
+    chosen.set(LayerColor::background, color_from("#FF8000"));
+    chosen.set(LayerColor::grid_u, color_from("#010203"));
+    const ViewColors colors = view_colors(Theme::light, chosen);
+    EXPECT_EQ(color_text(colors.background_top), "#ff8000");
+    EXPECT_EQ(colors.background_bottom, colors.background_top);
+    EXPECT_EQ(color_text(*colors.chosen.of(LayerColor::grid_u)), "#010203");
+    EXPECT_EQ(colors.path, view_colors(Theme::light).path);
+    for (const char* wrong : {"", "#fff", "ff8000", "#ff80001", "#gg8000", "#ff80 0", "#-12345"}) {
+        EXPECT_FALSE(color_from(wrong)) << wrong;
+    }
+    for (std::size_t n = 0; n < layer_color_infos().size(); ++n) {
+        EXPECT_EQ(static_cast<std::size_t>(layer_color_infos()[n].which), n);
+    }
+}
+
 } // namespace
 } // namespace millwright::render

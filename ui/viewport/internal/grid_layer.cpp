@@ -142,11 +142,17 @@ public:
             // The dark end of a colour map would swallow dark lines.
             const bool is_plain = surface_colors(scene) == SurfaceColors::plain;
             const glm::vec3 line = is_plain ? colors.wire : colors.handle;
-            const GridBuffers& grid = grid_.buffers(canvas);
+            const GridBuffers& grid_lines = grid_.buffers(canvas);
             const float opacity = is_plain ? 0.95F : 0.6F; // light lines look thicker
-            draw_lines(canvas, grid.across, with_opacity(line, 0.55F * opacity), 1.0F);
-            draw_lines(canvas, grid.tracks, with_opacity(line, opacity), is_plain ? 1.8F : 1.2F);
-            canvas.painter.points(grid.nodes,
+            const bool tracks_along_u =
+                scene.workpiece && scene.workpiece->direction == grid::TrackDirection::along_u;
+            const auto& of_u = colors.chosen.of(render::LayerColor::grid_u);
+            const auto& of_v = colors.chosen.of(render::LayerColor::grid_v);
+            const glm::vec3 across = (tracks_along_u ? of_v : of_u).value_or(line);
+            const glm::vec3 tracks = (tracks_along_u ? of_u : of_v).value_or(line);
+            draw_lines(canvas, grid_lines.across, with_opacity(across, 0.55F * opacity), 1.0F);
+            draw_lines(canvas, grid_lines.tracks, with_opacity(tracks, opacity), is_plain ? 1.8F : 1.2F);
+            canvas.painter.points(grid_lines.nodes,
                                   {.coloring = {.color = with_opacity(colors.handle, 1.0F)},
                                    .model = canvas.s_T_w,
                                    .size_px = 5.0F,

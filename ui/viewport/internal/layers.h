@@ -17,6 +17,7 @@ namespace millwright::viewport {
 [[nodiscard]] std::unique_ptr<Layer> make_grid_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_toolpath_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_error_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_produced_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_weight_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_scallop_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_singular_layer();

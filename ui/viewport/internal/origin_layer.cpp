@@ -62,7 +62,9 @@ public:
         if (scene.layers.origin && length > 0.0) {
             for (const Axis& axis : axes()) {
                 const Vec3 end = scene_from_workpiece(scene) * Vec3(length * axis.direction);
-                labels.push_back({render::to_glm(end), axis.name, canvas.colors.*axis.color, true});
+                const glm::vec3 color = canvas.colors.chosen.of(render::LayerColor::axis_names)
+                                            .value_or(canvas.colors.*axis.color);
+                labels.push_back({render::to_glm(end), axis.name, color, true});
             }
         }
         return labels;

@@ -80,11 +80,14 @@ public:
             line.coloring.color = with_opacity(colors.wire, 0.8F);
         }
         if (scene.layers.surface_lines) {
-            line.coloring.color = with_opacity(colors.wire, 0.35F);
             line.width_px = 1.0F;
             const bool under_mesh = surface_colors(scene) == SurfaceColors::deviation;
-            canvas.painter.lines(
-                iso_, line, under_mesh ? nearer(canvas, lift * radius(canvas.content)) : canvas.view);
+            const render::View view =
+                under_mesh ? nearer(canvas, lift * radius(canvas.content)) : canvas.view;
+            line.coloring.color = line_color(colors, render::LayerColor::surface_u);
+            canvas.painter.lines(along_u_, line, view);
+            line.coloring.color = line_color(colors, render::LayerColor::surface_v);
+            canvas.painter.lines(along_v_, line, view);
         }
     }
 
@@ -94,11 +97,16 @@ public:
     }
 
 private:
+    static glm::vec4 line_color(const render::ViewColors& colors, render::LayerColor which) {
+        const auto& chosen = colors.chosen.of(which);
+        return chosen ? with_opacity(*chosen, 1.0F) : with_opacity(colors.wire, 0.35F);
+    }
+
     void rebuild() {
         std::vector<render::MeshVertex> vertices;
         Triangles triangles;
         std::vector<render::LineVertex> border;
-        std::vector<render::LineVertex> iso;
+        std::vector<render::LineVertex> along_u, along_v;
         std::vector<render::LineVertex> loops;
         outline_.clear();
         const std::size_t patches = surface_ ? surface_->patches().size() : 0;
@@ -106,7 +114,7 @@ private:
             const geometry::BezierPatch& patch = surface_->patches()[n];
             const geometry::Trim trim = trims_ && n < trims_->size() ? (*trims_)[n] : geometry::Trim{};
             append_mesh(patch, trim, vertices, triangles);
-            append_lines(patch, border, iso);
+            append_lines(patch, border, along_u, along_v);
             append_loops(patch, trim, loops);
         }
         mesh_ = render::MeshBuffer(vertices, triangles.inside);
@@ -114,7 +122,8 @@ private:
                                              : render::MeshBuffer(vertices, triangles.outside);
         loops_ = render::LineBuffer(loops, render::LineTopology::segments);
         border_ = render::LineBuffer(border, render::LineTopology::segments);
-        iso_ = render::LineBuffer(iso, render::LineTopology::segments);
+        along_u_ = render::LineBuffer(along_u, render::LineTopology::segments);
+        along_v_ = render::LineBuffer(along_v, render::LineTopology::segments);
     }
 
     void append_mesh(const geometry::BezierPatch& patch,
@@ -159,12 +168,15 @@ private:
 
     static void append_lines(const geometry::BezierPatch& patch,
                              std::vector<render::LineVertex>& border,
-                             std::vector<render::LineVertex>& iso) {
+                             std::vector<render::LineVertex>& along_u,
+                             std::vector<render::LineVertex>& along_v) {
         for (int k = 0; k <= iso_lines; ++k) {
             const double at = static_cast<double>(k) / iso_lines;
-            auto& target = k == 0 || k == iso_lines ? border : iso;
-            append(target, on_surface(patch, {at, 0.0}, {at, 1.0}, cells(patch.degree_v())));
-            append(target, on_surface(patch, {0.0, at}, {1.0, at}, cells(patch.degree_u())));
+            const bool on_edge = k == 0 || k == iso_lines;
+            append(on_edge ? border : along_v,
+                   on_surface(patch, {at, 0.0}, {at, 1.0}, cells(patch.degree_v())));
+            append(on_edge ? border : along_u,
+                   on_surface(patch, {0.0, at}, {1.0, at}, cells(patch.degree_u())));
         }
     }
 
@@ -174,7 +186,7 @@ private:
     render::MeshBuffer mesh_, outside_;
     render::LineBuffer loops_;
     render::LineBuffer border_;
-    render::LineBuffer iso_;
+    render::LineBuffer along_u_, along_v_;
     std::vector<Vec3> outline_;
 };
 

@@ -24,13 +24,14 @@ using render::StandardView;
 
 constexpr double between_notches_s = 0.2; // of a wheel that is being turned
 constexpr float handle_size = 14.0F;      // of a recorded handle, pixels at scale 1
-constexpr std::array<std::pair<Key, StandardView>, 7> side_keys = {{{Key::digit_0, StandardView::iso},
+constexpr std::array<std::pair<Key, StandardView>, 8> side_keys = {{{Key::digit_0, StandardView::iso},
                                                                     {Key::digit_1, StandardView::front},
                                                                     {Key::digit_2, StandardView::top},
                                                                     {Key::digit_3, StandardView::right},
                                                                     {Key::digit_4, StandardView::back},
                                                                     {Key::digit_5, StandardView::bottom},
-                                                                    {Key::digit_6, StandardView::left}}};
+                                                                    {Key::digit_6, StandardView::left},
+                                                                    {Key::digit_7, StandardView::oblique}}};
 
 render::PixelSize size_of(const widgets::Rect& rect) {
     return {.width = std::max(static_cast<int>(std::lround(rect.w)), 1),

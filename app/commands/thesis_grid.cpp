@@ -1,0 +1,245 @@
+#include "app/commands/thesis_grid.h"
+
+#include "app/commands/thesis_form.h"
+#include "app/interrupt.h"
+#include "app/names.h"
+#include "app/progress_printer.h"
+#include "app/usage_error.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/base/text.h"
+#include "core/grid/error_weight.h"
+#include "core/project/grids.h"
+#include "core/project/settings.h"
+#include "core/project/strategy_path.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+using project::GridMethod;
+
+/// What the coordinates of a file count.
+enum class GridUnits { zero_to_one, node_numbers };
+const std::map<std::string, GridUnits> grid_units{{"parameters", GridUnits::zero_to_one},
+                                                  {"nodes", GridUnits::node_numbers}};
+
+struct GridOptions {
+    std::string project, out, start, residuals, norms;
+    std::optional<GridMethod> method; ///< nothing: what the program uses
+    GridForm form = GridForm::blocks, start_form = GridForm::pairs;
+    GridUnits units = GridUnits::zero_to_one;
+};
+
+std::string units_text(GridUnits units, int nu, int nv) {
+    return units == GridUnits::zero_to_one ? std::string("u and v from 0 to 1")
+                                           : fmt::format("x from 0 to {}, y from 0 to {}", nu - 1, nv - 1);
+}
+
+void write_nodes(const GridOptions& options, const grid::NodeArray& in_square) {
+    const bool counted = options.units == GridUnits::node_numbers;
+    write_file(options.out,
+               grid_text(counted ? grid::to_solver_coordinates(in_square) : in_square, options.form));
+    fmt::print("{}: {} x {} nodes, {}\n",
+               options.out,
+               in_square.rows,
+               in_square.columns,
+               units_text(options.units, in_square.rows, in_square.columns));
+}
+
+/// The grid that the program follows, which is never worse than the uniform one.
+int write_program_grid(const GridOptions& options) {
+    const Interrupt interrupt;
+    const OpenedProject opened = open_project(options.project);
+    const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
+    write_nodes(options, plan.evaluation(project::program_grid(opened.project))->outcome.grid.array());
+    return 0;
+}
+
+/// Throws Error where a node is outside of the surface.
+grid::Grid start_grid(const GridOptions& options, const project::GridInput& input) {
+    const std::string text = read_file(options.start);
+    grid::NodeArray nodes = options.start_form == GridForm::pairs
+                                ? grid::parse_pairs(text, options.start, input.nu, input.nv)
+                                : grid::parse_blocks(text, options.start);
+    if (nodes.rows != input.nu || nodes.columns != input.nv) {
+        throw Error(fmt::format("{} x {} nodes, and the grid of the project has {} x {}",
+                                nodes.rows,
+                                nodes.columns,
+                                input.nu,
+                                input.nv),
+                    options.start);
+    }
+    if (options.units == GridUnits::node_numbers) {
+        nodes = grid::to_parameters(nodes);
+    }
+    for (int i = 0; i < nodes.rows; ++i) {
+        for (int j = 0; j < nodes.columns; ++j) {
+            const Vec2& node = nodes.at(i, j);
+            if (node.minCoeff() < 0.0 || node.maxCoeff() > 1.0) {
+                throw Error(fmt::format("node ({}, {}) is outside of the surface", i, j),
+                            options.start,
+                            options.units == GridUnits::node_numbers
+                                ? "with --units nodes x goes from 0 to n_u - 1, y from 0 to n_v - 1"
+                                : "u and v go from 0 to 1; --units nodes reads 0 to n - 1");
+            }
+        }
+    }
+    if (!(grid::min_corner_jacobian(nodes) > 0.0)) {
+        throw Error("a cell is folded at one of its corners", options.start);
+    }
+    return grid::Grid(std::move(nodes));
+}
+
+std::string norms_csv(const std::vector<grid::IterationNorm>& norms) {
+    std::string text = "iteration,round,lv,norm\n";
+    int iteration = 0;
+    for (const grid::IterationNorm& at : norms) {
+        text += fmt::format("{},{},{},", ++iteration, at.round, shortest(at.adaptation));
+        text += std::isfinite(at.norm) ? fmt::format("{:.9e}\n", at.norm) : "\n";
+    }
+    return text;
+}
+
+std::string mean_text(const grid::ErrorSummary& error) {
+    return std::isfinite(error.mean) ? fixed(error.mean, 5) + " mm" : std::string("out of reach");
+}
+
+void print_ending(const grid::ImproverState& state, const project::GridInput& input, GridMethod method) {
+    const bool solves = !state.norms.empty();
+    if (state.iteration > 0) { // else it is done in one go
+        fmt::print("{}: {} iteration{} in {} round{}, norm {:.9e}{}\n",
+                   project::row_of(project::grid_methods(), method).label,
+                   state.iteration,
+                   state.iteration == 1 ? "" : "s",
+                   state.round,
+                   state.round == 1 ? "" : "s",
+                   state.norm,
+                   solves ? fmt::format(", tolerance {}", shortest(input.elliptic.tolerance))
+                          : std::string());
+    }
+    fmt::print("Smallest cell area {:.6f}, where a cell of the uniform grid has 1\n",
+               grid::min_cell_area(grid::to_solver_coordinates(state.reached)));
+    fmt::print(
+        "Mean distance to the curve: start {}, kept {}\n", mean_text(state.start), mean_text(state.of_best));
+    fmt::print("{}.\n", state.note);
+    if (!state.warning.empty()) {
+        fmt::print(stderr, "warning: {}\n", state.warning);
+    }
+}
+
+/// Refuses files that the method does not have before it works.
+void expect_files_of(const GridOptions& options, GridMethod method) {
+    const bool elliptic = method == GridMethod::elliptic;
+    if (!options.residuals.empty() && !elliptic) {
+        throw UsageError("--residuals is of --method elliptic", {}, "the other methods solve no equations");
+    }
+    if (!options.norms.empty() && !elliptic && method != GridMethod::harmonic) {
+        throw UsageError("--norms is of --method elliptic and harmonic", {}, "the others iterate on no norm");
+    }
+}
+
+grid::ImproverState adapted(grid::GridImprover& improver, GridMethod method, const std::stop_token& stop) {
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
+    progress.report(0.0, std::string(project::title_of_making(method)));
+    return grid::run(improver, progress);
+}
+
+/// The grid that the method ends with, whether or not it improves the path.
+int write_adapted_grid(const GridOptions& options, GridMethod method) {
+    expect_files_of(options, method);
+    const Interrupt interrupt;
+    const OpenedProject opened = open_project(options.project);
+    const project::GridInput& input = opened.project.grid;
+    const std::optional<grid::Grid> start =
+        options.start.empty() ? std::nullopt : std::optional(start_grid(options, input));
+    if (method == GridMethod::uniform) {
+        write_nodes(options, start ? start->array() : grid::Grid::uniform(input.nu, input.nv).array());
+        return 0;
+    }
+    const toolpath::KinematicError error =
+        project::workpiece_of(opened.project, opened.folders).error_model();
+    const auto improver = project::make_improver(method, input, error, project::Effort::full, start);
+    const grid::ImproverState state = adapted(*improver, method, interrupt.token());
+    if (!options.residuals.empty()) {
+        const std::optional<grid::NodeArray> residuals = improver->residuals();
+        if (!residuals) {
+            throw Error(
+                "there are no residuals: nothing was iterated, or the grid has fewer than 3 x 3 nodes",
+                opened.file);
+        }
+        write_file(options.residuals, grid::blocks_text(*residuals));
+    }
+    if (!options.norms.empty()) {
+        write_file(options.norms, norms_csv(state.norms));
+    }
+    write_nodes(options, state.reached);
+    print_ending(state, input, method);
+    return 0;
+}
+
+int write_grid(const GridOptions& options) {
+    return options.method ? write_adapted_grid(options, *options.method) : write_program_grid(options);
+}
+
+} // namespace
+
+void add_thesis_grid(CLI::App& thesis, Command& chosen) {
+    const auto options = std::make_shared<GridOptions>();
+    CLI::App& command = *thesis.add_subcommand(
+        "grid",
+        "The grid that the program of a project uses, or that a method ends with, for the thesis's solver");
+    command.add_option("PROJECT", options->project, "Project file")->required();
+    command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
+    command.add_option("--form", options->form, "One node per line, or blocks of u and of v (default)")
+        ->transform(one_of(grid_forms))
+        ->type_name(listed(grid_forms));
+    command
+        .add_option(
+            "--units", options->units, "u and v from 0 to 1 (default), or from 0 to n - 1 as in the thesis")
+        ->transform(one_of(grid_units))
+        ->type_name(listed(grid_units));
+    std::map<std::string, GridMethod> methods;
+    for (const auto& row : project::grid_methods()) {
+        methods.emplace(row.id, row.value);
+    }
+    CLI::Option& method =
+        *command
+             .add_option_function<std::string>(
+                 "--method",
+                 [options, methods](const std::string& name) { options->method = methods.at(name); },
+                 "The grid that this method ends with, whether or not it improves the path")
+             ->check(CLI::IsMember(methods).description(""))
+             ->type_name(listed(methods));
+    CLI::Option& start =
+        *command.add_option("--start", options->start, "Grid to start from, as the thesis's file source")
+             ->type_name("FILE")
+             ->needs(&method);
+    command.add_option("--start-form", options->start_form, "Form of that file (default: pairs)")
+        ->transform(one_of(grid_forms))
+        ->type_name(listed(grid_forms))
+        ->needs(&start);
+    command.add_option("--residuals", options->residuals, "Write R_X and R_Y of the last grid, as orx.dat")
+        ->type_name("FILE")
+        ->needs(&method);
+    command.add_option("--norms", options->norms, "Write the norm of every iteration as CSV")
+        ->type_name("FILE")
+        ->needs(&method);
+    command.callback([&chosen, options] { chosen = [options] { return write_grid(*options); }; });
+}
+
+} // namespace millwright::app

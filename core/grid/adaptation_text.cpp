@@ -1,0 +1,67 @@
+#include "core/grid/internal/adaptation_text.h"
+
+#include "core/base/numbers.h"
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millwright::grid {
+
+namespace {
+
+constexpr int shown_decimals = 4; // of a mean error in mm
+
+std::string counted_below(const std::vector<double>& means, double than, const std::string& why) {
+    const auto count = std::ranges::count_if(means, [&](double mean) { return mean < than; });
+    return count == 0 ? std::string() : std::to_string(count) + " " + why;
+}
+
+} // namespace
+
+std::string failure_sentence(SolverStatus status) {
+    switch (status) {
+    case SolverStatus::folded:
+        return "a cell folded";
+    case SolverStatus::singular:
+        return "a node's equations have no solution";
+    default:
+        return "a number left the finite range";
+    }
+}
+
+std::string mean_sentence(const ErrorSummary& error) {
+    return std::isfinite(error.mean)
+               ? "mean distance to the curve " + fixed(error.mean, shown_decimals) + " mm"
+               : "some moves are out of reach";
+}
+
+std::string iteration_sentence(const ImproverState& state, int iteration) {
+    return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(iteration) + ": " +
+           mean_sentence(state.now);
+}
+
+std::string refusals(const std::vector<double>& too_wide,
+                     const std::vector<double>& worse_elsewhere,
+                     double taken,
+                     double gap_allowance) {
+    const std::string wide = counted_below(too_wide,
+                                           taken,
+                                           "for tracks more than " + shortest(100.0 * gap_allowance) +
+                                               " % farther apart than the start's");
+    const std::string worse = counted_below(
+        worse_elsewhere, taken, "for a larger error or tool axis somewhere on the path than the start has");
+    if (wide.empty() && worse.empty()) {
+        return {};
+    }
+    double least = infinity;
+    for (const std::vector<double>* means : {&too_wide, &worse_elsewhere}) {
+        for (const double mean : *means) {
+            least = std::min(least, mean);
+        }
+    }
+    return ". Grids with a smaller mean distance to the curve, down to " + fixed(least, shown_decimals) +
+           " mm, were refused: " + wide + (wide.empty() || worse.empty() ? "" : ", ") + worse;
+}
+
+} // namespace millwright::grid

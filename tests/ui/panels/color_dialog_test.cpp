@@ -1,0 +1,97 @@
+// Colours of the view, chosen by a person.
+#include "core/base/files.h"
+#include "core/project/color_choices.h"
+#include "tests/ui/panels/person.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace millwright::panels {
+namespace {
+
+using test::Person;
+
+bool shows(const render::Picture& picture, const render::Pixel& wanted) {
+    return std::ranges::find(picture.pixels, wanted) != picture.pixels.end();
+}
+
+TEST(ColorDialog, GivesTheViewOtherColoursAndKeepsThem) {
+    Person person;
+    const render::Picture before = person.picture_of("view/iso");
+    person.workshop().run("view.colors");
+    person.frames();
+    EXPECT_TRUE(person.sees("dialogs/colors/background"));
+    person.fill_in("dialogs/colors/background", "#20ff40");
+    person.fill_in("dialogs/colors/surface_u", "#ff0000");
+    person.fill_in("dialogs/colors/grid_u", "red"); // refused
+    person.keep("color-dialog");
+    person.press_key(render::Key::escape);
+    person.frames(3);
+    person.press_key(render::Key::escape);
+    person.frames(3);
+    EXPECT_FALSE(person.sees("dialogs/colors/background"));
+    const render::Picture after = person.picture_of("view/iso");
+    EXPECT_FALSE(shows(before, {0x20, 0xff, 0x40, 255}));
+    EXPECT_TRUE(shows(after, {0x20, 0xff, 0x40, 255}));
+    person.keep("colors-chosen");
+    const auto kept = project::read_colors(person.folder() / "colors.json");
+    EXPECT_EQ(kept, (project::ColorChoices{{"background", "#20ff40"}, {"surface_u", "#ff0000"}}));
+    actions::Workshop next({.assets = "assets",
+                            .log_folder = person.folder() / "jobs-2",
+                            .settings = person.folder() / "recent.json",
+                            .recovery = {},
+                            .wake = [] {}});
+    EXPECT_EQ(next.session().colors, person.workshop().session().colors);
+    person.workshop().run("view.colors");
+    person.frames();
+    person.click("dialogs/colors/theme");
+    person.click("dialogs/colors/close");
+    person.frames(3);
+    EXPECT_FALSE(shows(person.picture_of("view/iso"), {0x20, 0xff, 0x40, 255}));
+    EXPECT_EQ(project::read_colors(person.folder() / "colors.json"), project::ColorChoices{});
+}
+
+TEST(ColorDialog, AFileThatIsNoneIsNamedAndDoesNotStopTheStart) {
+    Person person;
+    write_file(person.folder() / "colors.json", "[{\"layer\": \"surface\"}]");
+    actions::Workshop next({.assets = "assets",
+                            .log_folder = person.folder() / "jobs-2",
+                            .settings = person.folder() / "recent.json",
+                            .recovery = {},
+                            .wake = [] {}});
+    ASSERT_FALSE(next.session().notices.empty());
+    EXPECT_THAT(next.session().notices.back().place, ::testing::HasSubstr("colors.json"));
+}
+
+TEST(ObliqueView, IsAnActionAndAKeyInTheView) {
+    Person person;
+    const render::Picture before = person.picture_of("view/iso");
+    person.workshop().run("view.oblique");
+    person.frames(3);
+    const render::Picture oblique = person.picture_of("view/iso");
+    EXPECT_NE(oblique, before);
+    person.keep("view-oblique");
+    person.workshop().run("view.into_space");
+    person.frames(3);
+    EXPECT_NE(person.picture_of("view/iso"), oblique);
+}
+
+TEST(ProducedSurfaceLayer, StandsBesideTheDesignedSurface) {
+    Person person({1600, 1000});
+    person.press_key(render::Key::f4);
+    person.wait_idle();
+    person.workshop().run("view.layer_produced");
+    person.workshop().run("view.layer_surface");
+    person.frames(3);
+    person.keep("produced-surface");
+    person.choose("inspector/error/beside", "design");
+    person.frames(3);
+    EXPECT_TRUE(person.sees("view/left/left"));
+    EXPECT_NE(person.picture_of("view/left/left"), person.picture_of("view/right/right"));
+    person.keep("produced-beside-designed");
+}
+
+} // namespace
+} // namespace millwright::panels

@@ -1,0 +1,11 @@
+// The dialog that gives layers of the 3D view colours in place of the theme's.
+#pragma once
+
+#include "ui/panels/panel.h"
+
+namespace millwright::panels {
+
+/// For as long as Session::colors_shown.
+void color_dialog(Ui& ui, const Workbench& now, ActionQueue& ask);
+
+} // namespace millwright::panels
