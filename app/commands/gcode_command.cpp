@@ -109,8 +109,7 @@ int check_klartext(const GcodeOptions& options, std::string_view text) {
         steps = gcode::read_written_klartext(text, options.file, {});
     } catch (const Error& error) {
         errors.push_back(error.diagnostic());
-        errors.back().hint = "of Klartext Millwright reads the blocks that its posts write; this one may be "
-                             "right on the control";
+        errors.back().hint = "of Klartext Millwright reads the blocks that its posts write";
     }
     const auto moves = std::ranges::count_if(steps, [](const gcode::WrittenStep& step) {
         return step.kind == gcode::StepKind::rapid || step.kind == gcode::StepKind::feed ||

@@ -129,9 +129,11 @@ TEST(ProgramsAsPlots, WhatShapesStrokesCutsThemAnewAtTheirDepth) {
 TEST(ProgramsAsPlots, AnOriginWithoutZPlacesNothingInZ) {
     const ScratchFolder folder;
     const std::string part = (folder / "part.ngc").string();
+    const std::string out = (folder / "out.ngc").string();
     write_content(part, "G21 G90 M3 S100\nG0 X1 Y1 Z50\nG1 Z40 F100\nX20\nG53 G0 Z0\nG0 X90\nM2\n");
     const auto cut = [&](const char* origin) {
-        return run({"plot", "toolpath", part, "--work-origin", origin, "--machine", "router-xyz"});
+        return run(
+            {"plot", "toolpath", part, "--work-origin", origin, "--machine", "router-xyz", "--out", out});
     };
     EXPECT_EQ(cut("10,10").exit_code, 1);
     EXPECT_THAT(cut("10,10").err,
