@@ -44,8 +44,9 @@ struct Capabilities {
     bool settings = false;          ///< has a table of its own that can be changed
     bool single_block = false;      ///< can stand still after each block
     bool optional_stop = false;     ///< has a switch for M1 here
-    bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
-    bool mist = true;               ///< has M7
+    bool answers = true;    ///< tells what it executed; false: of "executed" blocks only the sending is known
+    bool piecewise = false; ///< gives a program to the controller bit by bit, and asks Work::ahead
+    bool mist = true;       ///< has M7
     std::optional<gcode::Dialect> dialect{};   ///< in which it reads text
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
 };
