@@ -44,7 +44,8 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
     return *command
                 .add_option("--port",
                             choice.port,
-                            "Serial port, or tcp:HOST:PORT; of a coordinate stream also file:PATH")
+                            "Serial port as /dev/ttyUSB0 or /dev/ttyUSB0,9600,8E1, or tcp:HOST:PORT; of a "
+                            "coordinate stream also file:PATH")
                 ->type_name("PORT");
 }
 

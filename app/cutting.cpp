@@ -1,15 +1,16 @@
 #include "app/cutting.h"
 
 #include "app/finite_number.h"
+#include "app/origin_choice.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode/plot_program.h"
 #include "core/kinematics/machine_file.h"
-#include "core/motion/planner.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/finished_look.h"
 #include "core/plot/work_time.h"
 #include "core/project/assets.h"
+#include "core/project/plot_time.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -37,10 +38,7 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
         ->check(not_below_zero())
         ->capture_default_str();
     add_post_options(command, options.post).capture_default_str();
-    command.add_option("--origin", options.origin, "Where the drawing's origin lies on the machine: X,Y, mm")
-        ->delimiter(',')
-        ->expected(2)
-        ->allow_extra_args(false);
+    add_drawing_origin(command, options.origin);
     command.add_option("--path", options.path_file, "The path too: a file of X, Y, Z, speed")
         ->type_name("FILE");
     PreviewOptions& preview = options.preview;
@@ -60,6 +58,13 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
         ->capture_default_str();
 }
 
+void add_drawing_origin(CLI::App& command, std::vector<double>& origin) {
+    command.add_option("--origin", origin, "Where the drawing's origin lies on the machine: X,Y, mm")
+        ->delimiter(',')
+        ->expected(2)
+        ->allow_extra_args(false);
+}
+
 kinematics::MachineModel machine_of(const CuttingOptions& options) {
     return kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
@@ -67,9 +72,8 @@ kinematics::MachineModel machine_of(const CuttingOptions& options) {
 
 namespace {
 
-/// Where the drawing's origin lies on the machine.
 Vec3 origin_of(const CuttingOptions& options) {
-    return options.origin.empty() ? Vec3(Vec3::Zero()) : Vec3(options.origin[0], options.origin[1], 0.0);
+    return origin_from(options.origin);
 }
 
 plot::CutPath placed(plot::CutPath path, const Vec3& origin) {
@@ -97,7 +101,11 @@ std::string preview_of(const plot::CutPath& path,
                        const PreviewOptions& preview,
                        const plot::ToolTip& tip,
                        const Progress& progress) {
-    const plot::HeightField field = plot::finished(path, tip, preview.pixels, progress);
+    plot::ToolTips tips{tip, {}};
+    for (const auto& [tool, diameter] : preview.tool_diameters) {
+        tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
+    }
+    const plot::HeightField field = plot::finished_by(path, tips, preview.pixels, progress);
     constexpr double spare = 0.5;
     const double plate = preview.plate.value_or(spare - static_cast<double>(std::ranges::min(field.z)));
     return plot::png_bytes(preview.against_light ? plot::against_light(field, plate, preview.half_light)
@@ -114,12 +122,18 @@ PostedText posted_text(const plot::CutPath& path,
                   std::filesystem::path(options.out).stem().string());
 }
 
+double seconds_of(const PostedText& text,
+                  const kinematics::MachineModel& machine,
+                  const CuttingOptions& options,
+                  const Progress& progress) {
+    return project::seconds_of_text(text.text, text.format, machine, options.out, progress);
+}
+
 } // namespace
 
 double planned_seconds(const plot::CutPath& path, const CuttingOptions& options, const Progress& progress) {
     const kinematics::MachineModel machine = machine_of(options);
-    return motion::plan(posted_text(path, machine, options, {}).text.program, machine, {}, progress)
-        .duration();
+    return seconds_of(posted_text(path, machine, options, {}), machine, options, progress);
 }
 
 void write_program(const plot::CutPath& path,
@@ -151,7 +165,7 @@ void write_program(const plot::CutPath& path,
         fmt::print(stderr, "millwright: {}\n", to_text(*slower));
     }
     if (!seconds) {
-        seconds = motion::plan(text.text.program, machine, {}, progress.part(0.6, 1.0)).duration();
+        seconds = seconds_of(text, machine, options, progress.part(0.6, 1.0));
     }
     const plot::PathLengths lengths = plot::lengths(placed(path, origin_of(options)));
     constexpr double m = 1e-3;

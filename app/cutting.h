@@ -9,6 +9,7 @@
 #include "core/plot/picture/tool_tip.h"
 #include "core/project/plot_input.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct PreviewOptions {
     bool against_light = false;
     std::optional<double> plate; ///< its thickness, mm; not given: the depth of the cut and half a millimetre
     bool through = false;        ///< the path may go deeper than a plate whose thickness is given
+    std::map<int, double> tool_diameters; ///< of end mills that are not as wide as the usual one, by tool, mm
     double half_light =
         project::PlotSettings().half_light; ///< what halves the light that goes through the plate, mm
 };
@@ -46,6 +48,9 @@ struct CuttingOptions {
 
 /// Adds --machine, the options of posts and previews, feeds, safe height and spindle to `command`.
 void add_cutting_options(CLI::App& command, CuttingOptions& options);
+
+/// Adds --origin X,Y: where the drawing's origin lies on the machine (origin_from).
+void add_drawing_origin(CLI::App& command, std::vector<double>& origin);
 
 [[nodiscard]] kinematics::MachineModel machine_of(const CuttingOptions& options);
 

@@ -74,6 +74,10 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
     }
 }
 
+std::string head_of_file(const std::filesystem::path& file) {
+    return can_be_looked_at(file) ? head_of(file) : std::string();
+}
+
 bool is_gcode_file(const std::filesystem::path& file) {
     return can_be_looked_at(file) && gcode::is_gcode(head_of(file));
 }

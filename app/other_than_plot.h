@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace millwright::app {
 
@@ -11,5 +12,8 @@ void expect_no_other_than_plot(const std::filesystem::path& file);
 
 /// Whether it begins as G-code does. Pipes are left alone.
 [[nodiscard]] bool is_gcode_file(const std::filesystem::path& file);
+
+/// The first 4096 bytes at most; empty of what is no file.
+[[nodiscard]] std::string head_of_file(const std::filesystem::path& file);
 
 } // namespace millwright::app

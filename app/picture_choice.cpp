@@ -10,6 +10,7 @@
 
 #include <cstdio>
 #include <map>
+#include <utility>
 
 namespace millwright::app {
 
@@ -40,15 +41,45 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
         ->transform(one_of(gray_rules))
         ->type_name(listed(gray_rules))
         ->default_str("mean");
+    command
+        .add_option("--gray-steps",
+                    choice.reading.gray_steps,
+                    "Brightness in so many steps, as 2, 8 or 16; 0: as it is")
+        ->check(CLI::Range(0, 256));
+    command.add_option("--pixel-aspect", choice.reading.pixel_aspect, "Height of a pixel by its width")
+        ->check(CLI::Range(0.05, 20.0))
+        ->capture_default_str();
     command.add_flag("--invert", choice.reading.invert, "Dark becomes bright");
 }
 
-SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress) {
+namespace {
+
+plot::ReadPicture read_choice(const PictureChoice& choice, bool invert, const Progress& progress) {
     plot::PictureSettings settings = choice.reading;
+    settings.invert = invert;
     if (!choice.region.empty()) {
         settings.region = {choice.region[0], choice.region[1], choice.region[2], choice.region[3]};
     }
-    plot::ReadPicture read = plot::read_picture_file(choice.file, settings, progress);
+    return plot::read_picture_file(choice.file, settings, progress);
+}
+
+} // namespace
+
+bool inverting_helps(const PictureChoice& choice,
+                     const std::function<bool(const SizedPicture&)>& finds_something) {
+    plot::ReadPicture read = read_choice(choice, !choice.reading.invert, Progress());
+    const double pitch = plot::pixel_pitch(choice.size, read.picture);
+    return finds_something({std::move(read.picture), pitch});
+}
+
+std::string invert_hint(const PictureChoice& choice, bool helps, const InvertHints& hints) {
+    return !helps                  ? "inverted, there is nothing either: is all of it transparent?"
+           : choice.reading.invert ? hints.plain
+                                   : hints.invert;
+}
+
+SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress) {
+    plot::ReadPicture read = read_choice(choice, choice.reading.invert, progress);
     for (const Diagnostic& notice : read.notices) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }

@@ -4,6 +4,7 @@
 #include "core/plot/picture/picture.h"
 #include "core/plot/picture/picture_size.h"
 
+#include <functional>
 #include <string>
 
 namespace CLI {
@@ -29,5 +30,16 @@ struct SizedPicture {
 
 /// Reads it and says on standard error what a person should know. Throws Error.
 [[nodiscard]] SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress);
+
+/// Whether there is something to make of it with the other --invert. Throws as read_chosen().
+[[nodiscard]] bool inverting_helps(const PictureChoice& choice,
+                                   const std::function<bool(const SizedPicture&)>& finds_something);
+
+/// What to do where it helps, and where it does not: "--invert engraves what is bright" by `invert` and
+/// "without --invert what is dark is engraved" by `plain`.
+struct InvertHints {
+    std::string invert, plain;
+};
+[[nodiscard]] std::string invert_hint(const PictureChoice& choice, bool helps, const InvertHints& hints);
 
 } // namespace millwright::app

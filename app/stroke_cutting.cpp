@@ -2,6 +2,7 @@
 
 #include "app/finite_number.h"
 #include "app/names.h"
+#include "app/origin_choice.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/closing.h"
@@ -34,6 +35,21 @@ const std::map<std::string, CutterSide> sides = {
 const std::map<std::string, plot::Corners> corner_kinds = {{"sharp", plot::Corners::sharp},
                                                            {"round", plot::Corners::round}};
 
+/// A pen is cut several times where a tool or an order tells its levels apart.
+void expect_another(const std::vector<plot::Level>& named,
+                    const plot::Level& level,
+                    const std::string& text) {
+    const bool same = std::ranges::any_of(named, [&](const plot::Level& other) {
+        return other.pen == level.pen && other.tool == level.tool && other.order == level.order;
+    });
+    if (same) {
+        throw Error(
+            fmt::format("the level '{}': pen {} has one with the same tool and order", text, level.pen),
+            {},
+            "leave one out, or give it another order= or tool=, so that both are cut");
+    }
+}
+
 plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& options) {
     plot::Level like;
     like.depth = options.depth;
@@ -43,6 +59,10 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
     like.tabs = options.tabs;
     plot::CutSettings cut;
     cut.safe_height = options.cutting.safe_height;
+    if (!options.change_position.empty()) {
+        cut.change_position = origin_from(options.change_position);
+    }
+    cut.change_position -= origin_from(options.cutting.origin); // on the machine, as it is moved there
     cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
     cut.levels = plot::levels_for(strokes, like);
     for (plot::Level& level : cut.levels) {
@@ -60,7 +80,9 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
         if (drawn == cut.levels.end()) {
             throw Error(fmt::format("the level '{}': pen {} draws nothing", text, pen));
         }
-        named.push_back(plot::parse_level(text, *drawn));
+        const plot::Level level = plot::parse_level(text, *drawn);
+        expect_another(named, level, text);
+        named.push_back(level);
     }
     // A pen that is named has the levels that name it, where they are named.
     std::erase_if(cut.levels, [&](const plot::Level& level) {
@@ -84,10 +106,11 @@ public:
             path_ = std::move(path);
         }
         const plot::WorkTime time = plot::work_time(strokes, cut.levels, {}, Vec2::Zero(), end_);
-        fmt::print("{}: {}, {} by the thesis, {} by the planner\n",
+        fmt::print("{}: {}, {} by the thesis, {} at your feeds, {} by the planner\n",
                    what,
                    way_for_people(time),
                    plot::time_for_people(time.seconds),
+                   plot::time_for_people(time.seconds_at_feeds),
                    plot::time_for_people(seconds_));
     }
     [[nodiscard]] const plot::CutPath& path() const { return path_; }
@@ -148,7 +171,14 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command
         .add_option("--level",
                     options.levels,
-                    "Of one pen: PEN:depth=MM,passes=N,feed=F,plunge=F,order=N,tool=N,tabs=N,off")
+                    "Of one pen: PEN:depth=MM,passes=N,feed=F,plunge=F,order=N,tool=N,side=SIDE,cutter=MM,"
+                    "tabs=N,off")
+        ->allow_extra_args(false);
+    command
+        .add_option(
+            "--change-position", options.change_position, "Where tools are changed on the machine: X,Y,Z, mm")
+        ->delimiter(',')
+        ->expected(3)
         ->allow_extra_args(false);
     command.add_option("--tabs", options.tabs.count, "Left standing on closed strokes")
         ->check(not_below_zero())
@@ -165,6 +195,8 @@ void cut_strokes(const Strokes& as_drawn,
                  const Progress& progress) {
     plot::StrokePlan plan = options.plan;
     plan.hatch_angle = from_degrees(options.hatch_angle_deg);
+    const std::vector<plot::Level> levels = cut_settings(as_drawn, options).levels;
+    plan = plot::with_cutters(std::move(plan), levels);
     const Strokes drawn = plot::outlines_for(as_drawn, plan);
     plot::ShapedStrokes shaped = plot::shaped(drawn, plan);
     if (shaped.strokes.empty()) {
@@ -185,8 +217,10 @@ void cut_strokes(const Strokes& as_drawn,
         strokes = plot::linked(strokes, drawn, plan);
         steps.say("linked", strokes);
     }
+    CuttingOptions cutting = options.cutting;
+    cutting.preview.tool_diameters = plot::tool_diameters(levels);
     write_program(steps.path(),
-                  options.cutting,
+                  cutting,
                   {.kind = plot::TipKind::flat, .diameter = plan.tool_diameter},
                   header,
                   progress.part(0.3, 1.0),

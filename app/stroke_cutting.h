@@ -19,6 +19,7 @@ struct StrokeCutting {
     int passes = 1;
     plot::Tabs tabs = {};
     std::vector<std::string> levels;
+    std::vector<double> change_position;   ///< on the machine; empty: 0,0,25
     std::vector<plot::Level> drawn_levels; ///< what the drawing itself says of its pens; others: as above
 };
 

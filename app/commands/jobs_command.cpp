@@ -41,6 +41,7 @@ nlohmann::ordered_json job_json(const machine::JobStory& story) {
             {"started_at", story.start.started_at},
             {"end", state_of(story)},
             {"blocks", story.start.blocks},
+            {"answers", story.start.answers},
             {"executed_blocks", story.executed_blocks},
             {"allowed_blocks", story.allowed_blocks},
             {"next_line", story.next_line},

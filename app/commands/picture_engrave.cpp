@@ -70,26 +70,40 @@ void tell_saturation(const plot::CutPath& path, const plot::HalftoneSettings& se
     }
 }
 
+plot::HalftoneSettings halftone_settings(const PictureEngraveOptions& options, const plot::ToolTip& tip) {
+    return {.pitch = options.pitch,
+            .angle = from_degrees(options.angle_deg),
+            .tip = tip,
+            .plunging = from_mm_per_min(options.cutting.plunge_mm_per_min),
+            .safe_height = options.cutting.safe_height};
+}
+
 plot::CutPath
 halftone_path(const PictureEngraveOptions& options, const SizedPicture& sized, const plot::ToolTip& tip) {
-    const plot::HalftoneSettings settings{.pitch = options.pitch,
-                                          .angle = from_degrees(options.angle_deg),
-                                          .tip = tip,
-                                          .plunging = from_mm_per_min(options.cutting.plunge_mm_per_min),
-                                          .safe_height = options.cutting.safe_height};
-    plot::CutPath path = plot::halftone(sized.picture, sized.pitch, settings);
-    tell_saturation(path, settings);
-    return path;
+    return plot::halftone(sized.picture, sized.pitch, halftone_settings(options, tip));
 }
 
 int engrave(const PictureEngraveOptions& options) {
     const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
     WatchedWork work;
     const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.3));
-    const plot::CutPath path =
-        options.mode == "dither" ? dither_path(options, sized) : halftone_path(options, sized, tip);
+    const auto path_of = [&](const SizedPicture& picture) {
+        return options.mode == "dither" ? dither_path(options, picture)
+                                        : halftone_path(options, picture, tip);
+    };
+    const plot::CutPath path = path_of(sized);
     if (path.empty()) {
-        throw Error("nothing in it is dark", options.picture.file, "--invert engraves what is bright");
+        const bool helps = inverting_helps(
+            options.picture, [&](const SizedPicture& other) { return !path_of(other).empty(); });
+        throw Error("nothing in it is dark",
+                    options.picture.file,
+                    invert_hint(options.picture,
+                                helps,
+                                {.invert = "--invert engraves what is bright",
+                                 .plain = "without --invert what is dark is engraved"}));
+    }
+    if (options.mode == "halftone") {
+        tell_saturation(path, halftone_settings(options, tip));
     }
     write_program(path,
                   options.cutting,

@@ -4,6 +4,7 @@
 #include "app/finite_number.h"
 #include "app/picture_choice.h"
 #include "app/watched_work.h"
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/picture/relief_plan.h"
 
@@ -53,11 +54,27 @@ plot::ReliefPlan plan_of(const PictureReliefOptions& options, const plot::ToolTi
     return plan;
 }
 
+void expect_cut(const plot::HeightField& field, const PictureReliefOptions& options) {
+    if (plot::is_cut(field) || options.frame) {
+        return;
+    }
+    const bool helps = inverting_helps(options.picture, [&](const SizedPicture& other) {
+        return plot::is_cut(plot::height_field(other.picture, other.pitch, options.depth));
+    });
+    throw Error("all of it is black or transparent: the relief would cut nothing",
+                options.picture.file,
+                invert_hint(options.picture,
+                            helps,
+                            {.invert = "--invert cuts what is dark",
+                             .plain = "without --invert what is bright is cut"}));
+}
+
 int relief(const PictureReliefOptions& options) {
     const plot::ToolTip tip = plot::parse_tool_tip(options.tool);
     WatchedWork work;
     const SizedPicture sized = read_chosen(options.picture, work.progress().part(0.0, 0.2));
     const plot::HeightField field = plot::height_field(sized.picture, sized.pitch, options.depth);
+    expect_cut(field, options);
     const plot::ReliefPlan plan = plan_of(options, tip);
     const plot::CutPath path = plot::relief_path(field, plan, work.progress().part(0.2, 0.5));
     work.finish();

@@ -82,11 +82,19 @@ void expect_outlines_alone(const PictureTraceOptions& options) {
                     options.picture.file,
                     "--speckle 0 traces them, too");
     }
+    const bool helps = inverting_helps(options.picture, [&](const SizedPicture& other) {
+        return !plot::trace(other.picture, options.tracing).empty();
+    });
     const auto [darkest, brightest] = std::ranges::minmax(picture.gray);
-    throw Error("nothing in it is dark enough to be traced",
-                options.picture.file,
-                darkest == brightest ? "all of it is equally bright"
-                                     : "--threshold says what is dark, --invert traces what is bright");
+    throw Error(
+        "nothing in it is dark enough to be traced",
+        options.picture.file,
+        fmt::format("{}; {}",
+                    darkest == brightest ? "all of it is equally bright" : "--threshold says what is dark",
+                    invert_hint(options.picture,
+                                helps,
+                                {.invert = "--invert traces what is bright",
+                                 .plain = "without --invert what is dark is traced"})));
 }
 
 int trace(const PictureTraceOptions& options) {

@@ -1,9 +1,11 @@
 #include "app/commands/plot_command.h"
 
 #include "app/commands/plot_play.h"
+#include "app/commands/plot_points.h"
 #include "app/commands/plot_program.h"
 #include "app/finite_number.h"
 #include "app/names.h"
+#include "app/origin_choice.h"
 #include "app/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -212,6 +214,9 @@ ProgramReading program_reading(const PlotOptions& options) {
 }
 
 int info(const PlotOptions& options) {
+    if (takes_points(*options.command, options.file)) {
+        return points_info(options.file, options.json);
+    }
     if (is_program(options)) {
         return program_info(options.file, program_reading(options), options.json);
     }
@@ -239,6 +244,11 @@ int info(const PlotOptions& options) {
 }
 
 std::vector<Vec3> plot_points(const PlotOptions& options) {
+    if (takes_points(*options.command, options.file)) {
+        throw Error("these are points of a table already",
+                    options.file,
+                    fmt::format("'millwright plot play {}' sends them", options.file));
+    }
     if (is_program(options)) {
         const bool flat = options.command->count("--pen-up") + options.command->count("--pen-down") > 0;
         return program_points(options.file, program_reading(options), options.decode, options.fastest, flat);
@@ -251,7 +261,10 @@ std::vector<Vec3> plot_points(const PlotOptions& options) {
 }
 
 int decode(const PlotOptions& options) {
-    const std::vector<Vec3> points = plot_points(options);
+    std::vector<Vec3> points = plot_points(options);
+    for (Vec3& point : points) {
+        point += origin_from(options.cutting.cutting.origin);
+    }
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
                counted(points.size(), "point", "points"),
@@ -261,6 +274,9 @@ int decode(const PlotOptions& options) {
 
 int view(const PlotOptions& options) {
     const plot::AirInSvg air = options.no_air ? plot::AirInSvg::left_out : plot::AirInSvg::shown;
+    if (takes_points(*options.command, options.file)) {
+        return points_view(options.file, air, options.out);
+    }
     if (is_program(options)) {
         return program_view(options.file, program_reading(options), air, options.out);
     }
@@ -271,6 +287,9 @@ int view(const PlotOptions& options) {
 }
 
 int toolpath(const PlotOptions& options) {
+    if (takes_points(*options.command, options.file)) {
+        return points_toolpath(options.file, options.cutting);
+    }
     if (is_program(options)) {
         return program_toolpath(options.file, program_reading(options), options.cutting, *options.command);
     }
@@ -285,7 +304,8 @@ int toolpath(const PlotOptions& options) {
 CLI::App&
 add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<PlotOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("FILE", options->file, "HPGL plot, or a G-code program of X, Y and Z")->required();
+    command.add_option("FILE", options->file, "HPGL plot, G-code program of X, Y and Z, or points")
+        ->required();
     command
         .add_option("--unit",
                     options->unit,
@@ -339,6 +359,7 @@ void add_decode(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Co
         ->required();
     command.add_option("--period", decoding.period, "Between two points, s")->check(above_zero())->required();
     command.add_option("--out", options->out, "Point file")->required();
+    add_drawing_origin(command, options->cutting.cutting.origin);
     command.add_option("--mode", decoding.mode, "Equal steps a segment, or along whole paths")
         ->transform(one_of(modes))
         ->type_name(listed(modes))

@@ -1,8 +1,10 @@
 #include "app/commands/plot_play.h"
 
 #include "app/controller.h"
+#include "app/cutting.h"
 #include "app/finite_number.h"
 #include "app/interrupt.h"
+#include "app/origin_choice.h"
 #include "app/progress_printer.h"
 #include "app/record_choice.h"
 #include "app/series.h"
@@ -43,8 +45,9 @@ struct PlotPlayOptions {
     std::string file;
     std::string port; ///< empty: nothing is sent
     std::string machine = "forming-table";
-    double period = 0.01; ///< s
-    double speed = 1.0;   ///< times real time
+    double period = 0.01;       ///< s
+    double speed = 1.0;         ///< times real time
+    std::vector<double> origin; ///< as add_drawing_origin() has it
     RecordChoice record = {.pattern = machine::RecordFormat().pattern, .format = {}};
     std::string log = project::job_logs_place().string();
     std::string options; ///< of the command, for its log
@@ -114,7 +117,10 @@ void print_play_json(const PlayStatus& status, const machine::JobOutcome& outcom
 
 machine::Job job_to_play(const PlotPlayOptions& options) {
     const std::string text = read_file(options.file);
-    const plot::PointFile read = points_to_play(text, options.file);
+    plot::PointFile read = points_to_play(text, options.file);
+    for (Vec3& point : read.points) {
+        point += origin_from(options.origin);
+    }
     auto model = std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
     // Shown faster, a table that is not there moves no faster.
@@ -199,13 +205,17 @@ void add_plot_play(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point per period");
     command.add_option("FILE", options->file, "Point file")->required();
     command.add_option("--period", options->period, "Between two points, s")->check(above_zero())->required();
-    command.add_option("--port", options->port, "Serial port or tcp:HOST:PORT; without it nothing is sent")
+    command
+        .add_option("--port",
+                    options->port,
+                    "Serial port as /dev/ttyUSB0,9600, or tcp:HOST:PORT; without it nothing is sent")
         ->type_name("PORT");
     command.add_option("--machine", options->machine, "Whose limits hold: shipped machine or machine file")
         ->capture_default_str();
     command.add_option("--speed", options->speed, "Times real time")
         ->check(above_zero())
         ->capture_default_str();
+    add_drawing_origin(command, options->origin);
     add_record_options(command, options->record);
     command.add_option("--log", options->log, "Folder of the job logs")
         ->type_name("DIR")

@@ -1,12 +1,15 @@
 #include "app/commands/plot_program.h"
 
+#include "app/commands/plot_points.h"
 #include "app/finite_number.h"
 #include "app/origin_choice.h"
 #include "app/other_than_plot.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/gcode/reader/tool_comments.h"
 #include "core/plot/decode_path.h"
 #include "core/plot/decode_within.h"
 #include "core/plot/work_time.h"
@@ -33,6 +36,9 @@ using gcode::CutProgram;
 
 constexpr std::array plots_alone{"--unit", "--fill", "--solid", "--line-ends", "--strict"};
 constexpr std::array programs_alone{"--tools", "--chord-length", "--work-origin", "--parameters"};
+/// Of `toolpath`: what strokes alone can be given.
+constexpr std::array shaping_strokes{
+    "--side", "--hatch", "--contours", "--order", "--link", "--depth", "--passes", "--level", "--tabs"};
 /// Of `toolpath`: what is not as the program has it.
 constexpr std::array shaping{"--side",
                              "--hatch",
@@ -250,6 +256,20 @@ void expect_even(const CutProgram& program, const char* option) {
     }
 }
 
+/// As CAM programs name their tools.
+void take_diameter_of_comments(const std::string& file, StrokeCutting& cutting) {
+    const auto tools = gcode::tools_in_comments(read_file(file));
+    if (!tools.empty()) {
+        cutting.plan.tool_diameter = tools.front().diameter;
+        fmt::print(
+            stderr,
+            "millwright: {}:{}: a comment says the tool is {} mm wide, which is taken (--tool-diameter)\n",
+            file,
+            tools.front().line,
+            shortest(tools.front().diameter));
+    }
+}
+
 } // namespace
 
 void add_program_options(CLI::App& command, ProgramReading& reading) {
@@ -265,6 +285,17 @@ void add_program_options(CLI::App& command, ProgramReading& reading) {
     command.add_option("--parameters", reading.parameters, "Of a G-code program: LinuxCNC parameter file")
         ->type_name("FILE");
     add_origin_option(command, reading.origin, "--work-origin");
+}
+
+bool takes_points(const CLI::App& command, const std::string& file) {
+    if (!is_point_file(file)) {
+        return false;
+    }
+    const auto points_have = "other files; these are the points of a table";
+    expect_none_of(plots_alone, command, points_have);
+    expect_none_of(programs_alone, command, points_have);
+    expect_none_of(shaping_strokes, command, points_have);
+    return true;
 }
 
 bool takes_program(const CLI::App& command, const std::string& file) {
@@ -357,6 +388,9 @@ int program_toolpath(const std::string& file,
             "millwright: {}: the program says nothing of its spindle: {:.0f} 1/min are taken (--spindle)\n",
             file,
             cutting.cutting.spindle_rpm);
+    }
+    if (!given(command, "--tool-diameter")) {
+        take_diameter_of_comments(file, cutting);
     }
     const std::vector<std::string> header{"program: " + std::filesystem::path(file).filename().string()};
     const auto* const shaped =

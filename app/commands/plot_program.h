@@ -28,6 +28,10 @@ struct ProgramReading {
 /// Those that plots do not have, to a command that reads plots.
 void add_program_options(CLI::App& command, ProgramReading& reading);
 
+/// Whether `file` is to be read as points; pipes never are. Throws UsageError for options of `command` that
+/// are for other files.
+[[nodiscard]] bool takes_points(const CLI::App& command, const std::string& file);
+
 /// Whether `file` is to be read as a program; pipes never are. Throws UsageError for options of `command`
 /// that are for the other kind of file.
 [[nodiscard]] bool takes_program(const CLI::App& command, const std::string& file);

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -199,6 +200,7 @@ JsonValue::JsonValue(std::shared_ptr<const Node> node, std::filesystem::path fil
     : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {}
 
 JsonValue JsonValue::parse(std::string_view text, const std::filesystem::path& file) {
+    refuse_wide_text(text, file);
     Builder builder(text, file);
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
     return {builder.take(), file, {}};

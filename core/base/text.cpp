@@ -5,27 +5,63 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace millwright {
 
-std::string_view wide_encoding(std::string_view text) {
+namespace {
+
+constexpr std::size_t looked_at = 4096; // bytes
+
+/// How many of the bytes at `first`, `first` + `step`, ... are zero.
+std::size_t zeros_at(std::string_view bytes, std::size_t first, std::size_t step) {
+    std::size_t zeros = 0;
+    for (std::size_t n = first; n < bytes.size(); n += step) {
+        zeros += bytes[n] == '\0' ? 1 : 0;
+    }
+    return zeros;
+}
+
+/// Other scripts have no zero byte, so that a quarter of the letters may lack it.
+bool mostly(std::size_t zeros, std::size_t letters) {
+    return 4 * zeros >= 3 * letters;
+}
+
+} // namespace
+
+std::string_view wide_encoding(std::string_view bytes) {
     using namespace std::string_view_literals;
-    if (text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv)) {
+    if (bytes.starts_with("\xFF\xFE\0\0"sv) || bytes.starts_with("\0\0\xFE\xFF"sv)) {
         return "UTF-32";
     }
-    if (text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv)) {
+    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
         return "UTF-16";
     }
-    unsigned zeros = 0; // of the first four bytes, the first one highest
-    for (std::size_t n = 0; n < 4; ++n) {
-        zeros = 2 * zeros + (n < text.size() && text[n] == '\0' ? 1 : 0);
+    bytes = bytes.substr(0, std::min(bytes.size(), looked_at) / 4 * 4);
+    const std::size_t quarter = bytes.size() / 4;
+    if (quarter == 0) {
+        return {};
     }
-    const bool four = text.size() >= 4;
-    if (four && (zeros == 0b0111 || zeros == 0b1110)) {
+    std::array<std::size_t, 4> zeros{};
+    for (std::size_t n = 0; n < zeros.size(); ++n) {
+        zeros[n] = zeros_at(bytes, n, zeros.size());
+    }
+    const auto& [a, b, c, d] = zeros;
+    if ((a == 0 && mostly(b, quarter) && c == quarter && d == quarter) ||
+        (a == quarter && b == quarter && mostly(c, quarter) && d == 0)) {
         return "UTF-32";
     }
-    return four && (zeros == 0b0101 || zeros == 0b1010) ? "UTF-16" : "";
+    const std::size_t half = 2 * quarter;
+    return (a + c == 0 && mostly(b + d, half)) || (mostly(a + c, half) && b + d == 0) ? "UTF-16" : "";
+}
+
+void refuse_wide_text(std::string_view bytes, const std::filesystem::path& file) {
+    if (const std::string_view encoding = wide_encoding(bytes); !encoding.empty()) {
+        throw Error({.place = {.file = file, .byte = 0},
+                     .message = fmt::format("the file is text in {}", encoding),
+                     .hint = "save it as ASCII or UTF-8"});
+    }
 }
 
 std::string fixed(double value, int decimals) {

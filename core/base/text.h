@@ -2,6 +2,7 @@
 // put in front of text.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,9 +15,13 @@ namespace millwright {
     return text;
 }
 
-/// "UTF-16" or "UTF-32" if `text` begins as such text does: with its byte order mark, or with the zero bytes
-/// beside its first two letters; else empty.
-[[nodiscard]] std::string_view wide_encoding(std::string_view text);
+/// "UTF-16" or "UTF-32" if `bytes` are text in it, with its byte order mark or without: then each plain
+/// letter has zero bytes on one side. Empty if they are not.
+[[nodiscard]] std::string_view wide_encoding(std::string_view bytes);
+
+/// Throws Error at byte 0 of `file` if `bytes` are text in UTF-16 or UTF-32: its zero bytes would end every
+/// number after one digit.
+void refuse_wide_text(std::string_view bytes, const std::filesystem::path& file);
 
 /// `value` with exactly `decimals` digits after the point, never "-0.000". Throws Defect if not finite.
 [[nodiscard]] std::string fixed(double value, int decimals);

@@ -28,6 +28,7 @@ public:
     }
 
     Assembled assemble(std::string_view text) {
+        refuse_wide_text(text, name_);
         text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;

@@ -75,6 +75,7 @@ public:
         : name_(std::move(name)), constants_(constants) {}
 
     AssembledMicroprogram assemble(std::string_view text) {
+        refuse_wide_text(text, name_);
         text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;

@@ -47,6 +47,7 @@ public:
     explicit PlcAssembler(std::filesystem::path name) : name_(std::move(name)) {}
 
     PlcProgram assemble(std::string_view text) {
+        refuse_wide_text(text, name_);
         text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;

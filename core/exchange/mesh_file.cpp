@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/mesh_readers.h"
 #include "core/exchange/internal/soup.h"
@@ -85,8 +86,11 @@ MeshFile parse_mesh(std::string_view bytes,
     if (kind == "stl") {
         read_stl(bytes, soup, progress);
     } else if (kind == "obj") {
+        refuse_wide_text(bytes, file);
         read_obj(bytes, soup, progress);
     } else {
+        constexpr std::size_t head = 64; // what follows may be binary
+        refuse_wide_text(bytes.substr(0, head), file);
         read_ply(bytes, soup, progress);
     }
     progress.report(0.6, "joining points");

@@ -88,6 +88,7 @@ std::vector<Number> numbers_of_line(std::string_view text, const std::filesystem
 std::vector<std::vector<Number>> numbers_of(std::string_view text, const std::filesystem::path& file) {
     std::vector<std::vector<Number>> lines;
     int line = 0;
+    refuse_wide_text(text, file);
     text = without_byte_order_mark(text);
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());

@@ -26,6 +26,7 @@ struct Word {
 class Reader {
 public:
     Reader(std::string_view text, const std::filesystem::path& file) : text_(without_byte_order_mark(text)) {
+        refuse_wide_text(text, file);
         place_.file = file;
     }
 

@@ -78,9 +78,8 @@ public:
           internal::Reach reach,
           internal::PathEstimate estimate)
         : dispatcher_(dispatcher), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
-          reach_(std::move(reach)), estimate_(std::move(estimate)),
-          plans_itself_(dispatcher.driver_.capabilities().plans), start_(dispatcher.clock_.now()),
-          last_(std::move(before)), doubt_before_(last_.position_doubt) {
+          reach_(std::move(reach)), estimate_(std::move(estimate)), able_(dispatcher.driver_.capabilities()),
+          start_(dispatcher.clock_.now()), last_(std::move(before)), doubt_before_(last_.position_doubt) {
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
         log_ = std::make_shared<internal::SharedLog>(
@@ -138,7 +137,7 @@ private:
     internal::Reach reach_;
     internal::PathEstimate estimate_;
     std::string beyond_; ///< what was seen of a machine that left the reach; empty: nothing
-    bool plans_itself_ = false;
+    Capabilities able_;
     double start_ = 0.0;
     DriverStatus last_; ///< with the last known position where the link is gone, or the position is lost
     std::string doubt_before_;
@@ -154,7 +153,7 @@ private:
         if (status.state != DriverState::disconnected) {
             const DriverStatus before = std::exchange(last_, status);
             last_.block = estimated_block(status);
-            last_.planned_time = plans_itself_ ? time_of_executed() : last_.planned_time;
+            last_.planned_time = able_.plans ? time_of_executed() : last_.planned_time;
             if (status.position_doubt != doubt_before_) { // what a controller says now is no position
                 last_.block = before.block;
                 last_.position = before.position;
@@ -231,7 +230,7 @@ private:
     void write_executed() {
         if (last_.executed_blocks > logged_blocks_) {
             logged_blocks_ = last_.executed_blocks;
-            log_->write(record(LogEvent::executed, elapsed(), last_));
+            log_->write(record(able_.answers ? LogEvent::executed : LogEvent::sent, elapsed(), last_));
         }
     }
 
@@ -247,7 +246,7 @@ private:
     }
 
     void tell(const Progress& progress, const Listener& listener) const {
-        const JobReport report{last_, blocks(), elapsed(), planned(), line_of(last_.block)};
+        const JobReport report{last_, blocks(), elapsed(), planned(), able_.answers, line_of(last_.block)};
         progress.report(report.fraction(), report.progress_text());
         if (listener) {
             listener(report);
@@ -282,7 +281,7 @@ private:
         result.elapsed = elapsed();
         result.position = last_.position;
         result.sentence =
-            internal::end_sentence(result.end, last_, blocks(), result.elapsed, line_of(last_.block));
+            internal::end_sentence(result.end, last_, result, line_of(last_.block), able_.answers);
         if (last_.position_doubt != doubt_before_ && !last_.position_doubt.empty()) {
             result.sentence += " " + doubt_sentence(last_.position_doubt);
         }
@@ -347,7 +346,8 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
                        .options = job.options,
                        .from_line = job.from_line,
                        .position_confirmed = before.position_confirmed,
-                       .firmware = driver_.firmware()});
+                       .firmware = driver_.firmware(),
+                       .answers = able.answers});
     progress.check();
     Watch watch(*this, job, log, trajectory, before, std::move(reach), std::move(estimate));
     try {

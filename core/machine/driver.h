@@ -44,6 +44,7 @@ struct Capabilities {
     bool settings = false;          ///< has a table of its own that can be changed
     bool single_block = false;      ///< can stand still after each block
     bool optional_stop = false;     ///< has a switch for M1 here
+    bool answers = true;            ///< tells what it executed; false: only the sending of a block is known
     bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
     bool mist = true;               ///< has M7
     std::string_view firmware = "Grbl";        ///< of a controller that speaks Grbl's protocol

@@ -179,7 +179,8 @@ std::vector<Diagnostic> preflight(const Job& job) {
     if (!found.empty()) {
         return found;
     }
-    if (program.blocks.empty() || program.blocks.back().kind != BlockKind::end) {
+    const bool says_where = !program.blocks.empty() && program.blocks.back().kind == BlockKind::end;
+    if (!says_where && !job.points) { // points end with the last one
         found.push_back({{program_file(job), 0, 0, -1}, "the program does not say where it ends", {}});
     }
     BlockChecks checks(job, found);

@@ -56,7 +56,7 @@ enum class JobEnd {
 
 [[nodiscard]] std::string_view to_text(JobEnd end);
 
-/// How a job ended. `executed_blocks` were executed for certain, `block` perhaps in part.
+/// How a job ended. `executed_blocks` were executed for certain, or, where the machine does not answer, sent.
 struct JobOutcome {
     JobEnd end = JobEnd::fault;
     int executed_blocks = 0;

@@ -59,6 +59,7 @@ std::string one_line(const Json& value) {
 
 constexpr std::array all_events{LogEvent::ahead,
                                 LogEvent::executed,
+                                LogEvent::sent,
                                 LogEvent::waiting,
                                 LogEvent::hold,
                                 LogEvent::resume,
@@ -69,6 +70,11 @@ constexpr std::array all_events{LogEvent::ahead,
                                 LogEvent::fault,
                                 LogEvent::end};
 constexpr std::array all_ends{JobEnd::done, JobEnd::stopped, JobEnd::cancelled, JobEnd::fault};
+
+/// What is known of them.
+constexpr std::string_view blocks_key(bool answers) {
+    return answers ? "executed_blocks" : "sent_blocks";
+}
 
 LogStart start_from(const JsonValue& value) {
     value.expect_only({"record",
@@ -87,7 +93,8 @@ LogStart start_from(const JsonValue& value) {
                        "address",
                        "options",
                        "position_confirmed",
-                       "firmware"});
+                       "firmware",
+                       "answers"});
     if (value.at("record").text() != "start" || value.at("format").text() != log_format_name) {
         value.fail("this is not the first line of a job log");
     }
@@ -125,6 +132,9 @@ LogStart start_from(const JsonValue& value) {
     if (const auto firmware = value.find("firmware")) {
         start.firmware = firmware->text();
     }
+    if (const auto answers = value.find("answers")) {
+        start.answers = answers->flag();
+    }
     if (const auto line = value.find("from_line")) {
         start.from_line = line->integer(1);
     }
@@ -134,7 +144,7 @@ LogStart start_from(const JsonValue& value) {
 LogRecord record_from(const JsonValue& value, const LogStart& start) {
     value.expect_only({"record",
                        "time_s",
-                       "executed_blocks",
+                       blocks_key(start.answers),
                        "line",
                        "position",
                        "end",
@@ -144,7 +154,7 @@ LogRecord record_from(const JsonValue& value, const LogStart& start) {
     LogRecord record;
     record.event = internal::named(value.at("record"), all_events);
     record.time = value.at("time_s").number(0.0);
-    record.executed_blocks = value.at("executed_blocks").integer(0, start.blocks);
+    record.executed_blocks = value.at(blocks_key(start.answers)).integer(0, start.blocks);
     record.line = value.at("line").integer(0);
     const std::vector<JsonValue> position = value.at("position").items(start.axes.size());
     record.position = AxisPositions::Zero(static_cast<Eigen::Index>(position.size()));
@@ -196,6 +206,8 @@ std::string_view to_text(LogEvent event) {
         return "single-block";
     case LogEvent::executed:
         return "executed";
+    case LogEvent::sent:
+        return "sent";
     case LogEvent::hold:
         return "hold";
     case LogEvent::resume:
@@ -246,6 +258,7 @@ JobLog::~JobLog() { // which also ends the lock
 
 void JobLog::write(const LogStart& start) {
     axes_ = start.axes;
+    answers_ = start.answers;
     Json axes = Json::array();
     for (const gcode::ProgramAxis& axis : start.axes) {
         axes.push_back({{"letter", std::string(1, axis.letter)},
@@ -278,6 +291,9 @@ void JobLog::write(const LogStart& start) {
     if (!start.firmware.empty()) {
         line["firmware"] = start.firmware;
     }
+    if (!start.answers) {
+        line["answers"] = false;
+    }
     append(one_line(line));
 }
 
@@ -291,7 +307,7 @@ void JobLog::write(const LogRecord& record) {
     }
     Json line{{"record", to_text(record.event)},
               {"time_s", rounded(record.time)},
-              {"executed_blocks", record.executed_blocks},
+              {blocks_key(answers_), record.executed_blocks},
               {"line", record.line},
               {"position", position}};
     if (record.end) {

@@ -25,6 +25,7 @@ struct LogStart {
     int from_line = 1;   ///< of the program's file; more than 1: it was not run from its beginning
     std::string position_confirmed{}; ///< DriverStatus::position_confirmed
     std::string firmware{};           ///< Driver::firmware()
+    bool answers = true;              ///< Capabilities::answers
 
     friend bool operator==(const LogStart&, const LogStart&) = default;
 };
@@ -32,6 +33,7 @@ struct LogStart {
 enum class LogEvent {
     ahead,    ///< the driver may give the controller more blocks from now on, up to LogRecord::allowed_blocks
     executed, ///<
+    sent,     ///< in place of it, to a machine that does not answer
     waiting,  ///< the machine rests until a person goes on: LogRecord::text says why
     hold,
     resume,
@@ -49,7 +51,7 @@ enum class LogEvent {
 struct LogRecord {
     LogEvent event = LogEvent::executed;
     double time = 0.0;       ///< s since the start of the job
-    int executed_blocks = 0; ///< completely, for certain
+    int executed_blocks = 0; ///< completely, for certain; sent, where LogStart::answers says so
     int line = 0;            ///< of the listing, where the next block stands; 0: not known
     kinematics::AxisPositions position;
     std::optional<JobEnd> end; ///< of LogEvent::end
@@ -87,6 +89,7 @@ private:
     int handle_ = -1;
     std::int64_t size_ = 0; ///< bytes of whole lines
     std::vector<gcode::ProgramAxis> axes_;
+    bool answers_ = true;
 };
 
 struct ReadLog {
@@ -94,7 +97,7 @@ struct ReadLog {
     std::vector<LogRecord> records;
     bool torn = false; ///< the last line was cut off while being written; it is left out
 
-    /// Blocks that were executed for certain.
+    /// Blocks that were executed for certain, or sent, where start.answers says so.
     [[nodiscard]] int executed_blocks() const { return records.empty() ? 0 : records.back().executed_blocks; }
     /// No block from this one on was given to the controller. All, for drivers that hand a program over
     /// whole.

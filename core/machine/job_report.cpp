@@ -12,7 +12,14 @@ double JobReport::fraction() const {
                : static_cast<double>(std::max(driver.executed_blocks, driver.block)) / std::max(1, blocks);
 }
 
+std::string JobReport::blocks_text() const {
+    return fmt::format("{} of {} blocks {}", driver.executed_blocks, blocks, answers ? "executed" : "sent");
+}
+
 std::string JobReport::progress_text() const {
+    if (!answers) {
+        return fmt::format("Block {} of {} sent", driver.executed_blocks, blocks);
+    }
     const std::string sent = driver.sent_blocks > driver.executed_blocks
                                  ? fmt::format(", {} sent", driver.sent_blocks)
                                  : std::string();

@@ -137,7 +137,7 @@ Job point_file_job(std::string_view text,
         program.axes.push_back({.letter = axis.letter, .kind = axis.kind});
     }
     program.start = on_table(points.front(), index, *machine);
-    PointTrack track{.period = period, .points = points, .blocks = {}, .stops = {}};
+    PointTrack track{.period = period, .points = points, .blocks = {}, .stops = {}, .ends_blocks = true};
     for (std::size_t n = 0; n < points.size(); ++n) {
         Block block;
         block.kind = BlockKind::feed;
@@ -150,11 +150,6 @@ Job point_file_job(std::string_view text,
         program.blocks.push_back(std::move(block));
         track.blocks.push_back(static_cast<int>(n));
     }
-    Block end;
-    end.kind = BlockKind::end;
-    end.target = program.blocks.back().target;
-    end.source_line = read.lines.back();
-    program.blocks.push_back(std::move(end));
     Job job = job_of(file, std::move(machine));
     job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, program));
     job.program = std::make_shared<const Program>(std::move(program));

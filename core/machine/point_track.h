@@ -24,6 +24,7 @@ struct PointTrack {
     std::vector<Vec3> points; ///< at least one; the table starts at the first
     std::vector<int> blocks;  ///< for each point the block that leads to it, never falling
     std::vector<Stop> stops;  ///< in the order of the points
+    bool ends_blocks = false; ///< each block ends at its last point, not between that and the next one
 
     [[nodiscard]] double duration() const { return period * static_cast<double>(points.size() - 1); }
 };

@@ -3,6 +3,7 @@
 #include "core/base/files.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/machine/internal/end_sentence.h"
 
 #include <fmt/format.h>
 
@@ -24,29 +25,26 @@ std::string fault_in(const ReadLog& log) {
 
 std::string sentence_of(const JobStory& story, const std::string& fault) {
     const int blocks = story.start.blocks;
+    const std::string done = internal::done_text(story.executed_blocks, blocks, story.start.answers);
     if (story.running) {
-        return fmt::format(
-            "running: {} of {} blocks were executed for certain.", story.executed_blocks, blocks);
+        return "running: " + done + ".";
     }
     if (!story.broken_off()) {
-        const std::string executed =
-            fmt::format("{} of {} blocks were executed for certain.", story.executed_blocks, blocks);
         return fmt::format(
-            "{} after {}: {}", to_text(*story.end), short_time(story.time), with_clause(fault, executed));
+            "{} after {}: {}", to_text(*story.end), short_time(story.time), with_clause(fault, done + "."));
     }
     if (story.executed_blocks == blocks) {
-        return fmt::format("Millwright ended before it could write the end: all {} blocks were executed.",
-                           blocks);
+        return fmt::format("Millwright ended before it could write the end: all {} blocks were {}.",
+                           blocks,
+                           story.start.answers ? "executed" : "sent");
     }
     const int open = std::max(0, story.allowed_blocks - story.executed_blocks);
     const std::string where =
         story.next_line > 0 ? fmt::format(" (line {} comes next)", story.next_line) : std::string();
     return fmt::format(
-        "Millwright ended while the job ran, after {} or later: {} of {} blocks were executed for "
-        "certain{}; of the next {} nobody knows{}.",
+        "Millwright ended while the job ran, after {} or later: {}{}; of the next {} nobody knows{}.",
         short_time(story.time),
-        story.executed_blocks,
-        blocks,
+        done,
         where,
         open,
         story.allowed_blocks < blocks ? "; the others were never sent" : "");

@@ -17,7 +17,7 @@ struct JobStory {
     std::optional<JobEnd> end; ///< nothing: it runs, or its program ended before the job did
     bool running = false;      ///< a program is still writing this log
     bool seen = false;         ///< a person knows of it, see mark_seen()
-    int executed_blocks = 0;   ///< for certain
+    int executed_blocks = 0;   ///< for certain, or sent, as start.answers says
     int allowed_blocks = 0;    ///< none from this one on was given to the controller
     double time = 0.0;         ///< of the last record, s since the start
     int next_line =

@@ -131,13 +131,13 @@ Strokes rings_joined(const Strokes& strokes, double tolerance) {
 }
 
 Strokes outlines_for(const Strokes& drawn, const StrokePlan& plan) {
-    const bool asked = plan.side != CutterSide::on_line || plan.hatch_pitch || plan.contour_pitch ||
-                       (plan.link > 0.0 && plan.link_inside);
+    const bool asked =
+        plan.compensates() || plan.hatch_pitch || plan.contour_pitch || (plan.link > 0.0 && plan.link_inside);
     if (!asked) {
         return drawn;
     }
     Strokes outlines = rings_joined(drawn);
-    if (plan.side != CutterSide::on_line && closed_outlines(outlines).empty()) {
+    if (plan.compensates() && closed_outlines(outlines).empty()) {
         throw Error("no stroke is closed, so there is no inside and no outside to go along",
                     {},
                     "cut on the line, or draw outlines whose ends touch");

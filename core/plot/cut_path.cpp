@@ -181,7 +181,7 @@ std::vector<Level> levels_for(const Strokes& strokes, const Level& like) {
         if (known.insert(stroke.pen).second) {
             Level level = like;
             level.pen = stroke.pen;
-            level.order = static_cast<int>(levels.size());
+            level.order = static_cast<int>(levels.size()) + 1;
             levels.push_back(level);
         }
     }

@@ -3,8 +3,10 @@
 // thesis 2006, forming software for wood and plastic, levels.
 #pragma once
 
+#include "core/plot/compensation.h"
 #include "core/plot/strokes.h"
 
+#include <optional>
 #include <vector>
 
 namespace millwright::plot {
@@ -30,6 +32,8 @@ struct Level {
     double plunging = 2.0; ///< into the work, > 0
     int tool = 1;
     Tabs tabs = {};
+    std::optional<CutterSide> side = {};      ///< of its closed strokes; not given: as for all
+    std::optional<double> tool_diameter = {}; ///< > 0; not given: as for all
 
     friend bool operator==(const Level&, const Level&) = default;
 };

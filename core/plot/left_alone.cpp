@@ -24,14 +24,17 @@ std::string on_open(const Strokes& drawn, std::size_t open) {
 }
 
 std::size_t narrow_parts(const Strokes& drawn, const StrokePlan& plan) {
-    const CompensationSettings settings{.tool_diameter = plan.tool_diameter, .side = plan.side};
     std::map<int, Strokes> pens;
     for (const Stroke& stroke : drawn) {
         pens[stroke.pen].push_back(stroke);
     }
     std::size_t count = 0;
     for (const auto& [pen, strokes] : pens) {
-        count += count_narrow_parts(closed_outlines(strokes), settings);
+        const StrokePlan own = plan.of_pen(pen);
+        if (own.side != CutterSide::on_line) {
+            count += count_narrow_parts(closed_outlines(strokes),
+                                        {.tool_diameter = own.tool_diameter, .side = own.side});
+        }
     }
     return count;
 }
@@ -55,7 +58,7 @@ std::string on_links(const Strokes& drawn, const StrokePlan& plan) {
 
 std::string left_alone(const Strokes& drawn, const ShapedStrokes& shaped, const StrokePlan& plan) {
     const std::string open = on_open(drawn, shaped.open);
-    const std::string narrow = on_narrow(plan.side == CutterSide::on_line ? 0 : narrow_parts(drawn, plan));
+    const std::string narrow = on_narrow(narrow_parts(drawn, plan));
     std::string all;
     for (const std::string& remark : {open, narrow, on_links(drawn, plan)}) {
         all += (all.empty() || remark.empty() ? "" : "; ") + remark;

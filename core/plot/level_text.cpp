@@ -5,8 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace millwright::plot {
 namespace {
@@ -35,6 +39,9 @@ private:
     void take(std::string_view part) {
         const auto equals = part.find('=');
         const std::string_view name = part.substr(0, equals);
+        if (!seen_.insert(name).second) {
+            throw Error(fmt::format("the level '{}': '{}' is given twice", text_, name));
+        }
         const std::string_view value =
             equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1);
         if (part == "off") {
@@ -51,13 +58,40 @@ private:
             level_.order = whole(value, -1'000'000);
         } else if (name == "tool") {
             level_.tool = whole(value, 0);
+        } else if (name == "side") {
+            level_.side = side(value);
+        } else if (name == "cutter") {
+            level_.tool_diameter = above_zero(value);
         } else if (name == "tabs") {
             level_.tabs.count = whole(value, 0);
         } else {
             throw Error(fmt::format("the level '{}': '{}' is nothing that a level has", text_, part),
                         {},
-                        "depth=, passes=, feed=, plunge=, order=, tool=, tabs= or off");
+                        "depth=, passes=, feed=, plunge=, order=, tool=, side=, cutter=, tabs= or off");
         }
+    }
+
+    [[nodiscard]] CutterSide side(std::string_view value) const {
+        constexpr std::array<std::pair<std::string_view, CutterSide>, 3> sides{
+            {{"on-line", CutterSide::on_line},
+             {"outside", CutterSide::outside},
+             {"inside", CutterSide::inside}}};
+        const auto* const found =
+            std::ranges::find(sides, value, &std::pair<std::string_view, CutterSide>::first);
+        if (found == sides.end()) {
+            throw Error(fmt::format("the level '{}': '{}' is no side", text_, value),
+                        {},
+                        "on-line, outside or inside");
+        }
+        return found->second;
+    }
+
+    [[nodiscard]] double above_zero(std::string_view value) const {
+        const double found = number(value);
+        if (!(found > 0.0)) {
+            throw Error(fmt::format("the level '{}': '{}' is not above 0", text_, value));
+        }
+        return found;
     }
 
     [[nodiscard]] double number(std::string_view value) const {
@@ -80,6 +114,7 @@ private:
     }
 
     std::string_view text_;
+    std::set<std::string_view> seen_; ///< names that were given
     Level level_;
 };
 

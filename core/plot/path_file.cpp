@@ -116,6 +116,7 @@ bool is_path_file(std::string_view text) {
 
 CutPath read_path(std::string_view text, const std::filesystem::path& file, std::vector<int>* lines) {
     CutPath path;
+    refuse_wide_text(text, file);
     text = without_byte_order_mark(text);
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());

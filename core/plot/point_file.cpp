@@ -59,6 +59,7 @@ std::string point_file_text(const std::vector<Vec3>& points, int decimals) {
 
 PointFile read_points(std::string_view text, const std::filesystem::path& file) {
     PointFile read;
+    refuse_wide_text(text, file);
     text = without_byte_order_mark(text);
     for (int finite_number = 1; !text.empty(); ++finite_number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -79,6 +80,12 @@ PointFile read_points(std::string_view text, const std::filesystem::path& file) 
         }
     }
     return read;
+}
+
+bool is_point_file(std::string_view text) {
+    text = without_byte_order_mark(text);
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    return point(trimmed(text.substr(0, text.find('\n')))).has_value();
 }
 
 } // namespace millwright::plot

@@ -24,4 +24,7 @@ struct PointFile {
 /// Reads the points; blank lines are passed over, lines that are no point are left out and reported.
 [[nodiscard]] PointFile read_points(std::string_view text, const std::filesystem::path& file);
 
+/// Whether `text`, perhaps only the beginning of a file, begins with a point on a line of its own.
+[[nodiscard]] bool is_point_file(std::string_view text);
+
 } // namespace millwright::plot

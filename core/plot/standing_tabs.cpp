@@ -7,7 +7,7 @@ namespace millwright::plot {
 std::vector<Level> with_standing_tabs(std::vector<Level> levels, double tool_diameter) {
     expects(tool_diameter >= 0.0, "a tool has a width");
     for (Level& level : levels) {
-        level.tabs.width += level.tabs.count > 0 ? tool_diameter : 0.0;
+        level.tabs.width += level.tabs.count > 0 ? level.tool_diameter.value_or(tool_diameter) : 0.0;
     }
     return levels;
 }

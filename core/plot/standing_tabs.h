@@ -7,8 +7,8 @@
 
 namespace millwright::plot {
 
-/// The levels with tabs that are wider on the way of the tool's middle by `tool_diameter` (mm, >= 0), so that
-/// those of the given widths stand. Without tabs as they are.
+/// The levels with tabs that are wider on the way of the tool's middle by their own diameter, else by
+/// `tool_diameter` (mm, >= 0), so that those of the given widths stand. Without tabs as they are.
 [[nodiscard]] std::vector<Level> with_standing_tabs(std::vector<Level> levels, double tool_diameter);
 
 } // namespace millwright::plot

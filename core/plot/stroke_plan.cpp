@@ -1,14 +1,16 @@
 #include "core/plot/stroke_plan.h"
 
 #include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/text.h"
 #include "core/plot/closing.h"
-#include "core/plot/cut_path.h"
 #include "core/plot/hatching.h"
 #include "core/plot/linking.h"
 #include "core/plot/ordering.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -68,27 +70,95 @@ Strokes hatched(const Region& region, int pen, const StrokePlan& plan) {
 
 } // namespace
 
+StrokePlan StrokePlan::of_pen(int pen) const {
+    StrokePlan result = *this;
+    result.cutters.clear();
+    const auto own = std::ranges::find(cutters, pen, &PenCutter::pen);
+    if (own != cutters.end()) {
+        result.side = own->side;
+        result.tool_diameter = own->tool_diameter;
+    }
+    return result;
+}
+
+bool StrokePlan::compensates() const {
+    return side != CutterSide::on_line || std::ranges::any_of(cutters, [](const PenCutter& cutter) {
+               return cutter.side != CutterSide::on_line;
+           });
+}
+
+std::map<int, double> tool_diameters(const std::vector<Level>& levels) {
+    std::map<int, double> diameters;
+    for (const Level& level : levels) {
+        if (level.tool_diameter) {
+            diameters.emplace(level.tool, *level.tool_diameter);
+        }
+    }
+    return diameters;
+}
+
+namespace {
+
+/// A tool has one diameter, whatever pen it cuts.
+void expect_one_diameter(const std::vector<Level>& levels, double usual) {
+    std::map<int, double> diameters;
+    for (const Level& level : levels) {
+        const double diameter = level.tool_diameter.value_or(usual);
+        const double known = diameters.emplace(level.tool, diameter).first->second;
+        if (level.enabled && !exactly_equal(known, diameter)) {
+            throw Error(fmt::format("tool {} is {} mm wide in one level and {} mm in another",
+                                    level.tool,
+                                    shortest(known),
+                                    shortest(diameter)),
+                        {},
+                        "give one of the levels another tool");
+        }
+    }
+}
+
+} // namespace
+
+StrokePlan with_cutters(StrokePlan plan, const std::vector<Level>& levels) {
+    expect_one_diameter(levels, plan.tool_diameter);
+    plan.cutters.clear();
+    for (const Level& level : levels) {
+        const PenCutter cutter{.pen = level.pen,
+                               .side = level.side.value_or(plan.side),
+                               .tool_diameter = level.tool_diameter.value_or(plan.tool_diameter)};
+        const auto known = std::ranges::find(plan.cutters, level.pen, &PenCutter::pen);
+        if (known == plan.cutters.end()) {
+            plan.cutters.push_back(cutter);
+        } else if (!(*known == cutter)) {
+            throw Error(fmt::format("two levels of pen {} have another side or cutter", level.pen),
+                        {},
+                        "strokes of one pen are cut along one way: draw what differs with another pen");
+        }
+    }
+    std::erase_if(plan.cutters, [&](const PenCutter& cutter) {
+        return cutter.side == plan.side && exactly_equal(cutter.tool_diameter, plan.tool_diameter);
+    });
+    return plan;
+}
+
 ShapedStrokes shaped(const Strokes& drawn, const StrokePlan& plan) {
     const bool hatches = plan.hatch_pitch || plan.contour_pitch;
-    const bool compensates = plan.side != CutterSide::on_line;
-    if (!hatches && !compensates) {
+    if (!hatches && !plan.compensates()) {
         return {drawn, 0};
     }
-    CompensationSettings settings;
-    settings.tool_diameter = plan.tool_diameter;
-    settings.side = plan.side;
-    settings.corners = plan.corners;
     ShapedStrokes result;
     for (auto& [pen, found] : pen_strokes(drawn)) {
-        result.open += found.open.size();
+        const StrokePlan own = plan.of_pen(pen);
+        const CompensationSettings settings{
+            .tool_diameter = own.tool_diameter, .side = own.side, .corners = own.corners};
+        result.open += own.side != CutterSide::on_line || hatches ? found.open.size() : 0;
         append(result.strokes, found.open);
         append(result.strokes, compensated(found.closed, settings, pen));
         // Inside, the hatch keeps off the outline as the tool's middle does.
-        const bool shrinks = plan.side == CutterSide::inside;
+        const bool shrinks = own.side == CutterSide::inside;
         append(result.strokes,
-               hatched(shrinks ? offset(found.closed, -plan.tool_diameter / 2.0, plan.corners) : found.closed,
+               hatched(shrinks ? offset(found.closed, -own.tool_diameter / 2.0, own.corners) : found.closed,
                        pen,
-                       plan));
+                       own));
     }
     if (result.strokes.empty()) {
         throw Error("nothing is left to cut", {}, "closed strokes may be too small for the tool");
@@ -101,11 +171,12 @@ namespace {
 /// What links must not cross: the outlines, and where the middle of the tool has to keep off them.
 std::vector<Ring> link_bounds(const Strokes& drawn, const StrokePlan& plan) {
     std::vector<Ring> rings = closed_outlines(drawn);
-    if (plan.side != CutterSide::on_line) {
-        const double radius = plan.tool_diameter / 2.0;
-        for (const auto& [pen, found] : pen_strokes(drawn)) {
+    for (const auto& [pen, found] : pen_strokes(drawn)) {
+        const StrokePlan own = plan.of_pen(pen);
+        if (own.side != CutterSide::on_line) {
+            const double radius = own.tool_diameter / 2.0;
             const Region kept =
-                offset(found.closed, plan.side == CutterSide::inside ? -radius : radius, plan.corners);
+                offset(found.closed, own.side == CutterSide::inside ? -radius : radius, own.corners);
             rings.insert(rings.end(), kept.begin(), kept.end());
         }
     }

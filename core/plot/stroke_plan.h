@@ -4,12 +4,24 @@
 
 #include "core/base/progress.h"
 #include "core/plot/compensation.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/strokes.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <vector>
 
 namespace millwright::plot {
+
+/// Of a pen whose level has a cutter or a side of its own.
+struct PenCutter {
+    int pen = 1;
+    CutterSide side = CutterSide::on_line;
+    double tool_diameter = 3.0;
+
+    friend bool operator==(const PenCutter&, const PenCutter&) = default;
+};
 
 struct StrokePlan {
     CutterSide side = CutterSide::on_line; ///< of closed strokes
@@ -22,9 +34,22 @@ struct StrokePlan {
     bool order = false;                       ///< reorders and reverses for less travel
     double link = 0.0;                        ///< joins over gaps shorter than this; 0: none
     bool link_inside = false;                 ///< links keep to their side of the closed strokes as drawn
+    std::vector<PenCutter> cutters = {};      ///< of pens that have another side or diameter
+
+    /// Side and diameter that count for one pen, without others.
+    [[nodiscard]] StrokePlan of_pen(int pen) const;
+    /// Whether any pen is cut beside its line.
+    [[nodiscard]] bool compensates() const;
 
     friend bool operator==(const StrokePlan&, const StrokePlan&) = default;
 };
+
+/// With the sides and cutters of `levels` for their pens. Throws Error where two levels of a pen differ in
+/// them, and where a tool has two diameters.
+[[nodiscard]] StrokePlan with_cutters(StrokePlan plan, const std::vector<Level>& levels);
+
+/// Diameters of the tools of `levels` that have their own, by the tool's number.
+[[nodiscard]] std::map<int, double> tool_diameters(const std::vector<Level>& levels);
 
 struct ShapedStrokes {
     Strokes strokes;

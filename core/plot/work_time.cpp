@@ -59,6 +59,7 @@ WorkTime work_time(const Strokes& strokes,
     std::vector<Level> in_order = levels;
     std::ranges::stable_sort(in_order, {}, &Level::order);
     WorkTime time;
+    double cutting = 0.0; // s, at the feeds of the levels
     Vec2 at = start;
     for (const Level& level : in_order) {
         const auto drawn = pens.find(level.pen);
@@ -69,6 +70,7 @@ WorkTime work_time(const Strokes& strokes,
             for (const Stroke* stroke : drawn->second) {
                 time.travel_length += (stroke->points.front() - at).norm();
                 time.cut_length += length(*stroke);
+                cutting += length(*stroke) / level.cutting;
                 ++time.runs;
                 at = stroke->points.back();
             }
@@ -76,6 +78,7 @@ WorkTime work_time(const Strokes& strokes,
     }
     time.travel_length += (end - at).norm();
     time.seconds = seconds_of(time, model);
+    time.seconds_at_feeds = cutting + time.travel_length / model.travelling + time.runs * model.lifting;
     return time;
 }
 

@@ -23,6 +23,8 @@ struct WorkTime {
     double travel_length = 0.0;
     int runs = 0; ///< times the tool goes down
     double seconds = 0.0;
+    double seconds_at_feeds =
+        0.0; ///< by the feeds of the levels in place of TimeModel::cutting; 0 without levels
 
     /// The distance that the thesis shows: all but up and down.
     [[nodiscard]] double distance() const { return cut_length + travel_length; }

@@ -10,11 +10,12 @@ namespace {
 
 using internal::As;
 using internal::count;
+using internal::maybe;
 using internal::number;
 using plot::Level;
 using plot::Tabs;
 
-constexpr std::array<NumberSetting<Level>, 9> of_level{{
+constexpr std::array<NumberSetting<Level>, 10> of_level{{
     {"order",
      "Order",
      "",
@@ -42,6 +43,14 @@ constexpr std::array<NumberSetting<Level>, 9> of_level{{
      1,
      number<As::mm_per_min, &Level::plunging>},
     {"tool", "Tool", "", "Where it differs the tool is changed by hand", 0, 1000, 0, count<&Level::tool>},
+    {"cutter_mm",
+     "Cutter",
+     "mm",
+     "Diameter of its tool; 0: as under Cutter",
+     0.0,
+     50.0,
+     2,
+     maybe<&Level::tool_diameter>},
     {"tabs", "Tabs", "", "Bridges on closed strokes", 0, 1000, 0, count<&Level::tabs, &Tabs::count>},
     {"tab_width_mm",
      "Tab width",

@@ -5,7 +5,6 @@
 #include "core/gcode/plot_program.h"
 #include "core/gcode/reader/cut_program.h"
 #include "core/kinematics/machine_file.h"
-#include "core/motion/planner.h"
 #include "core/plot/closing.h"
 #include "core/plot/hpgl/reader.h"
 #include "core/plot/left_alone.h"
@@ -15,11 +14,14 @@
 #include "core/plot/picture/finished_look.h"
 #include "core/plot/picture/relief_plan.h"
 #include "core/plot/picture/trace.h"
+#include "core/plot/point_path.h"
 #include "core/plot/standing_tabs.h"
 #include "core/project/assets.h"
 #include "core/project/gcode_file.h"
 #include "core/project/internal/failure.h"
 #include "core/project/internal/plot_view.h"
+#include "core/project/internal/posted_plot.h"
+#include "core/project/plot_time.h"
 
 #include <fmt/format.h>
 
@@ -43,6 +45,8 @@ void PlotDerivation::make_path() {
     result_.picture = is_picture_file(result_.input.file);
     if (is_path_file(result_.input.file)) {
         use(plot::read_path(read_file(result_.input.file), result_.input.file));
+    } else if (holds_points(result_.input.file)) {
+        cut_points();
     } else if (is_gcode_file(result_.input.file)) {
         cut_program();
     } else if (result_.picture) {
@@ -83,8 +87,12 @@ void PlotDerivation::make_look() {
     if (!cuts || tip.kind == plot::TipKind::point) {
         return;
     }
+    plot::ToolTips tips{tip, {}};
+    for (const auto& [tool, diameter] : plot::tool_diameters(result_.levels)) {
+        tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
+    }
     auto look = std::make_shared<plot::HeightField>(
-        plot::finished(*result_.path, tip, look_squares, progress_.part(0.5, 0.7)));
+        plot::finished_by(*result_.path, tips, look_squares, progress_.part(0.5, 0.7)));
     constexpr double spare = 0.5;
     const double plate =
         settings_.plate > 0.0 ? settings_.plate : spare - static_cast<double>(std::ranges::min(look->z));
@@ -104,13 +112,9 @@ void PlotDerivation::time_as_drawn() {
         return;
     }
     auto failure = failure_of([&] {
-        const kinematics::MachineModel machine = kinematics::read_machine(
-            machine_path(settings_.machine, result_.input.file.parent_path(), assets_));
-        const gcode::Program program = gcode::plot_program(as_drawn_,
-                                                           {.machine = machine.name(),
-                                                            .axes = gcode::plot_axes(machine),
-                                                            .spindle_rpm = result_.spindle_rpm()});
-        result_.drawn_seconds = motion::plan(program, machine, {}, progress_.part(0.8, 1.0)).duration();
+        const PostedPlot posted = posted_plot(result_, as_drawn_, assets_);
+        result_.drawn_seconds = seconds_of_text(
+            posted.released, posted.format, posted.machine, posted.file, progress_.part(0.8, 1.0));
     });
     if (failure) {
         failure->message = "there is no time of it as drawn: " + failure->message;
@@ -120,7 +124,8 @@ void PlotDerivation::time_as_drawn() {
 
 /// As it stands, like a path file.
 void PlotDerivation::cut_program() {
-    const gcode::CutProgram read = gcode::read_cut_program_file(result_.input.file);
+    const gcode::CutProgram read =
+        gcode::read_cut_program_file(result_.input.file, {.chord_length = settings_.chord_length});
     if (!read.unplaced.empty()) {
         throw Error(read.unplaced.front());
     }
@@ -144,6 +149,24 @@ void PlotDerivation::cut_program() {
     use(read.path);
 }
 
+/// Speeds are those of the usual level: the points have none before a period is chosen.
+void PlotDerivation::cut_points() {
+    auto points = std::make_shared<PlotPoints>();
+    points->text = read_file(result_.input.file);
+    points->read = plot::read_points(points->text, result_.input.file);
+    if (!points->read.diagnostics.empty()) { // a table goes to no place that was guessed
+        throw Error(points->read.diagnostics.front());
+    }
+    use(plot::path_of_points(points->read.points,
+                             {.cutting = settings_.level.cutting,
+                              .plunging = settings_.level.plunging,
+                              .safe_height = settings_.safe_height}));
+    for (Vec3& point : points->read.points) {
+        point += Vec3(settings_.origin.x(), settings_.origin.y(), 0.0);
+    }
+    result_.points = std::move(points);
+}
+
 void PlotDerivation::cut_picture() {
     plot::PictureSettings reading = settings_.picture;
     reading.ground = settings_.use == PictureUse::relief ? plot::relief_top : plot::white;
@@ -152,6 +175,7 @@ void PlotDerivation::cut_picture() {
     const plot::Picture& picture = read.picture;
     const double pitch = plot::pixel_pitch(settings_.size, picture);
     result_.picture_size = pitch * Vec2(picture.width, picture.height);
+    show_picture(reading, pitch / picture.file_pixels);
     switch (settings_.use) {
     case PictureUse::relief:
         return cut_relief(picture, pitch);
@@ -176,6 +200,24 @@ void PlotDerivation::cut_picture() {
         cut_of({level})));
 }
 
+/// `pixel`: width of one of the file, mm.
+void PlotDerivation::show_picture(const plot::PictureSettings& reading, double pixel) {
+    plot::PictureSettings whole = reading;
+    whole.region.reset();
+    whole.pixel_aspect = 1.0;
+    whole.most_pixels = 1 << 16;
+    auto shown = std::make_shared<ShownPicture>();
+    shown->picture = plot::read_picture_file(result_.input.file, whole, progress_.part(0.15, 0.2)).picture;
+    const int side = shown->picture.file_pixels;
+    const plot::PixelRegion region = reading.region.value_or(plot::PixelRegion{});
+    const int below = region.height > 0 ? side * shown->picture.height - region.top - region.height : 0;
+    const Vec2 of_pixel(pixel, pixel * reading.pixel_aspect);
+    shown->cell = side * of_pixel;
+    const Vec2 middle = 0.5 * (shown->cell - of_pixel); // of a square, from that of its first pixel
+    shown->corner = settings_.origin + middle - Vec2(region.left, below).cwiseProduct(of_pixel);
+    result_.shown_picture = std::move(shown);
+}
+
 void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
     plot::ReliefPlan plan;
     plan.relief.tip = settings_.tip;
@@ -194,14 +236,21 @@ void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
     plan.tabs = settings_.frame_tabs;
     plan.through = settings_.through;
     note(plot::frame_notice(plan));
-    use(plot::relief_path(
-        plot::height_field(picture, pitch, settings_.depth), plan, progress_.part(0.2, 0.5)));
+    const plot::HeightField field = plot::height_field(picture, pitch, settings_.depth);
+    if (!plot::is_cut(field) && !settings_.frame) {
+        throw Error("all of it is black or transparent: the relief would cut nothing",
+                    result_.input.file,
+                    "Invert, under Picture, may help");
+    }
+    use(plot::relief_path(field, plan, progress_.part(0.2, 0.5)));
 }
 
 plot::CutSettings PlotDerivation::cut_of(std::vector<plot::Level> levels) const {
     plot::CutSettings cut;
     cut.levels = std::move(levels);
     cut.safe_height = settings_.safe_height;
+    // The path is moved to the origin as a whole.
+    cut.change_position = settings_.change_position - Vec3(settings_.origin.x(), settings_.origin.y(), 0.0);
     cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
     return cut;
 }
@@ -225,17 +274,17 @@ std::vector<plot::Level> PlotDerivation::levels_of(const plot::Strokes& strokes)
 }
 
 plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& as_drawn, const Vec2& end) {
-    const plot::Strokes drawn = plot::outlines_for(as_drawn, settings_.strokes);
-    plot::ShapedStrokes shaped = plot::shaped(drawn, settings_.strokes);
-    if (const std::string left_alone = plot::left_alone(drawn, shaped, settings_.strokes);
-        !left_alone.empty()) {
+    const plot::StrokePlan plan = plot::with_cutters(settings_.strokes, levels_of(as_drawn));
+    const plot::Strokes drawn = plot::outlines_for(as_drawn, plan);
+    plot::ShapedStrokes shaped = plot::shaped(drawn, plan);
+    if (const std::string left_alone = plot::left_alone(drawn, shaped, plan); !left_alone.empty()) {
         result_.notices.push_back({.place = {.file = result_.input.file}, .message = left_alone, .hint = {}});
     }
     if (settings_.strokes.order) {
         shaped.strokes = plot::ordered(
             shaped.strokes, cut_of(levels_of(shaped.strokes)), Vec2::Zero(), end, progress_.part(0.2, 0.4));
     }
-    return plot::linked(shaped.strokes, drawn, settings_.strokes);
+    return plot::linked(shaped.strokes, drawn, plan);
 }
 
 void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {

@@ -1,6 +1,7 @@
 #include "core/project/plot_input.h"
 
 #include "core/base/units.h"
+#include "core/plot/point_file.h"
 #include "core/project/gcode_file.h"
 #include "core/project/level_settings.h"
 
@@ -8,7 +9,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <string_view>
+#include <system_error>
 
 namespace millwright::project {
 
@@ -34,6 +37,24 @@ bool is_path_file(const fs::path& file) {
     return ending_of(file) == ".path";
 }
 
+bool is_point_file(const fs::path& file) {
+    const std::string ending = ending_of(file);
+    return ending == ".csv" || ending == ".pts";
+}
+
+bool holds_points(const fs::path& file) {
+    if (is_point_file(file)) {
+        return true;
+    }
+    std::error_code none;
+    if (ending_of(file) != ".txt" || !fs::is_regular_file(file, none)) {
+        return false;
+    }
+    std::string head(256, ' ');
+    std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+    return plot::is_point_file(head);
+}
+
 bool is_gcode_file(const fs::path& file) {
     constexpr std::array<std::string_view, 8> endings{
         ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
@@ -42,7 +63,7 @@ bool is_gcode_file(const fs::path& file) {
 
 bool is_plot_file(const fs::path& file) {
     constexpr std::array<std::string_view, 3> endings{".plt", ".hpgl", ".hpg"};
-    return is_picture_file(file) || is_path_file(file) ||
+    return is_picture_file(file) || is_path_file(file) || is_point_file(file) ||
            std::ranges::find(endings, ending_of(file)) != endings.end();
 }
 

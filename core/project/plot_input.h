@@ -37,6 +37,7 @@ struct PlotSettings {
     bool join_dots = false;                            ///< dots that are neighbours become one cut
     plot::TraceSettings tracing = {};                  ///< of outlines
     double chords = 0.005;                             ///< how near to traced curves
+    std::optional<double> chord_length = {};           ///< of arcs of G-code; not given: by their tolerance
     plot::ToolTip tip = {};               ///< of reliefs, halftone and dots; strokes are cut by an end mill
     std::optional<double> step_over = {}; ///< between rows of a relief; not given: a tenth of the tool
     double merge = 0.005;                 ///< moves of a relief are joined that stay so near above it
@@ -57,6 +58,7 @@ struct PlotSettings {
     /// Not given: as a G-code program says, else the usual speed.
     std::optional<double> spindle_rpm = {};
     Vec2 origin = Vec2::Zero(); ///< where that of the drawing lies on the machine
+    Vec3 change_position = plot::CutSettings{}.change_position; ///< of tools, on the machine
     std::string machine = "forming-table";
     std::string post = "linuxcnc-xyz";
 
@@ -74,7 +76,11 @@ struct PlotInput {
 [[nodiscard]] bool is_picture_file(const std::filesystem::path& file);
 /// A file of a path that was made before: .path.
 [[nodiscard]] bool is_path_file(const std::filesystem::path& file);
-/// Either, or a plot: .plt, .hpgl, .hpg.
+/// Points of a table: .csv, .pts.
+[[nodiscard]] bool is_point_file(const std::filesystem::path& file);
+/// The same, or a .txt file that begins with a point: looks into it.
+[[nodiscard]] bool holds_points(const std::filesystem::path& file);
+/// A picture, a path, points, or a plot: .plt, .hpgl, .hpg.
 [[nodiscard]] bool is_plot_file(const std::filesystem::path& file);
 
 /// Cuts the pen of level `n` once more, after it.

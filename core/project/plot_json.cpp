@@ -10,11 +10,15 @@ namespace millwright::project {
 namespace {
 
 plot::Level level_of(const JsonValue& value) {
-    expect_fields<plot::Level>(value, level_numbers(), {"pen", "enabled"});
+    expect_fields<plot::Level>(value, level_numbers(), {"pen", "enabled", "side"});
     plot::Level level = PlotSettings{}.level;
     level.pen = value.at("pen").integer();
     read_flag(value, "enabled", level.enabled);
     read_numbers<plot::Level>(value, level_numbers(), level);
+    if (value.find("side")) {
+        level.side = plot::CutterSide::on_line;
+        read_choice(value, "side", cutter_sides(), *level.side);
+    }
     return level;
 }
 
@@ -23,6 +27,9 @@ Json level_json(const plot::Level& level) {
     json["pen"] = level.pen;
     json["enabled"] = level.enabled;
     add_numbers<plot::Level>(json, level_numbers(), level);
+    if (level.side) {
+        json["side"] = row_of(cutter_sides(), *level.side).id;
+    }
     return json;
 }
 

@@ -12,6 +12,7 @@ using internal::As;
 using internal::count;
 using internal::maybe;
 using internal::number;
+using plot::PictureSettings;
 using plot::PictureSize;
 using plot::PixelRegion;
 using plot::PlotterUnit;
@@ -22,6 +23,7 @@ using plot::ToolTip;
 using plot::TraceSettings;
 
 constexpr auto hpgl = &PlotSettings::hpgl;
+constexpr auto picture = &PlotSettings::picture;
 constexpr auto plot_size = &PlotSettings::size;
 constexpr auto strokes = &PlotSettings::strokes;
 constexpr auto tip = &PlotSettings::tip;
@@ -31,6 +33,12 @@ template <int axis>
 inline constexpr NumberField<PlotSettings> of_origin{
     [](const PlotSettings& settings) { return settings.origin[axis]; },
     [](PlotSettings& settings, double value) { settings.origin[axis] = value; },
+    false};
+
+template <int axis>
+inline constexpr NumberField<PlotSettings> of_change_position{
+    [](const PlotSettings& settings) { return settings.change_position[axis]; },
+    [](PlotSettings& settings, double value) { settings.change_position[axis] = value; },
     false};
 
 inline constexpr NumberField<PlotSettings> of_spindle{
@@ -51,7 +59,7 @@ inline constexpr NumberField<PlotSettings> of_picture_region{
     },
     true};
 
-constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
+constexpr std::array<NumberSetting<PlotSettings>, 47> of_plot{{
     {"unit_x_mm",
      "Unit along x",
      "mm",
@@ -132,6 +140,22 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      1e6,
      0,
      of_picture_region<&PixelRegion::height>},
+    {"gray_steps",
+     "Gray steps",
+     "",
+     "Brightness in so many steps, as 2, 8 or 16; 0: as it is",
+     0,
+     256,
+     0,
+     count<picture, &PictureSettings::gray_steps>},
+    {"pixel_aspect",
+     "Pixel height",
+     "",
+     "By its width",
+     0.05,
+     20.0,
+     3,
+     number<As::it_is, picture, &PictureSettings::pixel_aspect>},
     {"threshold",
      "Dark up to",
      "",
@@ -172,6 +196,14 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      10.0,
      4,
      number<As::it_is, &PlotSettings::chords>},
+    {"chord_length_mm",
+     "Chord length",
+     "mm",
+     "Of G-code arcs: equal parts no longer, as in the thesis of 2006; 0: within 0.002 mm",
+     0.0,
+     1000.0,
+     3,
+     maybe<&PlotSettings::chord_length>},
     {"depth_mm",
      "Depth",
      "mm",
@@ -373,6 +405,23 @@ constexpr std::array<NumberSetting<PlotSettings>, 41> of_plot{{
      1e4,
      2,
      of_origin<1>},
+    {"change_x_mm",
+     "Tool change X",
+     "mm",
+     "Where tools are changed on the machine",
+     -1e4,
+     1e4,
+     2,
+     of_change_position<0>},
+    {"change_y_mm",
+     "Tool change Y",
+     "mm",
+     "Where tools are changed on the machine",
+     -1e4,
+     1e4,
+     2,
+     of_change_position<1>},
+    {"change_z_mm", "Tool change Z", "mm", "Not below the safe height", -1e4, 1e4, 2, of_change_position<2>},
 }};
 
 } // namespace

@@ -1,14 +1,10 @@
 #include "core/project/plot_work.h"
 
 #include "core/base/files.h"
-#include "core/gcode/plot_program.h"
-#include "core/gcode/posts/post_file.h"
-#include "core/gcode/posts/release.h"
-#include "core/kinematics/machine_file.h"
-#include "core/project/assets.h"
 #include "core/project/internal/background.h"
 #include "core/project/internal/failure.h"
 #include "core/project/internal/plot_derivation.h"
+#include "core/project/internal/posted_plot.h"
 
 #include <cstdlib>
 #include <mutex>
@@ -21,23 +17,7 @@ namespace fs = std::filesystem;
 
 std::string plot_program_text(const PlotResult& result, const fs::path& assets) {
     expects(result.path != nullptr, "there is a path to be written");
-    const kinematics::MachineModel machine = kinematics::read_machine(
-        machine_path(result.input.settings.machine, result.input.file.parent_path(), assets));
-    gcode::expect_on_table(*result.path, machine, result.input.settings.origin);
-    const gcode::Program program =
-        gcode::plot_program(*result.path,
-                            {.machine = machine.name(),
-                             .axes = gcode::plot_axes(machine),
-                             .header = {"made of: " + result.input.file.filename().string()},
-                             .spindle_rpm = result.spindle_rpm()});
-    const std::string name = result.input.file.stem().string();
-    const gcode::PostFormat format =
-        gcode::read_post(post_path(result.input.settings.post, result.input.file.parent_path(), assets));
-    return gcode::release(program,
-                          machine,
-                          format,
-                          {.text = {.name = gcode::text_name(name)}, .file = name + "." + format.extension})
-        .listing.text;
+    return posted_plot(result, *result.path, assets).released.listing.text;
 }
 
 class PlotWorker::Worker {

@@ -7,6 +7,7 @@
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/height_field.h"
 #include "core/plot/picture/png_writer.h"
+#include "core/plot/point_file.h"
 #include "core/plot/work_time.h"
 #include "core/project/pipeline.h"
 #include "core/project/plot_input.h"
@@ -21,20 +22,38 @@
 
 namespace millwright::project {
 
+/// Of a point file, where they lie on the machine, with the text that their lines are of.
+struct PlotPoints {
+    std::string text;
+    plot::PointFile read;
+};
+
+/// A picture as it is read, for people to look at: all of its file, whatever region is cut.
+struct ShownPicture {
+    plot::Picture picture;      ///< squares of the mean brightness, at most 65,536
+    Vec2 cell = Vec2::Ones();   ///< width and height of one, mm
+    Vec2 corner = Vec2::Zero(); ///< middle of the lower left one on the machine, mm
+
+    /// 0 to 255, as the thesis of 2006 has G(i,j): row i from the top, column j from the left.
+    [[nodiscard]] int gray(int i, int j) const { return picture.at(i, j) / 257; }
+};
+
 /// Everything known of an opened plot at one moment. Immutable once published; parts that are not there yet
 /// are null or empty.
 struct PlotResult {
     PlotInput input;
     bool picture = false;
-    std::vector<Diagnostic> notices;  ///< of the reader, and of what is cut
-    Vec2 picture_size = Vec2::Zero(); ///< of a picture, mm
-    double step_over = 0.0;           ///< of a relief, mm
+    std::vector<Diagnostic> notices;                   ///< of the reader, and of what is cut
+    Vec2 picture_size = Vec2::Zero();                  ///< of a picture, mm
+    std::shared_ptr<const ShownPicture> shown_picture; ///< null: it is none
+    double step_over = 0.0;                            ///< of a relief, mm
     std::optional<Diagnostic> failure;
     std::vector<plot::Level> levels; ///< in force, of plots and outlines
     std::size_t drawn_strokes = 0;
     plot::WorkTime as_drawn, as_planned; ///< by the thesis's model, level by level
     double program_rpm = 0.0;            ///< of a G-code program's spindle, 1/min; 0: it does not say
     std::shared_ptr<const plot::CutPath> path;
+    std::shared_ptr<const PlotPoints> points; ///< of a point file, which a table plays as they are
     plot::PathLengths lengths;
     /// What is cut, a level each; a relief's one; of a path file one a tool.
     struct LevelPath {

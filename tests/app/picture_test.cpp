@@ -1,3 +1,4 @@
+#include "tests/app/gray_alpha_png.h"
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -352,10 +353,47 @@ TEST(PictureCommand, SaysWhatIsWrong) {
     EXPECT_EQ(relief("pixel.bmp", {"--depth", "1", "--width", "3", "--dpi", "96"}).exit_code, 2);
     EXPECT_THAT(relief("wide.bmp", {"--depth", "1", "--pixel", "1000"}).err, HasSubstr("X"));
     EXPECT_FALSE(std::filesystem::exists(out));
+    write_content(folder / "black.bmp", bmp(2, 1, {0, 0}));
+    const Ended black = relief("black.bmp", {"--depth", "1"});
+    EXPECT_EQ(black.exit_code, 1);
+    EXPECT_THAT(black.err, HasSubstr("the relief would cut nothing"));
+    EXPECT_THAT(black.err, HasSubstr("--invert cuts what is dark"));
+    EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_EQ(relief("pixel.bmp", {"--depth", "1"}).exit_code, 0);
     EXPECT_TRUE(std::filesystem::exists(out));
     EXPECT_THAT(run({"picture", "trace", (folder / "pixel.bmp").string(), "--out", out}).err,
                 HasSubstr("nothing in it is dark enough"));
+}
+
+TEST(PictureCommand, InvertIsAdvisedWhereItHelpsAlone) {
+    const ScratchFolder folder;
+    const std::string picture = (folder / "picture.png").string();
+    const std::string out = (folder / "out.ngc").string();
+    const auto told = [&](const std::string& command, std::vector<std::string> more) {
+        std::vector<std::string> words{"picture", command, picture, "--out", out};
+        if (command == "relief") {
+            words.insert(words.end(), {"--depth", "1"});
+        }
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 1) << command;
+        return ended.err;
+    };
+    write_content(picture, gray_alpha_png(12, [](int x, int y) {
+                      const bool logo = x > 2 && x < 9 && y > 2 && y < 9;
+                      return GrayAlpha{255, static_cast<unsigned char>(logo ? 255 : 0)};
+                  }));
+    EXPECT_THAT(told("trace", {}), HasSubstr("--invert traces what is bright"));
+    EXPECT_THAT(told("engrave", {}), HasSubstr("--invert engraves what is bright"));
+    write_content(picture, gray_alpha_png(12, [](int, int) { return GrayAlpha{0, 0}; }));
+    for (const char* command : {"trace", "engrave", "relief"}) {
+        for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--invert"}}) {
+            const std::string text = told(command, more);
+            EXPECT_THAT(text, HasSubstr("is all of it transparent?")) << command;
+            EXPECT_THAT(text, Not(HasSubstr("--invert"))) << command;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 TEST(PictureCommand, TraceTellsSpecksFromWhatIsNotDark) {
@@ -379,6 +417,7 @@ TEST(PictureCommand, TraceTellsSpecksFromWhatIsNotDark) {
     EXPECT_THAT(bright.err, HasSubstr("nothing in it is dark enough"));
     EXPECT_THAT(bright.err, HasSubstr("all of it is equally bright"));
     EXPECT_THAT(bright.err, Not(HasSubstr("--threshold")));
+    EXPECT_THAT(bright.err, HasSubstr("without --invert what is dark is traced"));
     write_content(folder / "pixel.bmp", bmp(2, 1, {200, 255}));
     EXPECT_THAT(traced({}).err, HasSubstr("--threshold"));
 }

@@ -261,5 +261,20 @@ TEST(ProgramsAsPlots, OptionsOfTheOtherKindOfFileAreRefused) {
     EXPECT_THAT(ended.err, HasSubstr("--chord-length is for G-code programs"));
 }
 
+TEST(ProgramsAsPlots, TheToolIsAsWideAsACommentSays) {
+    const ScratchFolder folder;
+    const std::string program = (folder / "cam.nc").string();
+    write_content(folder / "cam.nc",
+                  "(T1 D=4. CR=0. - FLAT END MILL)\nG21 G90\nT1 M6\nG0 X10 Y10 Z5\nG1 Z-1 F100\n"
+                  "X30\nG0 Z5\nM30\n");
+    const auto made = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"plot", "toolpath", program, "--out", (folder / "o.ngc").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    EXPECT_THAT(made({}), HasSubstr("cam.nc:1: a comment says the tool is 4 mm wide"));
+    EXPECT_THAT(made({"--tool-diameter", "3"}), Not(HasSubstr("a comment says")));
+}
+
 } // namespace
 } // namespace millwright::test

@@ -398,7 +398,7 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
         }
         const Ended ended = sender.end();
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
-        EXPECT_THAT(ended.out, HasSubstr("All 9 blocks were executed"));
+        EXPECT_THAT(ended.out, HasSubstr(to_file ? "All 9 blocks were sent" : "All 9 blocks were executed"));
         EXPECT_EQ(logged_records(words[5], "waiting").size(), 3U);
         EXPECT_EQ(logged_records(words[5], "waiting")[0].at("line"), 3);
         EXPECT_EQ(logged_records(words[5], "resume").size(), 3U);

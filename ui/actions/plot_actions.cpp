@@ -31,7 +31,11 @@ Permission can_play_plot(const Workbench& now) {
     if (const Permission path = has_path(now); !path.allowed) {
         return path;
     }
-    return now.plot.table().playing() ? Permission::refused("The table is moving.") : Permission{};
+    const TableView table = now.plot.table().view();
+    if (table.playing && table.status.state == machine::PlayState::holding) {
+        return Permission::refused("The table is held. Press Resume to go on.");
+    }
+    return table.playing ? Permission::refused("The table is moving.") : Permission{};
 }
 
 Permission is_table_moving(const Workbench& now) {
@@ -74,6 +78,20 @@ void add_plot_actions(Actions& actions) {
         always,
         [](Hands& hands) { hands.session.against_light = !hands.session.against_light; },
         [](const Workbench& now) { return now.session.against_light; });
+    add(
+        actions,
+        {"plot.picture",
+         menu,
+         "Picture below the path",
+         "Shows the picture itself, with what is cut of it over it.",
+         "",
+         ""},
+        [](const Workbench& now) {
+            const auto made = now.plot.latest();
+            return made && made->shown_picture ? Permission{} : Permission::refused("No picture is open.");
+        },
+        [](Hands& hands) { hands.session.picture_shown = !hands.session.picture_shown; },
+        [](const Workbench& now) { return now.session.picture_shown; });
     add(actions,
         {"plot.write_program",
          menu,
@@ -111,7 +129,10 @@ void add_plot_actions(Actions& actions) {
          "",
          icons::play},
         can_play_plot,
-        [](Hands& hands) { hands.workshop.plot().play_table(); });
+        [](Hands& hands) {
+            hands.session.playback.playing = false;
+            hands.workshop.plot().play_table(hands.session.playback.time);
+        });
     add(actions,
         {"plot.hold_table",
          menu,

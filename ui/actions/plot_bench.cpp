@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -72,21 +73,33 @@ double PlotBench::tool_diameter() const {
     return settings().tip.kind == plot::TipKind::point ? 0.0 : settings().tip.diameter;
 }
 
-void PlotBench::play_table() {
+void PlotBench::play_table(double timeline_s) {
     const auto now = latest();
     if (!now || !now->path) {
         throw Error("there is no path to be played");
     }
     auto model = std::make_shared<const kinematics::MachineModel>(
         kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
-    table_->play(table_choice_, {now->path, file(), std::move(model), now->spindle_rpm()});
+    table_->play(table_choice_, {now->path, file(), std::move(model), now->spindle_rpm(), now->points});
     played_ = file();
+    timeline_at_play_ = timeline_s;
 }
 
-std::optional<Vec3> PlotBench::table_tip() const {
+std::optional<Vec3> PlotBench::table_start() const {
+    const auto now = latest();
+    if (!now || !now->path) {
+        return std::nullopt;
+    }
+    const TableWork work{now->path, file(), nullptr, 0.0, now->points};
+    return table_->place(table_choice_.port).value_or(work.usual_start());
+}
+
+std::optional<Vec3> PlotBench::table_tip(double timeline_s) const {
     const TableView now = table_->view();
-    return now.playing && now.total > 0 && played_ == file() ? std::optional(now.status.position)
-                                                             : std::nullopt;
+    const bool of_it = now.there && now.total > 0 && played_ == file();
+    constexpr double same_moment = 1e-9; // s
+    const bool shown = now.playing || std::abs(timeline_s - timeline_at_play_) < same_moment;
+    return of_it && shown ? std::optional(now.status.position) : std::nullopt;
 }
 
 namespace {

@@ -31,7 +31,8 @@ public:
     void set_table(const TableChoice& choice) { table_choice_ = choice; }
     void set_table_port(const std::string& port) { table_choice_.port = port; }
     /// The path as it is shown and as its program cuts it: levels, order, depths and tools.
-    void play_table();
+    /// `timeline_s`: where the timeline stands.
+    void play_table(double timeline_s);
 
     [[nodiscard]] const project::PlotInput& input() const { return input_; }
     [[nodiscard]] const std::filesystem::path& file() const { return input_.file; } ///< empty: none
@@ -58,11 +59,14 @@ public:
     [[nodiscard]] std::optional<std::size_t> material() const { return material_; }
     /// Width of the tool that cuts, mm; 0 for a point.
     [[nodiscard]] double tool_diameter() const;
+    /// Where the table starts to be played to, mm; nothing while there is nothing to play.
+    [[nodiscard]] std::optional<Vec3> table_start() const;
     [[nodiscard]] const TableChoice& table_choice() const { return table_choice_; }
     [[nodiscard]] TablePlayer& table() { return *table_; }
     [[nodiscard]] const TablePlayer& table() const { return *table_; }
-    /// Where the tool of the table is that what is open is played to, mm; nothing while it is not.
-    [[nodiscard]] std::optional<Vec3> table_tip() const;
+    /// Where the tool of the table is that what is open is played to, mm; afterwards, where it was left,
+    /// until the timeline, at `timeline_s`, goes elsewhere.
+    [[nodiscard]] std::optional<Vec3> table_tip(double timeline_s) const;
     /// Of a path that is too long to get its program by itself.
     void make_program() { worker_.request_program(); }
     /// Copies the program into `folder` under a name that is not taken, and gives the name. Throws Error.
@@ -82,7 +86,8 @@ private:
     TableChoice table_choice_;
     project::PlotWorker worker_;
     std::unique_ptr<TablePlayer> table_;
-    std::filesystem::path played_; ///< file of what the table was last played
+    std::filesystem::path played_;  ///< file of what the table was last played
+    double timeline_at_play_ = 0.0; ///< s
 };
 
 } // namespace millwright::actions

@@ -195,6 +195,7 @@ struct Session {
     bool fit_wanted = true;                          ///< fit the view in the next frame
     std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame
     bool against_light = false;                      ///< how a finished plot is looked at
+    bool picture_shown = false;                      ///< below its path, in place of how it will look
     bool quit_wanted = false;                        ///< a job is running: is it to be stopped?
     bool quit = false;                               ///< nothing is in the way any more: close the window
     std::vector<widgets::Notice> notices;            ///< to be shown; taken by the window

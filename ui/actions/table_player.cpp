@@ -26,20 +26,34 @@ void expect_playable(const machine::Job& job) {
     }
 }
 
+std::string date_and_time() {
+    return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
 machine::Job table_job(const TableChoice& choice, const TableWork& work, const std::optional<Vec3>& start) {
+    const double speed = choice.port.empty() ? 1.0 : choice.speed;
+    if (work.points) {
+        machine::Job job = machine::point_file_job(
+            work.points->text, work.points->read, work.file, work.model, choice.decoding.period / speed);
+        expect_playable(job);
+        job.started_at = date_and_time();
+        return job;
+    }
     constexpr std::int64_t most = 5'000'000;
-    machine::PathPoints settings{.decoding = choice.decoding,
-                                 .start = start,
-                                 .speed = choice.port.empty() ? 1.0 : choice.speed,
-                                 .spindle_rpm = work.spindle_rpm};
+    machine::PathPoints settings{
+        .decoding = choice.decoding, .start = start, .speed = speed, .spindle_rpm = work.spindle_rpm};
     settings.decoding.most_points = most;
     machine::Job job = machine::path_points_job(*work.path, work.file, work.model, settings);
     expect_playable(job);
-    job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    job.started_at = date_and_time();
     return job;
 }
 
 } // namespace
+
+Vec3 TableWork::usual_start() const {
+    return points && !points->read.points.empty() ? points->read.points.front() : machine::usual_start(*path);
+}
 
 void TablePlayer::play(const TableChoice& choice, TableWork work) {
     if (playing()) {
@@ -53,7 +67,7 @@ void TablePlayer::play(const TableChoice& choice, TableWork work) {
         choice.port.empty() ? nullptr : machine::make_link(choice.port),
         clock_,
         work.model,
-        start.value_or(machine::usual_start(*work.path)),
+        start.value_or(work.usual_start()),
         // Shown faster, a table that is not there moves no faster.
         machine::PlayerOptions{.speed = choice.port.empty() ? choice.speed : 1.0, .format = choice.record});
     play->dispatcher = std::make_unique<machine::Dispatcher>(*play->driver, clock_, log_folder_);
@@ -62,6 +76,7 @@ void TablePlayer::play(const TableChoice& choice, TableWork work) {
     play_ = play;
     playing_ = true;
     total_ = 0;
+    duration_ = 0.0;
     failure_.reset();
     outcome_.reset();
     thread_ = std::jthread([this, play, work = std::move(work), start](const std::stop_token& stop) {
@@ -80,6 +95,7 @@ void TablePlayer::run(const std::shared_ptr<Play>& play,
         {
             const std::scoped_lock lock(mutex_);
             total_ = std::ssize(job.points->points);
+            duration_ = job.points->duration();
         }
         outcome = play->dispatcher->run(
             job, Progress(nullptr, stop), [this](const machine::JobReport&) { wake_(); });
@@ -161,10 +177,25 @@ TableView TablePlayer::view() const {
     view.outcome = outcome_;
     if (play_) {
         view.total = total_;
+        view.duration = duration_;
         view.status = play_->driver->played();
         view.there = playing_ || view.status.sent > 0;
     }
     return view;
+}
+
+std::string TablePlayer::port() const {
+    const std::scoped_lock lock(mutex_);
+    return play_ ? play_->choice.port : std::string();
+}
+
+double TablePlayer::time_left() const {
+    const std::scoped_lock lock(mutex_);
+    if (!playing_ || !play_) {
+        return 0.0;
+    }
+    const auto left = static_cast<double>(total_ - play_->driver->played().points);
+    return left * play_->choice.decoding.period / play_->choice.speed;
 }
 
 void TablePlayer::wait() {

@@ -11,6 +11,7 @@
 #include "core/machine/job.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/decode.h"
+#include "core/project/plot_work.h"
 
 #include <filesystem>
 #include <functional>
@@ -38,6 +39,11 @@ struct TableWork {
     std::filesystem::path file; ///< that it was made of
     std::shared_ptr<const kinematics::MachineModel> model;
     double spindle_rpm = 0.0; ///< of its program
+    /// Of a point file: they are played in place of the path, one a period.
+    std::shared_ptr<const project::PlotPoints> points = {};
+
+    /// Where it is played from if the place of the table is not known, mm.
+    [[nodiscard]] Vec3 usual_start() const;
 };
 
 /// For one frame.
@@ -45,6 +51,7 @@ struct TableView {
     bool there = false;     ///< something was played, or is
     bool playing = false;   ///< it is being prepared, moves, or rests at a stop
     std::int64_t total = 0; ///< points; 0 while they are computed
+    double duration = 0.0;  ///< s, as PlayStatus::time counts
     machine::PlayStatus status;
     std::optional<Diagnostic> failure;          ///< it could not begin
     std::optional<machine::JobOutcome> outcome; ///< of the last, once it ended
@@ -61,7 +68,7 @@ public:
 
     /// At constant velocity; limits of the machine are checked before. view() has what is wrong. A table that
     /// something was played to before starts from where that ended; else it is assumed to be at
-    /// machine::usual_start(). It rests at each tool change until resume(). Throws Error while one is
+    /// the usual start of the work. It rests at each tool change until resume(). Throws Error while one is
     /// playing, and for an invalid port.
     void play(const TableChoice& choice, TableWork work);
     /// At once, and entered in the job's log.
@@ -70,6 +77,10 @@ public:
     void stop();
     void emergency_stop();
     [[nodiscard]] TableView view() const;
+    /// Of the last play; empty: it was for the eyes alone.
+    [[nodiscard]] std::string port() const;
+    /// Until the last point is sent, s of real time; 0 while nothing is played.
+    [[nodiscard]] double time_left() const;
     [[nodiscard]] bool playing() const { return view().playing; }
     /// Where the next would start; nothing: not known, see play().
     [[nodiscard]] std::optional<Vec3> place(const std::string& port) const;
@@ -105,6 +116,7 @@ private:
     std::optional<Place> place_before_; ///< where the plays before that one left a table
     bool playing_ = false;
     std::int64_t total_ = 0;
+    double duration_ = 0.0;
     std::optional<Diagnostic> failure_;
     std::optional<machine::JobOutcome> outcome_;
     std::jthread thread_; // last: it ends before what it uses

@@ -230,6 +230,10 @@ kinematics::AxisPositions Workbench::connected_axes() const {
     return controller.can.plans ? status.work_position() : status.position;
 }
 
+std::optional<Vec3> Workbench::table_tip() const {
+    return session.workspace == Workspace::plot ? plot.table_tip(session.playback.time) : std::nullopt;
+}
+
 bool Workbench::at_machine() const {
     if (connected_axes().size() > 0) {
         return true;

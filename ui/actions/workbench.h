@@ -122,6 +122,8 @@ struct Workbench {
     [[nodiscard]] bool job_is_shown() const;
     /// It runs, and timeline, listing and drawing go with it.
     [[nodiscard]] bool follows_job() const;
+    /// Where the tool of an XYZ table is that the shown plot is played to, or where it was left, mm.
+    [[nodiscard]] std::optional<Vec3> table_tip() const;
     /// What moment() says is where the machine stands, not what the timeline would have it do.
     [[nodiscard]] bool at_machine() const;
 

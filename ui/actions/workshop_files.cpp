@@ -2,11 +2,14 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/sentences.h"
+#include "core/base/text.h"
+#include "core/gcode/reader/tool_comments.h"
 #include "core/machine/job.h"
 #include "core/machine/way_on.h"
 #include "core/project/color_choices.h"
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
+#include "core/project/plot_settings.h"
 #include "core/project/project_file.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/at_rest.h"
@@ -16,6 +19,7 @@
 #include "ui/actions/surface_export.h"
 #include "ui/actions/workshop.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -71,7 +75,7 @@ void expect_text(const fs::path& file) {
 
 void Workshop::open(const fs::path& file) {
     const bool is_cut_here = session_.workspace == Workspace::plot && project::is_gcode_file(file);
-    if (project::is_plot_file(file) || is_cut_here) {
+    if (project::is_plot_file(file) || project::holds_points(file) || is_cut_here) {
         open_plot(file);
         return;
     }
@@ -157,6 +161,27 @@ void forget_drawing(project::PlotSettings& settings) {
 
 } // namespace
 
+namespace {
+
+/// The first that a CAM program names, at its beginning; nothing of other files.
+std::optional<gcode::CommentTool> tool_of_comments(const fs::path& file) {
+    if (!project::is_gcode_file(file) || project::holds_points(file)) {
+        return std::nullopt;
+    }
+    constexpr std::size_t beginning = 1 << 18;
+    std::string text(beginning, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    const auto tools = gcode::tools_in_comments(text);
+    const auto& setting = project::plot_number("tool_mm");
+    const bool fits =
+        !tools.empty() && tools.front().diameter >= setting.min && tools.front().diameter <= setting.max;
+    return fits ? std::optional(tools.front()) : std::nullopt;
+}
+
+} // namespace
+
 void Workshop::open_plot(const fs::path& file) {
     if (jobs_->view().running) {
         throw Error("a job is running; a plot can be opened when it has ended", file);
@@ -165,17 +190,30 @@ void Workshop::open_plot(const fs::path& file) {
         throw Error(fs::exists(file) ? "is no file" : "there is no such file", file);
     }
     const fs::path whole = fs::absolute(file).lexically_normal();
-    if (history_.current().plot.file == whole) {
+    const bool another = history_.current().plot.file != whole;
+    if (!another) {
         plot_->read_again();
     }
+    const auto tool = another ? tool_of_comments(whole) : std::nullopt;
     edit("Open " + file.filename().string(),
          [&](project::Project& draft) {
-             if (draft.plot.file != whole) {
+             if (another) {
                  draft.plot.file = whole;
                  forget_drawing(draft.plot.settings);
              }
+             if (tool) {
+                 draft.plot.settings.strokes.tool_diameter = tool->diameter;
+             }
          },
          {});
+    if (tool) {
+        tell(session_,
+             widgets::Severity::info,
+             fmt::format(
+                 "A comment in line {} says the tool is {} mm wide: that is now the cutter's diameter.",
+                 tool->line,
+                 shortest(tool->diameter)));
+    }
     session_.side_wanted = render::StandardView::top; // drawings are read from above
     session_.workspace = Workspace::plot;
     session_.question = FileQuestion::none;

@@ -4,6 +4,7 @@
 #include "core/machine/links/serial_ports.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/serial_fields.h"
 #include "ui/panels/stands_fields.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
@@ -218,6 +219,9 @@ void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& as
                           "Letters of axes in braces, {s} the speed, {a} the acceleration")) {
         change([text = *pattern](machine::RecordFormat& f) { f.pattern = text; });
     }
+    if (const auto ending = ending_field(ui, format.ending)) {
+        change([bytes = *ending](machine::RecordFormat& f) { f.ending = bytes; });
+    }
     if (const auto answer = ui.text_field(
             "answer", "Answer", format.answer, "What comes back for each record; empty: nothing")) {
         change([text = *answer](machine::RecordFormat& f) { f.answer = text; });
@@ -242,8 +246,22 @@ void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& as
     }
     if (!shell) {
         draw_ports(ui, now, ask);
+        if (const auto address = serial_fields(ui, choice.address)) {
+            change_hand_settings(
+                ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
+        }
     }
 }
+
+namespace {
+
+/// Another port, with the line that was set.
+std::string at_path(const std::string& address, const std::string& path) {
+    const auto now = serial_port_of(address);
+    return machine::address_of({path, now ? now->line : machine::SerialLine{}});
+}
+
+} // namespace
 
 void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!looked_) {
@@ -252,16 +270,19 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (ports_.empty()) {
         ui.note("No serial port was found on this computer.");
     } else {
+        const auto chosen_port = serial_port_of(now.session.hand.choice.address);
         std::vector<widgets::Option> options{{"none", "Choose ..."}};
         int at = 0;
         for (const Port& port : ports_) {
-            at = port.path == now.session.hand.choice.address ? static_cast<int>(options.size()) : at;
+            at = chosen_port && port.path == chosen_port->path ? static_cast<int>(options.size()) : at;
             options.push_back({port.path, port.label});
         }
         if (const auto chosen = ui.choice("ports", "Found here", at, options); chosen && *chosen > 0) {
-            change_hand_settings(ask,
-                                 [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](
-                                     actions::HandSettings& hand) { hand.choice.address = path; });
+            change_hand_settings(
+                ask,
+                [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](actions::HandSettings& hand) {
+                    hand.choice.address = at_path(hand.choice.address, path);
+                });
         }
     }
     if (ui.button("look", "Look for ports again", {}, {icons::redo, Rank::quiet, -1.0F, {}})) {

@@ -60,6 +60,7 @@ std::string file_kind(const fs::path& file) {
            : project::is_importable(file)     ? "surface"
            : project::is_picture_file(file)   ? "picture"
            : project::is_path_file(file)      ? "path file"
+           : project::is_point_file(file)     ? "point file"
            : project::is_plot_file(file)      ? "plot"
            : actions::is_processor_file(file) ? "for the processor"
                                               : "";

@@ -180,9 +180,7 @@ void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
     if (now.job.report) {
         const machine::JobReport& report = *now.job.report;
         ui.value("state", "State", machine::to_text(report.driver.state));
-        ui.value("blocks",
-                 "Executed",
-                 fmt::format("{} of {} blocks", report.driver.executed_blocks, report.blocks));
+        ui.value("blocks", "Progress", report.blocks_text());
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
     }
     if (now.job.outcome) {

@@ -161,11 +161,16 @@ void speed_of_all(
 
 void size_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     if (const auto section = ui.section("size", "Pixels and region", false)) {
-        numbers(
-            ui,
-            ask,
-            set,
-            {"dpi", "pixel_mm", "region_left_px", "region_top_px", "region_width_px", "region_height_px"});
+        numbers(ui,
+                ask,
+                set,
+                {"dpi",
+                 "pixel_mm",
+                 "pixel_aspect",
+                 "region_left_px",
+                 "region_top_px",
+                 "region_width_px",
+                 "region_height_px"});
     }
 }
 
@@ -245,6 +250,7 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pro
         ui, ask, "invert", "Invert", set.picture.invert, "Dark becomes bright", [](PlotSettings& s, bool on) {
             s.picture.invert = on;
         });
+    numbers(ui, ask, set, {"gray_steps"});
     if (set.use == PictureUse::outlines) {
         trace_fields(ui, ask, set);
     } else {
@@ -299,7 +305,8 @@ void name_choice(Ui& ui,
 }
 
 bool stands_as_it_is(const Workbench& now) {
-    return project::is_path_file(now.plot.file()) || project::is_gcode_file(now.plot.file());
+    return project::is_path_file(now.plot.file()) || project::is_point_file(now.plot.file()) ||
+           project::is_gcode_file(now.plot.file());
 }
 
 widgets::Permission unless_path(const Workbench& now, const char* reason) {
@@ -316,10 +323,15 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (project::is_picture_file(now.plot.file())) {
         const std::shared_ptr<const project::PlotResult> made = now.plot.latest();
         picture_fields(ui, ask, now.plot.settings(), made.get());
+    } else if (const auto made = now.plot.latest(); made && made->points) {
+        ui.note("Points of a table: it plays them as they are, one per period. A program of them has the "
+                "feeds that "
+                "are set here.");
     } else if (project::is_path_file(now.plot.file())) {
         ui.note("A path that was made before: it is cut as it stands.");
     } else if (project::is_gcode_file(now.plot.file())) {
         ui.note("A G-code program: it is cut as it stands, with its heights and feeds.");
+        numbers(ui, ask, now.plot.settings(), {"chord_length_mm"});
     } else {
         unit_fields(ui, ask, now.plot.settings());
         reading_fields(ui, ask, now.plot.settings());
@@ -408,6 +420,7 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     spindle_field(ui, now, ask);
     numbers(ui, ask, set, {"origin_x_mm", "origin_y_mm"});
+    numbers(ui, ask, set, {"change_x_mm", "change_y_mm", "change_z_mm"});
     name_choice(ui, ask, "machine", "Machine", machines, set.machine, &PlotSettings::machine);
     name_choice(ui, ask, "post", "Control", posts, set.post, &PlotSettings::post);
 }

@@ -3,8 +3,8 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/plot/work_time.h"
-#include "core/project/level_settings.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/level_fields.h"
 #include "ui/panels/plot_fields.h"
 #include "ui/viewport/pen_colors.h"
 #include "ui/widgets/icons.h"
@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using plot::Level;
-using widgets::FieldInfo;
 
 std::vector<fs::path> samples_in(const fs::path& assets) {
     std::vector<fs::path> found;
@@ -62,46 +61,6 @@ std::string level_cell(const Level& level, int column) {
     }
 }
 
-/// A step that begins with the levels that are in force.
-void edit_levels(ActionQueue& ask,
-                 const Workbench& now,
-                 const std::string& title,
-                 std::function<void(std::vector<Level>&)> change) {
-    ask.edit(title, [levels = now.plot.levels(), change = std::move(change)](project::Project& draft) {
-        draft.plot.settings.levels = levels;
-        change(draft.plot.settings.levels);
-    });
-}
-
-void level_field(Ui& ui,
-                 const Workbench& now,
-                 ActionQueue& ask,
-                 std::size_t n,
-                 const project::NumberSetting<Level>& setting) {
-    const double value = setting.value(now.plot.levels()[n]);
-    const FieldInfo info{setting.id,
-                         setting.label,
-                         setting.unit,
-                         setting.tip,
-                         setting.min,
-                         setting.max,
-                         setting.value(now.plot.settings().level),
-                         setting.decimals};
-    const auto change = [&](double wanted) {
-        edit_levels(ask,
-                    now,
-                    "Change " + std::string(setting.label),
-                    [&setting, n, wanted](std::vector<Level>& levels) { setting.set(levels.at(n), wanted); });
-    };
-    if (setting.whole()) {
-        if (const auto chosen = ui.integer(static_cast<int>(value), info)) {
-            change(*chosen);
-        }
-    } else if (const auto chosen = ui.number(value, info)) {
-        change(*chosen);
-    }
-}
-
 const std::string unknown = "...";
 
 std::string metres(double mm) {
@@ -120,12 +79,15 @@ void compare(Ui& ui, const project::PlotResult& made, double planner_s, bool cur
     const plot::WorkTime& drawn = made.as_drawn;
     constexpr std::array<widgets::Column, 3> columns{
         {{"", "", 1.3F, false}, {"Planned", "", 1.0F, true}, {"As drawn", "", 1.0F, true}}};
-    constexpr std::array<const char*, 5> ids{"drawn", "between", "runs", "thesis", "planner"};
-    const std::array<std::array<std::string, 3>, 5> cells{
+    constexpr std::array<const char*, 6> ids{"drawn", "between", "runs", "thesis", "feeds", "planner"};
+    const std::array<std::array<std::string, 3>, 6> cells{
         {{"Draws, m", metres(planned.cut_length), metres(drawn.cut_length)},
          {"In the air, m", metres(planned.travel_length), metres(drawn.travel_length)},
          {"Lifts", fmt::format("{}", planned.runs), fmt::format("{}", drawn.runs)},
          {"By the thesis", plot::time_for_people(planned.seconds), plot::time_for_people(drawn.seconds)},
+         {"Thesis, your feeds",
+          plot::time_for_people(planned.seconds_at_feeds),
+          plot::time_for_people(drawn.seconds_at_feeds)},
          {"By the planner",
           planned_time(planner_s),
           planned_time(made.drawn_seconds.value_or(made.cut_as_drawn ? planner_s : 0.0))}}};
@@ -227,35 +189,9 @@ void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
         if (const auto row = widgets::table(ui, "levels", view)) {
             level_ = static_cast<std::size_t>(*row);
         }
-        draw_level(ui, now, ask, level_);
+        level_fields(ui, now, ask, level_);
     }
     draw_figures(ui, now);
-}
-
-void PlotPanel::draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const {
-    const Level level = now.plot.levels()[n];
-    const auto scope = ui.scope("level");
-    ui.gap();
-    if (const auto on = ui.toggle("enabled", "Cut it", level.enabled, "Else its strokes stay")) {
-        edit_levels(ask, now, "Change what is cut", [n, on = *on](std::vector<Level>& levels) {
-            levels.at(n).enabled = on;
-        });
-    }
-    for (const auto& setting : project::level_numbers()) {
-        const bool of_tab = setting.id.starts_with("tab_");
-        if (!of_tab || level.tabs.count > 0) {
-            level_field(ui, now, ask, n, setting);
-        }
-    }
-    const auto line = ui.row(2);
-    if (ui.button(
-            "again", "Cut once more", {}, {{}, widgets::Rank::normal, 0.0F, "A second level of this pen"})) {
-        edit_levels(ask, now, "Cut a pen once more", [n](auto& levels) { project::repeat_level(levels, n); });
-    }
-    if (ui.button(
-            "remove", "Remove", {}, {{}, widgets::Rank::quiet, 0.0F, "A pen's only level is switched off"})) {
-        edit_levels(ask, now, "Remove a level", [n](auto& levels) { project::remove_level(levels, n); });
-    }
 }
 
 void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
@@ -282,8 +218,32 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
              plot::minutes_or_hours(planned));
 }
 
+/// Of a table that is played to, or was.
+void PlotPanel::draw_table_place(Ui& ui, const Workbench& now, const Vec3& tip) const {
+    const auto section = ui.section("position", "Where the tool is");
+    if (!section) {
+        return;
+    }
+    {
+        const auto labels = ui.label_share(0.2F);
+        ui.value("axes",
+                 "X  Y  Z",
+                 fmt::format("{}  {}  {}", fixed(tip.x(), 2), fixed(tip.y(), 2), fixed(tip.z(), 2)),
+                 "mm");
+    }
+    const actions::TableView table = now.plot.table().view();
+    const double left = now.plot.table().time_left();
+    if (table.playing) {
+        ui.value("left", "Remaining", plot::minutes_and_seconds(left), plot::minutes_or_hours(left));
+    }
+    ui.value("points", "Points", fmt::format("{} of {}", table.status.points, table.total));
+}
+
 /// While the program is played; above what is set, so that it is seen without scrolling.
 void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
+    if (const auto tip = now.table_tip()) {
+        return draw_table_place(ui, now, *tip);
+    }
     if (!now.in_file()) {
         return;
     }
@@ -335,6 +295,14 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const auto line = ui.row(2);
         action_button(ui, now, ask, catalogue_, "plot.flat", widgets::Rank::normal, "Above");
         action_button(ui, now, ask, catalogue_, "plot.space", widgets::Rank::normal, "Space");
+    }
+    if (now.plot.latest() && now.plot.latest()->shown_picture) {
+        if (const auto on = ui.toggle("picture",
+                                      "Picture below",
+                                      now.session.picture_shown,
+                                      "The picture itself, with the path over it")) {
+            ask.run("plot.picture");
+        }
     }
     if (const auto on = ui.toggle("light",
                                   "Against the light",
@@ -421,9 +389,14 @@ void PlotPanel::draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     const std::size_t count = made ? made->notices.size() + (made->failure ? 1 : 0) : 0;
     const std::string notices = count > 0 ? fmt::format("Notices ({})", count) : "Notices";
-    const std::array<widgets::Option, 3> tabs{{{"materials", "Materials", icons::table},
-                                               {"table", "XYZ table", icons::machine},
-                                               {"notices", notices, icons::info}}};
+    std::vector<widgets::Option> tabs{{"materials", "Materials", icons::table},
+                                      {"table", "XYZ table", icons::machine},
+                                      {"notices", notices, icons::info}};
+    if (made && made->shown_picture) {
+        tabs.push_back({"picture", "Gray map", icons::plot});
+    } else if (tab_ == Tab::picture) {
+        tab_ = Tab::materials;
+    }
     if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
         tab_ = static_cast<Tab>(*chosen);
     }
@@ -434,6 +407,8 @@ void PlotPanel::draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return table_.draw(ui, now, ask);
     case Tab::notices:
         return draw_notices(ui, now);
+    case Tab::picture:
+        return picture_.draw(ui, now, ask);
     }
 }
 

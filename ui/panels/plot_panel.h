@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ui/panels/panel.h"
+#include "ui/panels/picture_pane.h"
 #include "ui/panels/table_pane.h"
 
 #include <cstddef>
@@ -24,17 +25,18 @@ public:
     void draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask);
 
 private:
-    enum class Tab { materials, table, notices };
+    enum class Tab { materials, table, notices, picture };
 
     void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_level(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) const;
     void draw_figures(Ui& ui, const Workbench& now) const;
     void draw_progress(Ui& ui, const Workbench& now) const;
+    void draw_table_place(Ui& ui, const Workbench& now, const Vec3& tip) const;
     void draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_notices(Ui& ui, const Workbench& now) const;
 
     const actions::Catalogue& catalogue_;
     TablePane table_;
+    PicturePane picture_;
     std::size_t level_ = 0; ///< chosen
     Tab tab_ = Tab::materials;
     std::vector<std::filesystem::path> samples_;

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "ui/panels/connection_panel.h"
+#include "ui/panels/table_pane.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,9 @@ namespace millwright::panels {
 namespace {
 
 std::string machine_state(const Workbench& now) {
+    if (const std::string table = table_text(now); !table.empty()) {
+        return now.controller.link == actions::LinkState::none ? table : table + ", " + controller_text(now);
+    }
     if (now.controller.link == actions::LinkState::none && now.job.running && now.job.report) {
         return fmt::format("virtual machine {}", machine::to_text(now.job.report->driver.state));
     }

@@ -1,8 +1,8 @@
 #include "ui/panels/table_pane.h"
 
 #include "core/base/text.h"
-#include "core/machine/point_job.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/serial_fields.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/sketch.h"
 
@@ -36,9 +36,6 @@ constexpr std::array<widgets::Option, 4> roundings{{{"down", "Rounded down", {},
                                                     {"nearest", "To the nearest", {}, {}},
                                                     {"up", "Rounded up", {}, {}},
                                                     {"exact", "Exact, a shorter last one", {}, {}}}};
-constexpr std::array<widgets::Option, 3> endings{
-    {{"lf", "Line feed", {}, {}}, {"crlf", "CR and line feed", {}, {}}, {"cr", "CR", {}, {}}}};
-constexpr std::array<std::string_view, 3> ending_bytes{"\n", "\r\n", "\r"};
 
 void change_table_choice(ActionQueue& ask, std::function<void(TableChoice&)> what) {
     ask.plot([what = std::move(what)](actions::PlotBench& bench) {
@@ -212,19 +209,22 @@ void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask
             ui.toggle("relative", "Relative", record.relative, "Records say how far, not where")) {
         change_table_choice(ask, [relative = *relative](TableChoice& c) { c.record.relative = relative; });
     }
-    int at = 0;
-    for (std::size_t n = 0; n < endings.size(); ++n) {
-        at = ending_bytes[n] == record.ending ? static_cast<int>(n) : at;
-    }
-    if (const auto ending = ui.choice("ending", "Ends with", at, endings)) {
-        change_table_choice(ask, [n = static_cast<std::size_t>(*ending)](TableChoice& c) {
-            c.record.ending = ending_bytes[n];
-        });
+    if (const auto ending = ending_field(ui, record.ending)) {
+        change_table_choice(ask, [ending = *ending](TableChoice& c) { c.record.ending = ending; });
     }
     if (const auto answer = ui.text_field(
             "answer", "Answer", record.answer, "To each record before the next is sent; empty: none")) {
         change_table_choice(ask, [answer = *answer](TableChoice& c) { c.record.answer = answer; });
     }
+}
+
+/// What a person has to read: no tip of the buttons above lies over it.
+void line_kept_clear(Ui& ui, std::string_view id, std::string_view text, widgets::Tone tone) {
+    Rect line = ui.rest();
+    line.h = ui.px(26.0F);
+    ui.record(id, line);
+    ui.keep_clear(ui.path(id));
+    ui.words(text, tone);
 }
 
 /// Nobody tells where the table stands when it begins.
@@ -243,15 +243,21 @@ void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
 
 } // namespace
 
+std::string table_text(const Workbench& now) {
+    const actions::TableView table = now.plot.table().view();
+    if (!table.playing) {
+        return {};
+    }
+    const std::string port = now.plot.table().port();
+    return fmt::format("{}: {}",
+                       port.empty() ? "simulated table" : "table at " + port,
+                       table.total == 0 ? "preparing" : play_state_text(table.status.state));
+}
+
 /// Nothing where nothing is sent.
 std::optional<Vec3> TablePane::place_of_begin(const Workbench& now) {
-    const TableChoice& choice = now.plot.table_choice();
-    const actions::TableView table = now.plot.table().view();
-    const auto made = now.plot.latest();
-    if (choice.port.empty() || table.playing || !made || !made->path) {
-        return std::nullopt;
-    }
-    return now.plot.table().place(choice.port).value_or(machine::usual_start(*made->path));
+    const bool begins = !now.plot.table_choice().port.empty() && !now.plot.table().view().playing;
+    return begins ? now.plot.table_start() : std::nullopt;
 }
 
 void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -263,6 +269,9 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                                         "empty: nothing is sent")) {
         change_table_choice(ask, [port = *port](TableChoice& c) { c.port = port; });
     }
+    if (const auto address = serial_fields(ui, choice.port)) {
+        change_table_choice(ask, [address = *address](TableChoice& c) { c.port = address; });
+    }
     const DecodeSettings& points = choice.decoding;
     const auto number =
         [&](const FieldInfo& info, double value, double unit, double DecodeSettings::*member) {
@@ -271,10 +280,14 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                                     [v = *chosen * unit, member](TableChoice& c) { c.decoding.*member = v; });
             }
         };
-    number({"velocity", "Velocity", "mm/s", "Along the path, always the same", 0.01, 1000.0, 8.0, 2},
-           points.velocity,
-           1.0,
-           &DecodeSettings::velocity);
+    const auto made = now.plot.latest();
+    const bool has_points = made && made->points; // at equal steps already
+    if (!has_points) {
+        number({"velocity", "Velocity", "mm/s", "Along the path, always the same", 0.01, 1000.0, 8.0, 2},
+               points.velocity,
+               1.0,
+               &DecodeSettings::velocity);
+    }
     number({"period", "Period", "ms", "Between two points", 0.5, 1000.0, 20.0, 1},
            points.period,
            1e-3,
@@ -286,7 +299,9 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     if (const auto begins = place_of_begin(now)) {
         begin_fields(ui, choice, *begins);
     }
-    point_fields(ui, points, ask);
+    if (!has_points) {
+        point_fields(ui, points, ask);
+    }
     record_fields(ui, choice.record, ask);
 }
 
@@ -304,12 +319,14 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const actions::TableView table = now.plot.table().view();
     if (table.there && table.status.state == PlayState::emergency_stop) {
-        ui.words(table.status.sentence, widgets::Tone::danger);
+        line_kept_clear(ui, "stopped", table.status.sentence, widgets::Tone::danger);
     }
     if (table.status.state == PlayState::holding && !table.status.sentence.empty()) {
-        ui.words(fmt::format("Waiting: {}", table.status.sentence), widgets::Tone::warning);
+        line_kept_clear(
+            ui, "waiting", fmt::format("Waiting: {}", table.status.sentence), widgets::Tone::warning);
     }
     if (table.failure) {
+        ui.keep_clear(ui.path("table_failure"));
         (void)widgets::banner(ui, "table_failure", {widgets::Severity::warning, to_text(*table.failure), {}});
     }
     const Rect all = ui.rest();

@@ -4,8 +4,12 @@
 #include "ui/panels/panel.h"
 
 #include <optional>
+#include <string>
 
 namespace millwright::panels {
+
+/// "table at /dev/ttyUSB0: moving" while one is played to; else empty.
+[[nodiscard]] std::string table_text(const Workbench& now);
 
 class TablePane final : public Panel {
 public:

@@ -55,6 +55,20 @@ void draw_job(Ui& ui, const machine::JobReport& job) {
     (void)widgets::timeline(ui, "timeline", view);
 }
 
+/// What is played to a table, point by point.
+void draw_table_play(Ui& ui, const Workbench& now) {
+    const actions::TableView table = now.plot.table().view();
+    widgets::TimelineView view;
+    view.permission = widgets::Permission::refused("The view follows the table.");
+    view.what = "Point";
+    view.block = table.status.points;
+    view.blocks = table.total;
+    view.time_s = table.status.time;
+    view.total_s = table.duration;
+    view.fraction = view.total_s > 0.0 ? view.time_s / view.total_s : 0.0;
+    (void)widgets::timeline(ui, "timeline", view);
+}
+
 } // namespace
 
 void TimelinePanel::refresh(const Workbench& now) {
@@ -113,6 +127,9 @@ void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
 }
 
 void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (now.table_tip() && now.plot.table().playing()) {
+        return draw_table_play(ui, now);
+    }
     if (now.in_file()) {
         return draw_file(ui, now, ask);
     }

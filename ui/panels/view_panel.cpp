@@ -155,16 +155,17 @@ viewport::Scene scene_of(const Workbench& now) {
     scene.symmetry = now.session.symmetry;
     scene.error = now.session.error;
     scene.against_light = now.session.against_light;
+    scene.picture_shown = now.session.picture_shown;
     const bool plots = now.session.workspace == Workspace::plot;
     if (plots && !now.plot.file().empty()) {
         scene.plot = now.plot.latest();
-        scene.table_tip = now.plot.table_tip();
+        scene.table_tip = now.table_tip();
     }
     if (now.in_file()) {
         scene.opened = now.opened;
         scene.now = now.moment();
         scene.layers.machine = scene.layers.machine && scene.now && scene.opened->machine;
-        if (const auto place = now.file_place()) {
+        if (const auto place = now.file_place(); place && !scene.table_tip) {
             scene.opened_now = place->moment;
         }
         return scene;

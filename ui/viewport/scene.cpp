@@ -112,8 +112,9 @@ bool operator==(const Scene& a, const Scene& b) {
                               [](const auto& p, const auto& q) { return same(p, q); }) &&
            a.shown == b.shown && a.start == b.start && a.watched == b.watched && a.weight == b.weight &&
            a.opened == b.opened && a.opened_now == b.opened_now && a.plot == b.plot &&
-           a.table_tip == b.table_tip && a.against_light == b.against_light && a.arm == b.arm &&
-           same(a.now, b.now) && a.selected == b.selected && a.error == b.error && a.cut == b.cut &&
+           a.table_tip == b.table_tip && a.against_light == b.against_light &&
+           a.picture_shown == b.picture_shown && a.arm == b.arm && same(a.now, b.now) &&
+           a.selected == b.selected && a.error == b.error && a.cut == b.cut &&
            a.machine_solids == b.machine_solids && a.set_up == b.set_up && a.set_up_place == b.set_up_place &&
            a.colors == b.colors;
 }

@@ -147,8 +147,9 @@ struct Scene {
     std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
     std::optional<Vec3> table_tip = std::nullopt; ///< mm, of a table that is played to: there the tool is
     bool against_light = false;                   ///< the finished plot as light goes through
-    std::optional<ArmScene> arm = std::nullopt;   ///< in place of everything else
-    SurfaceTool surface_tool = {};                ///< not of the picture itself
+    bool picture_shown = false; ///< in place of it, the picture that it was made of, below the path
+    std::optional<ArmScene> arm = std::nullopt; ///< in place of everything else
+    SurfaceTool surface_tool = {};              ///< not of the picture itself
     std::optional<Moment> now;
     std::vector<ControlPointId> selected; ///< ascending
     geometry::NetSymmetry symmetry = {};  ///< of dragging them; not of the picture itself

@@ -165,6 +165,9 @@ double value_y(const Mapping& mapping, float pixel) {
 std::string map_readout(const HeatMapView& view, const MapPlace& place) {
     const std::size_t column = nearest(view.x, place.x);
     const std::size_t row = nearest(view.y, place.y);
+    if (view.readout) {
+        return view.readout(column, row);
+    }
     const double value = view.values[row * view.x.size() + column];
     const std::string here =
         std::isfinite(value) ? fmt::format("{:.5g} {}", value, view.unit) : std::string("out of reach");

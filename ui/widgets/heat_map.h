@@ -3,8 +3,11 @@
 
 #include "ui/widgets/legend.h"
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace millwright::widgets {
@@ -27,7 +30,9 @@ struct HeatMapView {
     ColourMap colours = {};              ///< of the least value at 0, of the greatest at 1
     std::optional<MapPlace> chosen = {}; ///< a ring
     std::optional<MapPlace> best = {};   ///< a cross
-    float height = 0.0F;                 ///< 0: all that is left, at least 80 px at scale 1
+    /// What stands at the mouse, of the nearest value; empty: its place and itself.
+    std::function<std::string(std::size_t column, std::size_t row)> readout = {};
+    float height = 0.0F; ///< 0: all that is left, at least 80 px at scale 1
     std::string_view when_empty = "Nothing to show yet.";
 };
 

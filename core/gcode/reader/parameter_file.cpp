@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/gcode/reader/internal/variables.h"
 #include "core/gcode/reader/line_ends.h"
 #include "core/gcode/reader/program_text.h"
@@ -35,6 +36,7 @@ template <class Number> bool parse_next(std::string_view& text, Number& number) 
 Parameters parse_parameter_file(std::string_view text, const std::filesystem::path& file) {
     Parameters parameters;
     std::set<int> seen;
+    refuse_wide_text(text, file);
     text = program_text(text);
     for (int line = 1; !text.empty(); ++line) {
         std::string_view rest = text.substr(0, end_of_line(text));

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/gcode/reader/program_text.h"
 
 #include <fmt/format.h>
@@ -135,6 +136,7 @@ Tool& ToolTable::at_row(int row) {
 ToolTable parse_tool_table(std::string_view text, const std::filesystem::path& file) {
     ToolTable table;
     int number = 0;
+    refuse_wide_text(text, file);
     text = program_text(text);
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));

@@ -7,17 +7,26 @@
 
 namespace millwright::machine::internal {
 
-std::string end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed, int line) {
-    const std::string executed = fmt::format("{} of {} blocks were executed for certain in {}{}",
-                                             status.executed_blocks,
-                                             blocks,
-                                             short_time(elapsed),
-                                             line > 0 && status.block > status.executed_blocks
-                                                 ? fmt::format(", up to about line {}", line)
-                                                 : std::string());
+std::string done_text(int executed_blocks, int blocks, bool answers) {
+    return fmt::format(
+        "{} of {} blocks were {}", executed_blocks, blocks, answers ? "executed for certain" : "sent");
+}
+
+std::string
+end_sentence(JobEnd end, const DriverStatus& status, const JobOutcome& outcome, int line, bool answers) {
+    const std::string time = short_time(outcome.elapsed);
+    const std::string executed = done_text(outcome.executed_blocks, outcome.blocks, answers) + " in " + time +
+                                 (answers && line > 0 && status.block > outcome.executed_blocks
+                                      ? fmt::format(", up to about line {}", line)
+                                      : std::string());
     switch (end) {
     case JobEnd::done:
-        return fmt::format("All {} blocks were executed in {}.", blocks, short_time(elapsed));
+        return answers
+                   ? fmt::format("All {} blocks were executed in {}.", outcome.blocks, time)
+                   : fmt::format("All {} blocks were sent in {}. The machine gives no answers: whether it "
+                                 "executed them is not known.",
+                                 outcome.blocks,
+                                 time);
     case JobEnd::stopped:
         return fmt::format("The machine was stopped: {}.", executed);
     case JobEnd::cancelled:

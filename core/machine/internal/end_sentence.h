@@ -7,8 +7,12 @@
 
 namespace millwright::machine::internal {
 
-/// `blocks`: of the job; `elapsed`: s since its start; `line`: where it was as far as is known, 0: not known.
+/// "6 of 37 blocks were executed for certain", or "were sent" if the machine does not answer.
+[[nodiscard]] std::string done_text(int executed_blocks, int blocks, bool answers);
+
+/// Of an outcome that has no sentence yet. `line`: where the machine was as far as is known, 0: not known;
+/// `answers`: Capabilities::answers.
 [[nodiscard]] std::string
-end_sentence(JobEnd end, const DriverStatus& status, int blocks, double elapsed, int line);
+end_sentence(JobEnd end, const DriverStatus& status, const JobOutcome& outcome, int line, bool answers);
 
 } // namespace millwright::machine::internal

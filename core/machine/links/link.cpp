@@ -6,6 +6,8 @@
 #include "core/machine/links/serial_link.h"
 #include "core/machine/links/tcp_link.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstdint>
 
@@ -51,6 +53,21 @@ std::string loss_sentence(const std::string& why) {
     return why.starts_with(held_by_another) ? why : "the link was lost: " + why;
 }
 
+void expect_carried(const Link& link, std::size_t bytes, double period) {
+    const std::optional<double> rate = link.rate();
+    const double needed = rate ? static_cast<double>(bytes) / *rate : 0.0;
+    if (needed > period) {
+        constexpr double ms = 1e3;
+        throw Error(fmt::format("{} bytes take {:.1f} ms over {}, and so many go every {:.1f} ms",
+                                bytes,
+                                needed * ms,
+                                link.name(),
+                                period * ms),
+                    {},
+                    "a faster rate, a longer period, fewer letters, or an answer to each record");
+    }
+}
+
 std::unique_ptr<Link> make_link(const std::string& address) {
     if (address.empty()) {
         throw Error("no port is named", {}, "a path as /dev/ttyUSB0, or tcp:HOST:PORT");
@@ -65,7 +82,7 @@ std::unique_ptr<Link> make_link(const std::string& address) {
     if (address.starts_with(file_prefix) && address.size() > file_prefix.size()) {
         return std::make_unique<FileLink>(address.substr(file_prefix.size()));
     }
-    return std::make_unique<SerialLink>(address);
+    return std::make_unique<SerialLink>(parse_serial_address(address));
 }
 
 } // namespace millwright::machine

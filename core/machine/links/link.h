@@ -2,6 +2,7 @@
 // nothing of what the bytes mean.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ public:
     /// Why nothing can be sent or received any more; nothing while the link stands.
     [[nodiscard]] virtual std::optional<std::string> lost() const = 0;
     virtual void close() noexcept = 0;
+    /// Bytes that it carries per second, where that is set; nothing: not known.
+    [[nodiscard]] virtual std::optional<double> rate() const { return std::nullopt; }
     /// How many programs have connected to it so far, where it listens and the system tells; else 0.
     [[nodiscard]] virtual int visits() const { return 0; }
 };
@@ -38,9 +41,13 @@ public:
 /// Begins Link::lost() where another client holds the port.
 inline constexpr std::string_view held_by_another = "the port is held by another client";
 
+/// Throws Error where `bytes`, which go every `period` s, take longer than that over `link`: they would come
+/// ever later, and a hold after them.
+void expect_carried(const Link& link, std::size_t bytes, double period);
+
 /// The link that `address` names: `tcp:HOST:PORT`, `file:PATH` (only written to), `isa:0x210` (a PMAC's host
-/// port), else the path of a serial port (115200 baud, 8N1). Not opened yet. Throws Error if it is no
-/// address.
+/// port), else a serial port as parse_serial_address() reads it (115200 baud, 8N1 where nothing is said). Not
+/// opened yet. Throws Error if it is no address.
 [[nodiscard]] std::unique_ptr<Link> make_link(const std::string& address);
 
 } // namespace millwright::machine

@@ -9,6 +9,7 @@
 #include <sys/file.h>
 #include <termios.h>
 
+#include <array>
 #include <cerrno>
 #include <vector>
 
@@ -43,6 +44,24 @@ void keep_dtr(int handle) {
     }
 }
 
+/// A port may not have all that lines can be: a pseudo-terminal knows no parity.
+void set_line(boost::asio::serial_port& port, const SerialAddress& address) {
+    const SerialLine& line = address.line;
+    using Base = boost::asio::serial_port_base;
+    constexpr std::array parities{Base::parity::none, Base::parity::even, Base::parity::odd};
+    try {
+        port.set_option(Base::baud_rate(line.baud));
+        port.set_option(Base::character_size(static_cast<unsigned>(line.data_bits)));
+        port.set_option(Base::parity(parities[static_cast<std::size_t>(line.parity)]));
+        port.set_option(Base::stop_bits(line.stop_bits == 2 ? Base::stop_bits::two : Base::stop_bits::one));
+        port.set_option(Base::flow_control(Base::flow_control::none));
+    } catch (const boost::system::system_error& failure) {
+        throw Error(fmt::format("the serial port does not take {}", to_text(line)),
+                    address.path,
+                    failure.code().message());
+    }
+}
+
 std::string held_sentence(const std::string& path) {
     const std::vector<std::string> others = internal::others_with(path);
     if (others.empty()) {
@@ -55,30 +74,26 @@ std::string held_sentence(const std::string& path) {
 
 } // namespace
 
-SerialLink::SerialLink(std::string path, unsigned baud)
-    : path_(std::move(path)), baud_(baud), port_(std::make_unique<Port>()) {}
+SerialLink::SerialLink(SerialAddress address)
+    : address_(std::move(address)), port_(std::make_unique<Port>()) {}
 
 SerialLink::~SerialLink() = default;
 
 void SerialLink::open() {
-    using Base = boost::asio::serial_port_base;
     try {
         port_->close();
         port_->open([this](boost::asio::serial_port& port) {
-            port.open(path_);
-            port.set_option(Base::baud_rate(baud_));
-            port.set_option(Base::character_size(8));
-            port.set_option(Base::parity(Base::parity::none));
-            port.set_option(Base::stop_bits(Base::stop_bits::one));
-            port.set_option(Base::flow_control(Base::flow_control::none));
+            port.open(address_.path);
+            set_line(port, address_);
             lock(port.native_handle());
             keep_dtr(port.native_handle());
             (void)::tcflush(port.native_handle(), TCIFLUSH);
         });
     } catch (const boost::system::system_error& failure) {
         const bool held = failure.code() == boost::system::errc::device_or_resource_busy;
-        throw Error(held ? held_sentence(path_) : "cannot open the serial port: " + failure.code().message(),
-                    path_,
+        throw Error(held ? held_sentence(address_.path)
+                         : "cannot open the serial port: " + failure.code().message(),
+                    address_.path,
                     held ? "end that first" : "is it plugged in, and may you use it (group dialout)?");
     }
 }

@@ -99,6 +99,7 @@ ScaleFit fit(int motor, const std::vector<ScaleReading>& readings) {
 
 std::vector<ScaleReading> parse_scale_readings(std::string_view text, const std::filesystem::path& file) {
     std::vector<ScaleReading> readings;
+    refuse_wide_text(text, file);
     text = without_byte_order_mark(text);
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());

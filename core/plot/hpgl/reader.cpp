@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/plot/hpgl/internal/commands.h"
 #include "core/plot/hpgl/internal/line_end_evidence.h"
 
@@ -246,12 +247,7 @@ ReaderSettings with_line_ends(std::string_view bytes,
 } // namespace internal
 
 Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings) {
-    if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-        // Each letter has a zero byte beside it, which would end every number after its first digit.
-        throw Error({.place = {.file = file, .byte = 0},
-                     .message = "the file is text in UTF-16, a plot file is plain text",
-                     .hint = "save it as ASCII or UTF-8"});
-    }
+    refuse_wide_text(bytes, file);
     std::optional<Diagnostic> notice;
     const ReaderSettings chosen = internal::with_line_ends(bytes, file, settings, notice);
     Plot plot = internal::Reading(bytes, file, chosen).read();

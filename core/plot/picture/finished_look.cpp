@@ -13,10 +13,11 @@ namespace millwright::plot {
 namespace {
 
 /// Where the tool cuts, its width included.
-Extents cut_extents(const CutPath& path, const ToolTip& tip) {
+Extents cut_extents(const CutPath& path, const ToolTips& tips) {
     constexpr double thinnest = 0.05; // of a point, so that its picture is not empty
     std::optional<Extents> box;
     double deepest = 0.0;
+    double rim = thinnest;
     for (const CutPoint& point : path) {
         if (point.at.z() > 0.0) {
             continue;
@@ -28,42 +29,42 @@ Extents cut_extents(const CutPath& path, const ToolTip& tip) {
         box->lower = box->lower.cwiseMin(at);
         box->upper = box->upper.cwiseMax(at);
         deepest = std::max(deepest, -point.at.z());
+        rim = std::max(rim, mouth_radius(tips.of(point.tool), -point.at.z()));
     }
     if (!(deepest > 0.0)) {
         throw Error("the path cuts nothing");
     }
-    const double rim = std::max(mouth_radius(tip, deepest), thinnest);
     return {box->lower - Vec2(rim, rim), box->upper + Vec2(rim, rim)};
 }
 
 /// Some rows of the field, cut by the whole path.
 class Band {
 public:
-    Band(HeightField& field, const Vec2& corner, const ToolTip& tip, int first, int last)
-        : field_(field), corner_(corner), tip_(tip), first_(first), last_(last),
-          reach_(std::max(radius(tip), 0.75 * field.pitch)) {}
+    Band(HeightField& field, const Vec2& corner, int first, int last)
+        : field_(field), corner_(corner), first_(first), last_(last) {}
 
-    void cut(const Vec3& from, const Vec3& to) {
-        const double top = corner_.y() + field_.y_of_row(first_) + reach_;
-        const double bottom = corner_.y() + field_.y_of_row(last_) - reach_;
+    void cut(const Vec3& from, const Vec3& to, const ToolTip& tip) {
+        const double reach = std::max(radius(tip), 0.75 * field_.pitch);
+        const double top = corner_.y() + field_.y_of_row(first_) + reach;
+        const double bottom = corner_.y() + field_.y_of_row(last_) - reach;
         const bool beside = std::min(from.y(), to.y()) > top || std::max(from.y(), to.y()) < bottom;
         if (beside || std::min(from.z(), to.z()) >= 0.0) {
             return;
         }
         const double steps = std::ceil((to - from).norm() / (field_.pitch / 2.0));
         for (double n = 0.0; n <= steps; n += 1.0) {
-            stamp(from + n / std::max(steps, 1.0) * (to - from));
+            stamp(from + n / std::max(steps, 1.0) * (to - from), tip);
         }
     }
 
 private:
-    void stamp(const Vec3& at) {
+    void stamp(const Vec3& at, const ToolTip& tip) {
         if (at.z() >= 0.0) {
             return;
         }
         const double column = (at.x() - corner_.x()) / field_.pitch;
         const double row = field_.rows - 1 - (at.y() - corner_.y()) / field_.pitch;
-        const double reach = std::max(mouth_radius(tip_, -at.z()) / field_.pitch, 0.75);
+        const double reach = std::max(mouth_radius(tip, -at.z()) / field_.pitch, 0.75);
         const int top = std::max(first_, static_cast<int>(std::ceil(row - reach)));
         const int bottom = std::min(last_, static_cast<int>(std::floor(row + reach)));
         const int left = std::max(0, static_cast<int>(std::ceil(column - reach)));
@@ -77,8 +78,8 @@ private:
                 }
                 const double distance = std::sqrt(square(i - row) + square(j - column)) * field_.pitch;
                 // A tip thinner than a square still cuts the square that it is in.
-                const bool inside = distance <= 0.75 * field_.pitch && radius(tip_) < field_.pitch;
-                const double up = inside ? 0.0 : rise(tip_, distance);
+                const bool inside = distance <= 0.75 * field_.pitch && radius(tip) < field_.pitch;
+                const double up = inside ? 0.0 : rise(tip, distance);
                 z = std::min(z, static_cast<float>(at.z() + up));
             }
         }
@@ -86,10 +87,8 @@ private:
 
     HeightField& field_;
     Vec2 corner_;
-    const ToolTip& tip_;
     int first_;
     int last_;
-    double reach_;
 };
 
 std::uint8_t level(double brightness) {
@@ -108,12 +107,22 @@ GrayImage image_like(const HeightField& field) {
 
 } // namespace
 
+const ToolTip& ToolTips::of(int tool) const {
+    const auto other = others.find(tool);
+    return other == others.end() ? usual : other->second;
+}
+
 HeightField finished(const CutPath& path, const ToolTip& tip, int longest_side, const Progress& progress) {
+    return finished_by(path, {tip, {}}, longest_side, progress);
+}
+
+HeightField
+finished_by(const CutPath& path, const ToolTips& tips, int longest_side, const Progress& progress) {
     constexpr int most = 10'000;
     if (longest_side < 1 || longest_side > most) {
         throw Error(fmt::format("a picture of {} pixels; it can have 1 to {}", longest_side, most));
     }
-    const auto [lower, upper] = cut_extents(path, tip);
+    const auto [lower, upper] = cut_extents(path, tips);
     const Vec2 size = upper - lower;
     HeightField field;
     field.pitch = size.maxCoeff() / longest_side;
@@ -125,13 +134,13 @@ HeightField finished(const CutPath& path, const ToolTip& tip, int longest_side, 
     const int bands = (field.rows + band_rows - 1) / band_rows;
     parallel_for(bands, 1, [&](std::ptrdiff_t n) {
         const int first = static_cast<int>(n) * band_rows;
-        Band band(field, field.corner, tip, first, std::min(first + band_rows, field.rows) - 1);
+        Band band(field, field.corner, first, std::min(first + band_rows, field.rows) - 1);
         constexpr std::size_t often = 10'000;
         for (std::size_t k = 1; k < path.size(); ++k) {
             if (k % often == 0) {
                 progress.check();
             }
-            band.cut(path[k - 1].at, path[k].at);
+            band.cut(path[k - 1].at, path[k].at, tips.of(path[k].tool));
         }
     });
     return field;

@@ -7,6 +7,8 @@
 #include "core/plot/picture/png_writer.h"
 #include "core/plot/picture/tool_tip.h"
 
+#include <map>
+
 namespace millwright::plot {
 
 /// The surface that `tip` leaves of a plate on all moves of `path`, as a field that holds all of the cut: at
@@ -15,6 +17,20 @@ namespace millwright::plot {
 /// Cancelled through `progress`.
 [[nodiscard]] HeightField
 finished(const CutPath& path, const ToolTip& tip, int longest_side, const Progress& progress = Progress());
+
+/// Tips by the number of the tool.
+struct ToolTips {
+    ToolTip usual = {};
+    std::map<int, ToolTip> others = {};
+
+    [[nodiscard]] const ToolTip& of(int tool) const;
+};
+
+/// The same of a path that several tools cut.
+[[nodiscard]] HeightField finished_by(const CutPath& path,
+                                      const ToolTips& tips,
+                                      int longest_side,
+                                      const Progress& progress = Progress());
 
 /// Lit from the upper left, as a matt surface. Squares at or below `-thickness` are through the plate: white.
 [[nodiscard]] GrayImage shaded(const HeightField& field, double thickness);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace millwright::plot {
@@ -20,6 +21,10 @@ HeightField height_field(const Picture& picture, double pitch, double depth) {
         field.z.push_back(static_cast<float>(-depth * gray / white));
     }
     return field;
+}
+
+bool is_cut(const HeightField& field) {
+    return std::ranges::any_of(field.z, [](float z) { return z < 0.0F; });
 }
 
 } // namespace millwright::plot

@@ -35,4 +35,7 @@ inline constexpr std::uint16_t relief_top = 0;
 /// finite.
 [[nodiscard]] HeightField height_field(const Picture& picture, double pitch, double depth);
 
+/// Whether any of it lies below the top: else a relief of it cuts nothing.
+[[nodiscard]] bool is_cut(const HeightField& field);
+
 } // namespace millwright::plot

@@ -3,6 +3,12 @@
 #include "core/base/file_snapshot.h"
 #include "core/plot/picture/internal/exif.h"
 #include "core/plot/picture/internal/row_sink.h"
+#include "core/plot/picture/internal/square_pixels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace millwright::plot {
 
@@ -27,9 +33,7 @@ ReadPicture read_turned(std::string_view bytes,
     return read;
 }
 
-} // namespace
-
-ReadPicture read_picture(std::string_view bytes,
+ReadPicture read_rows_of(std::string_view bytes,
                          const std::filesystem::path& file,
                          const PictureSettings& settings,
                          const Progress& progress) {
@@ -51,6 +55,48 @@ ReadPicture read_picture(std::string_view bytes,
                   "PNG, JPEG, BMP, PGM and PPM files can be read");
     }
     return sink.end();
+}
+
+/// Every band becomes one brightness.
+void make_steps(Picture& picture, int steps) {
+    constexpr unsigned values = white + 1U;
+    const auto count = static_cast<unsigned>(steps);
+    for (std::uint16_t& gray : picture.gray) {
+        const unsigned band = gray * count / values;
+        gray = static_cast<std::uint16_t>(band * white / (count - 1));
+    }
+}
+
+void expect_in_range(const PictureSettings& settings) {
+    constexpr int most_steps = 256;
+    constexpr double flattest = 0.05, highest = 20.0;
+    if (settings.gray_steps != 0 && (settings.gray_steps < 2 || settings.gray_steps > most_steps)) {
+        throw Error(fmt::format("{} gray steps; there can be 2 to {}", settings.gray_steps, most_steps));
+    }
+    if (!(settings.pixel_aspect >= flattest && settings.pixel_aspect <= highest)) {
+        throw Error(fmt::format("a pixel {} times as high as wide; it can be {} to {}",
+                                settings.pixel_aspect,
+                                flattest,
+                                highest));
+    }
+}
+
+} // namespace
+
+ReadPicture read_picture(std::string_view bytes,
+                         const std::filesystem::path& file,
+                         const PictureSettings& settings,
+                         const Progress& progress) {
+    expect_in_range(settings);
+    ReadPicture read = read_rows_of(bytes, file, settings, progress);
+    const int rows = std::max(1, static_cast<int>(std::lround(read.picture.height * settings.pixel_aspect)));
+    if (rows != read.picture.height) {
+        read.picture = internal::with_rows(read.picture, rows);
+    }
+    if (settings.gray_steps > 0) {
+        make_steps(read.picture, settings.gray_steps);
+    }
+    return read;
 }
 
 ReadPicture read_picture_file(const std::filesystem::path& file,

@@ -55,6 +55,10 @@ struct PictureSettings {
     /// Brightness of what is transparent, also if the picture is inverted: that of what is not cut.
     std::uint16_t ground = white;
     std::optional<PixelRegion> region = {}; ///< not given: all of it
+    /// Bands of brightness, 2 to 256, of equal width, the darkest black and the brightest white; 0: as many
+    /// as the file has.
+    int gray_steps = 0;
+    double pixel_aspect = 1.0; ///< height of a pixel by its width, 0.05 to 20, times what the file says
     /// A region of more pixels is averaged over squares of 2, 3, ... pixels until it has no more, >= 1.
     std::int64_t most_pixels = 64'000'000;
     /// What a picture that cannot be read row by row (interlaced, progressive) may take meanwhile, bytes.
@@ -69,8 +73,9 @@ struct ReadPicture {
 };
 
 /// Reads a file's bytes; which format it is they say themselves. Pixels that are not square are made so.
-/// Throws Error naming `file` for what is no picture, is damaged or cut off, or leaves the limits; and for a
-/// region that leaves the picture. Throws Cancelled through `progress`.
+/// Throws Error for gray steps and an aspect out of their range, naming `file` for what is no picture, is
+/// damaged or cut off, or leaves the limits; and for a region that leaves the picture. Throws Cancelled
+/// through `progress`.
 [[nodiscard]] ReadPicture read_picture(std::string_view bytes,
                                        const std::filesystem::path& file,
                                        const PictureSettings& settings = {},

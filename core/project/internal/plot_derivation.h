@@ -30,7 +30,9 @@ public:
 
 private:
     void cut_program();
+    void cut_points();
     void cut_picture();
+    void show_picture(const plot::PictureSettings& reading, double pixel);
     void cut_relief(const plot::Picture& picture, double pitch);
     void cut_strokes(const plot::Strokes& drawn, const Vec2& end);
     /// Compensated, filled, ordered and linked, for a tool that comes from the origin and goes to `end`.

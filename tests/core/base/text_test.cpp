@@ -45,6 +45,20 @@ TEST(ByteOrderMark, IsSkippedOnceAtTheBeginning) {
     EXPECT_EQ(without_byte_order_mark(""), "");
 }
 
+TEST(WideEncoding, IsRecognisedByItsZeroBytesAndNotByZerosThatFillAFile) {
+    using namespace std::string_literals;
+    EXPECT_EQ(wide_encoding("\xFF\xFEG\0"s), "UTF-16");
+    EXPECT_EQ(wide_encoding("\xFF\xFE\0\0G\0\0\0"s), "UTF-32");
+    EXPECT_EQ(wide_encoding("G\0\x31\0\x31\x0E1\0"s), "UTF-16"); // with a letter of another script
+    EXPECT_EQ(wide_encoding("\0G\0\x31\0\x32"s), "UTF-16");
+    EXPECT_EQ(wide_encoding("\0\0\0G\0\0\0\x31"s), "UTF-32");
+    EXPECT_EQ(wide_encoding("G0 X1\n"), "");
+    EXPECT_EQ(wide_encoding("PU;\0"s), "");
+    EXPECT_EQ(wide_encoding("IN;PU0,0;\0\0\0\0\0\0\0"s), "");
+    EXPECT_EQ(wide_encoding("\0\0\0\0IN;PU0,0;"s), "");
+    EXPECT_EQ(wide_encoding(""), "");
+}
+
 TEST(Shortest, ReadsBackAsTheSameNumber) {
     std::mt19937_64 random(1997);
     std::uniform_real_distribution<double> mantissa(-1.0, 1.0);

@@ -137,8 +137,8 @@ TEST(PointJob, EachPointOfAFileIsABlockOnItsLine) {
     const std::string text = "0,0,5\n\n0.1,0,5\n0.2,0,5\n";
     const auto read = plot::read_points(text, "p.csv");
     const Job job = point_file_job(text, read, "p.csv", forming_table(), 0.02);
-    EXPECT_EQ(job.block_count(), 4); // and its end
-    EXPECT_EQ(job.listing->line_of_block, (std::vector<int>{1, 3, 4, 4}));
+    EXPECT_EQ(job.block_count(), 3);
+    EXPECT_EQ(job.listing->line_of_block, (std::vector<int>{1, 3, 4}));
     EXPECT_EQ(job.points->points, read.points);
     EXPECT_NEAR(job.points->duration(), 0.04, 1e-12);
     EXPECT_TRUE(preflight(job).empty());

@@ -181,6 +181,14 @@ TEST(WorkTimes, OfLevelsCountWhatIsCut) {
     EXPECT_EQ(twice.runs, 4);
     levels.push_back(levels[0]);
     EXPECT_EQ(work_time(drawn, levels, {}, home, home).runs, 8);
+    // By the feeds of the levels in place of the thesis's 2 mm/s.
+    std::vector<Level> fast = levels;
+    for (Level& level : fast) {
+        level.cutting = 8.0;
+    }
+    const WorkTime at_feeds = work_time(drawn, fast, {}, home, home);
+    EXPECT_NEAR(
+        at_feeds.seconds - at_feeds.seconds_at_feeds, at_feeds.cut_length * (1.0 / 2.0 - 1.0 / 8.0), 1e-9);
     levels[1].enabled = true;
     levels[1].order = -1;
     EXPECT_NEAR(work_time(drawn, {levels[0], levels[1]}, {}, home, home).travel_length,

@@ -14,6 +14,8 @@ TEST(PlotInput, FilesAreToldByTheirNames) {
     EXPECT_TRUE(is_picture_file("photo.pgm"));
     EXPECT_FALSE(is_picture_file("sign.plt"));
     EXPECT_TRUE(is_path_file("sign.path"));
+    EXPECT_TRUE(is_plot_file("points.csv"));
+    EXPECT_TRUE(is_point_file("points.CSV"));
     EXPECT_FALSE(is_plot_file("sign.ngc"));
     EXPECT_FALSE(is_plot_file("plt"));
 }

@@ -42,6 +42,7 @@ Project every_setting_changed() {
     set.post = "grbl";
     for (int pen = -1; pen < 3; ++pen) {
         plot::Level level{.pen = pen, .enabled = pen != 0};
+        level.side = pen > 0 ? std::optional(plot::CutterSide::outside) : std::nullopt;
         for (const auto& setting : level_numbers()) {
             setting.set(level, 0.25 * (3.0 * setting.min + setting.max));
         }

@@ -2,8 +2,12 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/kinematics/machine_file.h"
 #include "core/plot/path_file.h"
+#include "core/project/assets.h"
+#include "core/project/opened_program.h"
 #include "core/project/plot_settings.h"
+#include "core/project/plot_time.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
@@ -114,7 +118,17 @@ TEST(PlotWork, EveryNumberOfTheSettingsCounts) {
     const PlotInput outlines = picture_input(PictureUse::outlines);
     const PlotInput relief = picture_input(PictureUse::relief);
     const PlotInput dots = picture_input(PictureUse::dots);
-    const std::vector<Case> cases = {{drawing, "unit_x_mm", 0.0249},
+    std::ofstream(scratch / "arc.ngc") << "G21 G90\nG0 X10 Y10\nG1 Z-1 F300\nG2 X20 I5\nG0 Z5\nM2\n";
+    const PlotInput arc{scratch / "arc.ngc", {}};
+    PlotInput tools = drawing;
+    for (int pen = 1; pen <= 2; ++pen) {
+        tools.settings.levels.push_back({.pen = pen, .order = pen, .tool = pen});
+    }
+    const std::vector<Case> cases = {{tools, "change_x_mm", 7.0},
+                                     {tools, "change_y_mm", 7.0},
+                                     {tools, "change_z_mm", 40.0},
+                                     {arc, "chord_length_mm", 5.0},
+                                     {drawing, "unit_x_mm", 0.0249},
                                      {drawing, "unit_y_mm", 0.0249},
                                      {drawing, "arc_tolerance_mm", 0.001},
                                      {relief, "width_mm", 21.0},
@@ -124,6 +138,8 @@ TEST(PlotWork, EveryNumberOfTheSettingsCounts) {
                                      {natural, "region_top_px", 195.0},
                                      {natural, "region_width_px", 30.0},
                                      {natural, "region_height_px", 0.0},
+                                     {relief, "gray_steps", 4.0},
+                                     {relief, "pixel_aspect", 1.5},
                                      {outlines, "threshold", 0.95},
                                      {outlines, "speckle_px", 5000.0},
                                      {outlines, "corner", 0.0},
@@ -165,6 +181,27 @@ TEST(PlotWork, EveryNumberOfTheSettingsCounts) {
     for (const auto& setting : plot_numbers()) {
         EXPECT_TRUE(tried.contains(setting.id)) << setting.id;
     }
+}
+
+TEST(PlotWork, ToolsAreChangedAtAPlaceOfTheMachine) {
+    const test::ScratchFolder scratch;
+    write_drawing(scratch / "drawing.plt");
+    PlotInput input{scratch / "drawing.plt", {}};
+    for (int pen = 1; pen <= 2; ++pen) {
+        input.settings.levels.push_back({.pen = pen, .order = pen, .tool = pen});
+    }
+    input.settings.change_position = {3.0, 4.0, 30.0};
+    input.settings.origin = {50.0, 60.0};
+    const auto made = derived(input);
+    ASSERT_FALSE(made->failure) << to_text(*made->failure);
+    int changes = 0;
+    for (const plot::CutPoint& point : *made->path) {
+        if (point.move == plot::CutMove::tool_change && point.tool == 2) {
+            EXPECT_LT((point.at - Vec3(3.0, 4.0, 30.0)).norm(), 1e-9);
+            ++changes;
+        }
+    }
+    EXPECT_EQ(changes, 1);
 }
 
 TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
@@ -213,6 +250,72 @@ void write_zigzag(const fs::path& file, std::size_t points) {
         out << (n > 0 ? "," : "") << n % 4000 << "," << 40 + n % 7 * 40;
     }
     out << ";PU0,0;SP;";
+}
+
+// The window plans the file, the command line said another time for the same program.
+TEST(PlotWork, TheTimeOfThePlannerIsThatOfTheWrittenTextEverywhere) {
+    for (const char* post : {"linuxcnc-xyz", "grbl"}) {
+        PlotInput input{everyday, {}};
+        input.settings.post = post;
+        PlotWorker worker("assets", [] {});
+        worker.request(input);
+        worker.wait_idle();
+        const auto made = worker.latest();
+        ASSERT_FALSE(made->failure) << post << to_text(*made->failure);
+        ProgramReader reader([] {});
+        reader.open(made->program, {.machine = input.settings.machine}, "assets");
+        reader.wait_idle();
+        const auto opened = reader.latest();
+        ASSERT_TRUE(opened->motion) << post << opened->no_motion;
+        gcode::ReleasedText released;
+        released.listing.text = read_file(made->program);
+        const auto machine = kinematics::read_machine(machine_path(input.settings.machine, ".", "assets"));
+        EXPECT_NEAR(
+            opened->motion->trajectory->duration(), seconds_of_text(released, {}, machine, "p.ngc"), 1e-6)
+            << post;
+    }
+}
+
+TEST(PlotWork, TheTimeAsDrawnIsThatOfItsOwnProgram) {
+    const test::ScratchFolder scratch;
+    std::ofstream(scratch / "far.plt")
+        << "IN;SP1;PU4000,0;PD4400,0,4400,200;PU0,0;PD400,0,400,200;PU4000,400;PD4400,"
+           "400;PU0,400;PD400,400;PU;";
+    PlotInput input{scratch / "far.plt", {}};
+    input.settings.strokes.order = true;
+    const auto ordered = derived(input);
+    ASSERT_TRUE(ordered->drawn_seconds);
+    input.settings.strokes.order = false;
+    PlotWorker worker("assets", [] {});
+    worker.request(input);
+    worker.wait_idle();
+    gcode::ReleasedText released;
+    released.listing.text = read_file(worker.latest()->program);
+    const auto machine = kinematics::read_machine(machine_path(input.settings.machine, ".", "assets"));
+    EXPECT_NEAR(*ordered->drawn_seconds, seconds_of_text(released, {}, machine, "p.ngc"), 1e-6);
+}
+
+TEST(PlotWork, APointFileIsCutAndKeepsItsPointsForTheTable) {
+    const test::ScratchFolder folder;
+    for (const char* name : {"points.csv", "points.txt"}) {
+        const fs::path file = folder / name;
+        std::ofstream(file) << "0.00,0.00,5.00\n10.00,10.00,5.00\n10.00,10.00,-1.00\n20.00,10.00,-1.00\n"
+                               "20.00,10.00,5.00\n";
+        ASSERT_TRUE(holds_points(file));
+        PlotInput input{file, {}};
+        input.settings.origin = {5.0, 5.0};
+        const auto made = derived(input);
+        ASSERT_FALSE(made->failure) << to_text(*made->failure);
+        ASSERT_TRUE(made->points);
+        ASSERT_EQ(made->points->read.points.size(), 5U);
+        EXPECT_EQ(made->points->read.points[3], Vec3(25.0, 15.0, -1.0));
+        EXPECT_NEAR(made->lengths.cut, 16.0, 1e-9); // down and across
+        EXPECT_THAT(plot_program_text(*made, "assets"), HasSubstr("X25.0000"));
+        std::ofstream(file, std::ios::app) << "a,b,c\n";
+        const auto bad = derived(input);
+        ASSERT_TRUE(bad->failure);
+        EXPECT_EQ(bad->failure->place.line, 6);
+    }
 }
 
 TEST(PlotWork, TheProgramOfALongPathIsWrittenWhereItIsAskedFor) {

@@ -1,7 +1,11 @@
 // Points that the Plot & Picture workspace plays to a table, with real mouse and keys in real OpenGL.
 #include "core/machine/job_log.h"
+#include "core/machine/links/link.h"
+#include "tests/support/reason.h"
 #include "tests/ui/panels/plot_person.h"
 #include "tests/ui/panels/table_bench.h"
+#include "ui/panels/table_pane.h"
+#include "ui/panels/view_panel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,12 +32,27 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     ASSERT_TRUE(bench.person.live_until([&] { return bench.plot().table().view().status.points > 3; }));
     EXPECT_TRUE(bench.person.sees("lower/read_out/X"));
     EXPECT_TRUE(bench.person.sees("lower/histogram"));
-    EXPECT_TRUE(bench.plot().table_tip());
+    bench.person.frames(2);
+    const actions::Workbench moving = bench.person.workshop().look();
+    EXPECT_EQ(table_text(moving), "simulated table: moving");
+    ASSERT_TRUE(moving.table_tip());
+    EXPECT_NE(*moving.table_tip(), Vec3::Zero());
+    EXPECT_TRUE(scene_of(moving).table_tip);
+    EXPECT_FALSE(scene_of(moving).opened_now); // the timeline is elsewhere
+    EXPECT_TRUE(bench.person.sees("inspector/position/points"));
+    EXPECT_EQ(bench.person.refusal("timeline/play"), "The view follows the table.");
     bench.person.keep("plot-table");
     bench.person.click("emergency/machine_emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
-    EXPECT_FALSE(bench.plot().table_tip());
     const auto stopped = bench.plot().table().view();
+    // The tool stays where the table is until the timeline goes elsewhere.
+    actions::Workbench after = bench.person.workshop().look();
+    EXPECT_EQ(table_text(after), "");
+    EXPECT_EQ(after.table_tip(), stopped.status.position);
+    bench.person.frames(2);
+    bench.person.click("timeline/last");
+    bench.person.frames(2);
+    EXPECT_FALSE(bench.person.workshop().look().table_tip());
     EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
     EXPECT_LT(stopped.status.points, stopped.total);
     EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
@@ -92,6 +112,15 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
     EXPECT_THAT(bench.plot().table().view().status.sentence, HasSubstr("put in tool 1"));
     EXPECT_EQ(table.records(), 0);
     bench.person.frames(2);
+    EXPECT_EQ(table_text(bench.person.workshop().look()), "table at " + table.port() + ": held");
+    EXPECT_EQ(bench.person.refusal("lower/plot_play_table"), "The table is held. Press Resume to go on.");
+    // The tip of a button is not over the line that says which tool to put in.
+    const widgets::Rect play = bench.person.place("lower/plot_play_table");
+    bench.person.hover({play.x + 10.0F, play.y + 5.0F});
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.person.sees("tip"); }, 5.0));
+    const widgets::Rect tip = bench.person.place("tip");
+    const widgets::Rect waiting = bench.person.place("lower/waiting");
+    EXPECT_TRUE(tip.bottom() <= waiting.y || tip.y >= waiting.bottom()) << tip.y << " " << waiting.y;
     bench.person.keep("plot-table-tool");
     bench.person.click("lower/plot_resume_table");
     ASSERT_TRUE(bench.person.live_until([&] { return table.records() > 0; }, 20.0));
@@ -102,7 +131,8 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
     const actions::TableView end = bench.plot().table().view();
     ASSERT_TRUE(end.outcome) << (end.failure ? to_text(*end.failure) : "");
     EXPECT_EQ(end.outcome->end, machine::JobEnd::done) << end.outcome->sentence;
-    std::vector<int> squares; // as they were cut
+    EXPECT_NO_THROW(machine::make_link(table.port())->open()); // given back
+    std::vector<int> squares;                                  // as they were cut
     for (const std::vector<double>& at : table.positions()) {
         const int square = static_cast<int>(at[0] / 10.0);
         if (at[2] < -0.01) {
@@ -134,8 +164,13 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     bench.person.frames(3);
     ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
     ASSERT_TRUE(bench.person.live_until(cuts, 60.0)) << table.position()[0];
+    // The port is the table's while it plays, and anybody's afterwards.
+    const std::unique_ptr<machine::Link> anybody = machine::make_link(table.port());
+    EXPECT_THAT(test::reason([&] { anybody->open(); }), HasSubstr("holds the serial port"));
     bench.person.click("lower/plot_stop_table");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
+    EXPECT_NO_THROW(anybody->open());
+    anybody->close();
     EXPECT_EQ(bench.plot().table().view().status.state, machine::PlayState::stopped);
     bench.person.frames(2);
     EXPECT_TRUE(bench.person.sees("lower/begins"));
@@ -218,6 +253,48 @@ TEST(PlotTable, GCodeIsPlayedAtItsOwnHeights) {
     const auto lowest = std::ranges::min_element(went, {}, [](const auto& at) { return at[2]; });
     EXPECT_DOUBLE_EQ((*lowest)[2], -1.0);
     bench.person.keep("plot-table-gcode");
+}
+
+// The file that plot decode writes: it was opened as G-code, with an error on each line.
+TEST(PlotTable, APointFileIsOpenedShownAndPlayedAsItIs) {
+    test::TableBench table({.keep = true});
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    std::vector<Vec3> points{{1.0, 2.0, 5.0}};
+    for (int n = 0; n < 40; ++n) {
+        points.emplace_back(1.0 + 0.1 * n, 2.0, n % 2 == 0 ? -0.5 : -0.4);
+        points.back().z() = std::max(points.back().z(), points[points.size() - 2].z() - 0.15);
+    }
+    {
+        std::ofstream out(bench.folder / "points.csv");
+        for (const Vec3& point : points) {
+            out << point.x() << "," << point.y() << "," << point.z() << "\n";
+        }
+    }
+    bench.drop(bench.folder / "points.csv");
+    ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    ASSERT_TRUE(bench.made().points);
+    EXPECT_FALSE(bench.made().cuts.empty());
+    actions::TableChoice choice;
+    choice.port = table.port();
+    choice.record = {};
+    choice.record.answer = "ok";
+    bench.plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.frames();
+    EXPECT_TRUE(bench.person.sees("lower/period"));
+    EXPECT_FALSE(bench.person.sees("lower/velocity")); // the points have theirs
+    EXPECT_EQ(bench.plot().table_start(), points.front());
+    bench.person.click("lower/plot_play_table");
+    bench.person.frames(3);
+    ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
+    ASSERT_TRUE(bench.person.live_until(
+        [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }, 60.0));
+    const auto went = table.positions();
+    ASSERT_EQ(went.size(), points.size());
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        EXPECT_LT((Vec3(went[n][0], went[n][1], went[n][2]) - points[n]).norm(), 1e-4) << n;
+    }
+    bench.person.keep("plot-table-points");
 }
 
 TEST(PlotTable, WhatIsRefusedIsToldWholeAndInTheWordsOfThePane) {

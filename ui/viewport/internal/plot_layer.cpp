@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace millwright::viewport {
 
@@ -67,6 +68,35 @@ render::MeshBuffer mesh_of(const HeightField& field, const plot::GrayImage& ligh
     return {vertices, triangles};
 }
 
+/// Below the deepest cut, so that the path lies over it.
+render::MeshBuffer mesh_of(const project::ShownPicture& shown, double z) {
+    const plot::Picture& picture = shown.picture;
+    std::vector<render::MeshVertex> vertices;
+    for (int row = 0; row < picture.height; ++row) {
+        for (int column = 0; column < picture.width; ++column) {
+            const Vec2 at = shown.corner + Vec2(column, picture.height - 1 - row).cwiseProduct(shown.cell);
+            const auto gray = static_cast<float>(picture.at(row, column)) / static_cast<float>(plot::white);
+            vertices.push_back(
+                {.position = {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(z)},
+                 .normal = {0.0F, 0.0F, 1.0F},
+                 .color = glm::vec4(glm::vec3(gray), 1.0F)});
+        }
+    }
+    std::vector<std::uint32_t> triangles;
+    const auto at = [&](int row, int column) {
+        return static_cast<std::uint32_t>(row * picture.width + column);
+    };
+    for (int row = 0; row + 1 < picture.height; ++row) {
+        for (int column = 0; column + 1 < picture.width; ++column) {
+            triangles.insert(triangles.end(),
+                             {at(row, column), at(row + 1, column), at(row + 1, column + 1)});
+            triangles.insert(triangles.end(),
+                             {at(row, column), at(row + 1, column + 1), at(row, column + 1)});
+        }
+    }
+    return {vertices, triangles};
+}
+
 class PlotLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
@@ -75,6 +105,7 @@ public:
             cuts_.clear();
             air_.clear();
             look_.reset();
+            shown_.reset();
             return;
         }
         tool_.prepare();
@@ -86,6 +117,18 @@ public:
         if (scene.plot->look != look_) {
             look_ = scene.plot->look;
             mesh_ = look_ ? mesh_of(*look_, scene.plot->light) : render::MeshBuffer();
+        }
+        follow_picture(scene);
+    }
+
+    /// The picture is made a mesh when somebody wants to see it.
+    void follow_picture(const Scene& scene) {
+        const auto wanted = scene.picture_shown ? scene.plot->shown_picture : nullptr;
+        const double z = wanted && scene.plot->path ? -plot::deepest(*scene.plot->path) - 0.1 : 0.0;
+        if (wanted != shown_ || std::abs(z - picture_z_) > 0.0) {
+            shown_ = wanted;
+            picture_z_ = z;
+            picture_ = shown_ ? mesh_of(*shown_, z) : render::MeshBuffer();
         }
     }
 
@@ -108,11 +151,14 @@ public:
         if (!scene.plot) {
             return;
         }
-        if (scene.layers.surface && look_) {
+        const bool looks = scene.layers.surface && look_ && !shown_;
+        if (shown_) {
+            draw_picture(canvas);
+        } else if (looks) {
             draw_look(scene, canvas);
         }
         const bool rows = scene.plot->picture && scene.plot->levels.empty(); // would hide what they leave
-        if (scene.layers.toolpath && !(rows && scene.layers.surface && look_)) {
+        if (scene.layers.toolpath && !(rows && looks)) {
             draw_paths(scene, canvas);
         }
         if (scene.layers.tool && scene.table_tip) {
@@ -133,12 +179,20 @@ private:
         canvas.painter.mesh(mesh_, style, canvas.view);
     }
 
+    void draw_picture(const Canvas& canvas) const {
+        render::MeshStyle style;
+        style.model = canvas.s_T_w;
+        style.coloring.from = render::ColorFrom::vertex;
+        style.lit = false;
+        canvas.painter.mesh(picture_, style, canvas.view);
+    }
+
     void draw_paths(const Scene& scene, const Canvas& canvas) const {
         const bool rough = canvas.edges == render::Edges::rough;
         const double share = 1.0 / static_cast<double>(cuts_.size() + 1);
         render::PathStyle style;
         style.model = canvas.s_T_w;
-        const bool on_plate = scene.layers.surface && look_ && !scene.against_light;
+        const bool on_plate = scene.layers.surface && look_ && !shown_ && !scene.against_light;
         style.color =
             only_feeds(on_plate ? air_shade * canvas.colors.surface : canvas.colors.rapid, air_opacity);
         air_.draw(scene, canvas, style, rough, -1, share);
@@ -152,6 +206,9 @@ private:
     PathBuffers air_;
     std::shared_ptr<const HeightField> look_;
     render::MeshBuffer mesh_;
+    std::shared_ptr<const project::ShownPicture> shown_;
+    double picture_z_ = 0.0;
+    render::MeshBuffer picture_;
     ToolMark tool_;
     bool unfinished_ = false;
 };

@@ -233,7 +233,8 @@ private:
 
 namespace {
 
-PmacFile read(std::string_view text, Reader reader) {
+PmacFile read(std::string_view text, const std::filesystem::path& file, Reader reader) {
+    refuse_wide_text(text, file);
     text = without_byte_order_mark(text);
     for (int line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -246,11 +247,11 @@ PmacFile read(std::string_view text, Reader reader) {
 } // namespace
 
 PmacFile read_pmac_file(std::string_view text, const std::filesystem::path& file) {
-    return read(text, Reader(file, false));
+    return read(text, file, Reader(file, false));
 }
 
 std::vector<PmacFile::Line> read_pmac_program(std::string_view text, const std::filesystem::path& file) {
-    return read(text, Reader(file, true)).lines;
+    return read(text, file, Reader(file, true)).lines;
 }
 
 std::string_view pmac_error(int number) {

@@ -61,6 +61,30 @@ PointPlayer::PointPlayer(Link* link,
       axes_(static_cast<std::size_t>(model.axis_count())) {
     expect_all_named(track_->points, options.format.pattern);
     status_.position = track_->points.front();
+    if (link_ != nullptr && options_.format.answer.empty()) {
+        expect_carried(*link_, longest_record(), interval());
+    }
+}
+
+/// Of the machine, at point `n`.
+const std::vector<double>& PointPlayer::axes_at(std::size_t n) {
+    for (std::size_t k = 0; k < index_.size(); ++k) {
+        axes_[index_[k]] = track_->points[n][static_cast<Eigen::Index>(k)];
+    }
+    return axes_;
+}
+
+/// Bytes, of a thousand along the track.
+std::size_t PointPlayer::longest_record() {
+    constexpr std::size_t looked_at = 1000;
+    const std::size_t count = track_->points.size();
+    std::size_t longest = 0;
+    for (std::size_t n = 0; n < count; n += std::max<std::size_t>(1, count / looked_at)) {
+        path_.begin(axes_at(n == 0 ? 0 : n - 1));
+        const Record record = path_.to(axes_at(n), std::vector<bool>(axes_.size(), true));
+        longest = std::max(longest, text_.written(record).size() + options_.format.ending.size());
+    }
+    return longest;
 }
 
 PlayStatus PointPlayer::status() const {
@@ -220,18 +244,15 @@ void PointPlayer::rest_at_stops(std::size_t n, const std::stop_token& stop, cons
 }
 
 PointPlayer::Sending PointPlayer::send(std::size_t n, double due) {
-    const Vec3& point = track_->points[n];
     const std::scoped_lock lock(mutex_);
     if (status_.state != PlayState::playing) {
         return status_.state == PlayState::holding ? Sending::held : Sending::over;
     }
-    for (std::size_t k = 0; k < index_.size(); ++k) {
-        axes_[index_[k]] = point[static_cast<Eigen::Index>(k)];
-    }
+    const std::vector<double>& axes = axes_at(n);
     if (n == 0) {
-        path_.begin(axes_);
+        path_.begin(axes);
     }
-    const Record record = path_.to(axes_, std::vector<bool>(axes_.size(), true));
+    const Record record = path_.to(axes, std::vector<bool>(axes_.size(), true));
     meter_.add(clock_.now() - due);
     if (link_ != nullptr) {
         link_->write(text_.written(record) + options_.format.ending);

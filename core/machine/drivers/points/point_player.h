@@ -82,6 +82,8 @@ private:
     enum class Sending { sent, held, over };
 
     [[nodiscard]] bool goes_on() const;
+    [[nodiscard]] const std::vector<double>& axes_at(std::size_t n);
+    [[nodiscard]] std::size_t longest_record();
     void wait_until(double time, const std::stop_token& stop);
     void wait_out(double due, const std::stop_token& stop);
     void wait_for_answer(const std::stop_token& stop);

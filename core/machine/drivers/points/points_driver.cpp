@@ -38,10 +38,20 @@ int block_of(const PointTrack& track, std::int64_t points) {
     return track.blocks[static_cast<std::size_t>(std::max<std::int64_t>(points, 1)) - 1];
 }
 
+int executed_blocks(const PointTrack& track, std::int64_t points) {
+    if (points == 0) {
+        return 0;
+    }
+    const auto next = static_cast<std::size_t>(points);
+    const int block = block_of(track, points);
+    const bool ended = track.ends_blocks && (next == track.blocks.size() || track.blocks[next] > block);
+    return ended ? block + 1 : block;
+}
+
 void add_progress(DriverStatus& status, const PlayStatus& played, const PointTrack& track, int blocks) {
     const bool done = played.state == PlayState::done;
     status.block = done ? blocks - 1 : block_of(track, played.points);
-    status.executed_blocks = done ? blocks : played.points > 0 ? status.block : 0;
+    status.executed_blocks = done ? blocks : executed_blocks(track, played.points);
     status.sent_blocks = done ? blocks : played.sent > 0 ? block_of(track, played.sent) + 1 : 0;
     status.planned_time = played.time;
 }
@@ -84,6 +94,7 @@ Capabilities PointsDriver::capabilities() const {
     Capabilities able;
     able.points = able.told_place = true;
     able.tells_spindle = false;
+    able.answers = !link_ || !options_.format.answer.empty();
     return able;
 }
 

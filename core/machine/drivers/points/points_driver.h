@@ -17,7 +17,8 @@ namespace millwright::machine {
 
 /// Plays the track of a job (Work::points) and nothing else. Hold and stop take effect at once: no further
 /// point is sent, and the table stays at the last one. It rests at the stops of the track. Blocks count as
-/// executed when the table has a point behind them: where records are answered, when that one was answered.
+/// executed when the table has a point behind them, or their last one where they end at it: where records are
+/// answered, when that one was answered; without answers, when it was sent.
 /// Spindle and coolant are switched by hand.
 class PointsDriver final : public Driver {
 public:
@@ -41,8 +42,8 @@ public:
     [[nodiscard]] PlayStatus played() const;
 
     void connect() override;
-    /// Throws Error for work without points, records that leave out an axis which they change, and where the
-    /// table is not at the first point.
+    /// Throws Error for work without points, records that leave out an axis which they change, more of them
+    /// than the link carries where none is answered, and where the table is not at the first point.
     void start(Work work) override;
     void hold() override;
     void resume() override;

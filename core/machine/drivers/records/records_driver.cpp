@@ -42,6 +42,7 @@ Capabilities RecordsDriver::capabilities() const {
     Capabilities able;
     able.overrides = able.single_block = able.optional_stop = able.piecewise = able.told_place = true;
     able.tells_spindle = false;
+    able.answers = talk().awaits_answers();
     return able;
 }
 

@@ -54,6 +54,7 @@ Capabilities StreamDriver::capabilities() const {
     Capabilities able = machine_.capabilities();
     able.told_place = true;
     able.tells_spindle = false;
+    able.answers = awaits_answers();
     return able;
 }
 
@@ -102,6 +103,12 @@ std::string StreamDriver::text_for(const AxisPositions& position) {
 
 void StreamDriver::connect() {
     if (machine_.status().state == DriverState::disconnected) {
+        if (options_.paced && !awaits_answers()) {
+            constexpr double usual = 100.0; // as long as positions are
+            const AxisPositions position = AxisPositions::Constant(model_->axis_count(), usual);
+            record_path_.begin(as_written(position));
+            expect_carried(*link_, text_for(position).size(), options_.period);
+        }
         link_->open();
         machine_.connect();
         begin();

@@ -56,6 +56,7 @@ public:
 
     /// Sends the heading, and nothing more: whoever follows samples does not move before a job, a jog or a
     /// command.
+    /// Throws Error, too, where the link cannot carry the samples in their time.
     void connect() override;
     void start(Work work) override;
     void hold() override { machine_.hold(); }

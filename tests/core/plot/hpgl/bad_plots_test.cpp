@@ -1,6 +1,8 @@
 // Damaged and hostile plot files: a diagnostic with its byte, nothing drawn from what is wrong, bounded
 // memory.
 #include "core/plot/hpgl/reader.h"
+#include "core/plot/path_file.h"
+#include "core/plot/point_file.h"
 #include "tests/support/reason.h"
 #include "tests/support/scratch_folder.h"
 
@@ -300,9 +302,26 @@ TEST(BadPlots, AnyBytesGiveFinitePoints) {
 // The zero bytes between its letters would end each number after one digit.
 TEST(BadPlots, TextInUtf16IsRefused) {
     using namespace std::string_literals;
-    for (const std::string& text : {"\xFF\xFES\0P\0001\0;\0"s, "\xFE\xFF\0S\0P\0001\0;"s}) {
+    const auto stretched = [](std::string_view text, std::size_t before, std::size_t after) {
+        std::string wide;
+        for (const char c : text) {
+            wide += std::string(before, '\0') + c + std::string(after, '\0');
+        }
+        return wide;
+    };
+    const std::string_view plot = "IN;SP1;PU0,0;PD1000,0;PU;";
+    EXPECT_NEAR(read_hpgl(plot, "p.plt").strokes.at(0).points.at(1).x(), 25.0, 1e-9);
+    for (const std::string& text : {"\xFF\xFES\0P\0001\0;\0"s,
+                                    "\xFE\xFF\0S\0P\0001\0;"s,
+                                    stretched(plot, 0, 1),
+                                    stretched(plot, 1, 0)}) {
         EXPECT_THAT(test::reason([&] { (void)read_hpgl(text, "wide.plt"); }),
                     HasSubstr("wide.plt byte 0: the file is text in UTF-16"));
+        EXPECT_THAT(test::reason([&] { (void)read_points(text, "wide.csv"); }), HasSubstr("UTF-16"));
+        EXPECT_THAT(test::reason([&] { (void)read_path(text, "wide.path"); }), HasSubstr("UTF-16"));
+    }
+    for (const std::string& text : {stretched(plot, 0, 3), stretched(plot, 3, 0)}) {
+        EXPECT_THAT(test::reason([&] { (void)read_hpgl(text, "wide.plt"); }), HasSubstr("UTF-32"));
     }
 }
 

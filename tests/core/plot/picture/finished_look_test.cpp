@@ -51,6 +51,26 @@ TEST(FinishedLook, IsTheSameOnAnyNumberOfThreads) {
     set_thread_count(0);
 }
 
+TEST(FinishedLook, EachToolCutsAsWideAsItIs) {
+    CutPath path = two_rows();
+    path[3].tool = path[4].tool = 2; // the second row
+    for (CutPoint& point : path) {
+        point.at.y() *= 10.0; // rows 8 mm apart
+    }
+    const HeightField field = finished_by(path, {{TipKind::flat, 2.0}, {{2, {TipKind::flat, 6.0}}}}, 500);
+    const auto width_at = [&](double y) { // of what is cut 1 mm deep, across x = 4
+        int cut = 0;
+        for (int row = 0; row < field.rows; ++row) {
+            const double at = field.corner.y() + field.y_of_row(row);
+            const auto column = static_cast<std::size_t>((4.0 - field.corner.x()) / field.pitch);
+            cut += std::abs(at - y) < 3.9 && field.row(row)[column] < -0.99F ? 1 : 0;
+        }
+        return cut * field.pitch;
+    };
+    EXPECT_NEAR(width_at(0.0), 2.0, 3.0 * field.pitch);
+    EXPECT_NEAR(width_at(8.0), 6.0, 3.0 * field.pitch);
+}
+
 TEST(FinishedLook, OfAThinPointIsNotEmpty) {
     const HeightField field = finished(two_rows(), {TipKind::point}, 100);
     EXPECT_GT(std::ranges::count(field.z, -1.0F), 150);

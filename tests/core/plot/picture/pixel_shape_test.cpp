@@ -83,8 +83,9 @@ TEST(PixelShape, AFileMaySayTheShapeAlone) {
 
 /// A chunk with no check sum that anybody looks at, behind the head of `png`.
 std::string with_exif(const std::string& png, int orientation) {
-    const std::string tiff = std::string("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19) +
-                             static_cast<char>(orientation) + std::string("\0\0\0\0\0\0", 6);
+    std::string tiff("MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0", 19);
+    tiff += static_cast<char>(orientation);
+    tiff += std::string(6, '\0');
     constexpr std::size_t behind_head = 8 + 25;
     return png.substr(0, behind_head) + std::string("\0\0\0\x1A", 4) + "eXIf" + tiff +
            std::string("\0\0\0\0", 4) + png.substr(behind_head);
@@ -119,6 +120,32 @@ TEST(TransparentGround, IsNotCutWhetherThePictureIsInvertedOrNot) {
         read_picture(png_of(logo), "logo.png", {.invert = true, .ground = relief_top}).picture;
     EXPECT_EQ(inverted.gray, (std::vector<std::uint16_t>{0, 0, white}));
     EXPECT_FLOAT_EQ(height_field(inverted, 1.0, 2.0).z[1], 0.0F);
+}
+
+TEST(PixelShape, CellsAreAsHighAsAPersonSays) {
+    const std::string png = png_of(stripes(6, 4));
+    const Picture high = read_picture(png, "a.png", {.pixel_aspect = 2.0}).picture;
+    EXPECT_EQ(high.width, 6);
+    expect_rows(high, {0, 0, 40, 40, 80, 80, 120, 120});
+    expect_rows(read_picture(png, "a.png", {.pixel_aspect = 0.5}).picture, {20, 100});
+    EXPECT_THROW((void)read_picture(png, "a.png", {.pixel_aspect = 0.0}), Error);
+}
+
+TEST(GraySteps, AreBandsOfEqualWidthFromBlackToWhite) {
+    Samples samples{256, 1, 1, {}};
+    for (std::uint16_t gray = 0; gray < 256; ++gray) {
+        samples.values.push_back(gray);
+    }
+    const std::string png = png_of(samples);
+    for (const int steps : {2, 8, 16, 256}) {
+        const Picture picture = read_picture(png, "a.png", {.gray_steps = steps}).picture;
+        for (int gray = 0; gray < 256; ++gray) {
+            const int band = gray * steps / 256;
+            EXPECT_NEAR(picture.at(0, gray), 65535.0 * band / (steps - 1), 1.0) << steps << " " << gray;
+        }
+    }
+    EXPECT_THROW((void)read_picture(png, "a.png", {.gray_steps = 1}), Error);
+    EXPECT_THROW((void)read_picture(png, "a.png", {.gray_steps = 257}), Error);
 }
 
 } // namespace

@@ -26,6 +26,7 @@ public:
     void start(const Work& work, double now);
     void set_optional_stop(bool on) { optional_stop_ = on; }
     void set_single_block(bool on) { single_block_ = on; }
+    [[nodiscard]] bool awaits_answers() const { return !format_.answer.empty(); }
     /// Records that were sent so far.
     [[nodiscard]] int records() const { return records_; }
 
@@ -66,7 +67,6 @@ private:
         double way = 0.0;    ///< of a record: how long its way takes at its speed
     };
 
-    [[nodiscard]] bool awaits_answers() const { return !format_.answer.empty(); }
     void answered(const std::string& line, double now);
     [[nodiscard]] bool listens(double now) const { return now < listens_until_; }
     void look_at_clock(double now);

@@ -73,7 +73,15 @@ TEST(PointsDriver, PlaysAJobToItsEndAndItsLogHasIt) {
     const JobOutcome outcome = bench.dispatcher.run(bench.job, {});
     EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
     EXPECT_EQ(outcome.executed_blocks, bench.job.block_count());
+    // A file answers nothing.
+    EXPECT_THAT(outcome.sentence, HasSubstr(" blocks were sent in "));
+    EXPECT_THAT(outcome.sentence, testing::Not(HasSubstr("were executed")));
+    const std::string text = read_file(outcome.log_file);
+    EXPECT_THAT(text, HasSubstr("\"record\":\"sent\""));
+    EXPECT_THAT(text, testing::Not(testing::AnyOf(HasSubstr("executed_blocks"), HasSubstr("\"executed\""))));
+    EXPECT_THAT(job_story(outcome.log_file).sentence, HasSubstr("blocks were sent."));
     const ReadLog log = read_job_log(outcome.log_file);
+    EXPECT_FALSE(log.start.answers);
     EXPECT_EQ(log.start.driver, "points");
     EXPECT_EQ(log.start.address, "file:" + (bench.folder.path() / "sent").string());
     EXPECT_EQ(log.start.blocks, bench.job.block_count());

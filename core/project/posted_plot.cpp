@@ -1,0 +1,34 @@
+#include "core/project/internal/posted_plot.h"
+
+#include "core/gcode/plot_program.h"
+#include "core/gcode/posts/post_file.h"
+#include "core/kinematics/machine_file.h"
+#include "core/project/assets.h"
+
+#include <string>
+#include <utility>
+
+namespace millwright::project {
+
+PostedPlot
+posted_plot(const PlotResult& result, const plot::CutPath& path, const std::filesystem::path& assets) {
+    const PlotSettings& settings = result.input.settings;
+    const std::filesystem::path folder = result.input.file.parent_path();
+    kinematics::MachineModel machine =
+        kinematics::read_machine(machine_path(settings.machine, folder, assets));
+    gcode::expect_on_table(path, machine, settings.origin);
+    const gcode::Program program =
+        gcode::plot_program(path,
+                            {.machine = machine.name(),
+                             .axes = gcode::plot_axes(machine),
+                             .header = {"made of: " + result.input.file.filename().string()},
+                             .spindle_rpm = result.spindle_rpm()});
+    gcode::PostFormat format = gcode::read_post(post_path(settings.post, folder, assets));
+    const std::string name = result.input.file.stem().string();
+    const std::filesystem::path file = name + "." + format.extension;
+    gcode::ReleasedText released =
+        gcode::release(program, machine, format, {.text = {.name = gcode::text_name(name)}, .file = file});
+    return {std::move(machine), std::move(format), std::move(released), file};
+}
+
+} // namespace millwright::project

@@ -1,0 +1,13 @@
+// What is set for one level of a plot: whether, how deep, how fast, with which cutter, on which side.
+#pragma once
+
+#include "ui/panels/panel.h"
+
+#include <cstddef>
+
+namespace millwright::panels {
+
+/// Of level `n` of those that are in force, PlotBench::levels().
+void level_fields(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n);
+
+} // namespace millwright::panels

@@ -1,0 +1,131 @@
+#include "ui/panels/picture_pane.h"
+
+#include "ui/panels/internal/fields.h"
+#include "ui/widgets/heat_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace millwright::panels {
+
+namespace {
+
+widgets::Colour gray_colour(double share) {
+    const auto level = static_cast<widgets::Colour>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+    return 0xFF000000U | level << 16U | level << 8U | level;
+}
+
+/// In pixels of the file.
+plot::PixelRegion region_between(int row, int column, int other_row, int other_column, int side) {
+    const auto [top, bottom] = std::minmax(row, other_row);
+    const auto [left, right] = std::minmax(column, other_column);
+    return {.left = left * side,
+            .top = top * side,
+            .width = (right - left + 1) * side,
+            .height = (bottom - top + 1) * side};
+}
+
+void change_region(ActionQueue& ask,
+                   const std::string& title,
+                   const std::optional<plot::PixelRegion>& region) {
+    ask.edit(title, [region](project::Project& draft) { draft.plot.settings.picture.region = region; });
+}
+
+} // namespace
+
+void PicturePane::follow(const std::shared_ptr<const project::ShownPicture>& shown) {
+    if (shown == shown_) {
+        return;
+    }
+    shown_ = shown;
+    const plot::Picture& picture = shown->picture;
+    x_.clear();
+    y_.clear();
+    gray_.clear();
+    for (int column = 0; column < picture.width; ++column) {
+        x_.push_back(shown->corner.x() + column * shown->cell.x());
+    }
+    for (int row = picture.height - 1; row >= 0; --row) { // a map begins below
+        y_.push_back(shown->corner.y() + (picture.height - 1 - row) * shown->cell.y());
+        for (int column = 0; column < picture.width; ++column) {
+            gray_.push_back(shown->gray(row, column));
+        }
+    }
+}
+
+PicturePane::Cell PicturePane::cell_at(double x, double y) const {
+    const auto steps = [](double distance, double step, int count) {
+        return std::clamp(static_cast<int>(std::lround(distance / step)), 0, count - 1);
+    };
+    const plot::Picture& picture = shown_->picture;
+    const int up = steps(y - shown_->corner.y(), shown_->cell.y(), picture.height);
+    return {.row = picture.height - 1 - up,
+            .column = steps(x - shown_->corner.x(), shown_->cell.x(), picture.width)};
+}
+
+void PicturePane::mark(const Cell& corner, ActionQueue& ask) {
+    if (!first_) {
+        first_ = corner;
+        return;
+    }
+    const Cell other = *std::exchange(first_, std::nullopt);
+    change_region(
+        ask,
+        "Mark a region",
+        region_between(other.row, other.column, corner.row, corner.column, shown_->picture.file_pixels));
+}
+
+void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const auto made = now.plot.latest();
+    if (!made || !made->shown_picture) {
+        return;
+    }
+    follow(made->shown_picture);
+    const int side = shown_->picture.file_pixels;
+    {
+        const auto line = ui.row(2);
+        const auto& region = now.plot.settings().picture.region;
+        if (ui.button("whole",
+                      "Whole picture",
+                      region ? widgets::Permission{} : widgets::Permission::refused("All of it is cut."),
+                      {{}, widgets::Rank::normal, -1.0F, "Forgets the region that is cut"})) {
+            first_.reset();
+            change_region(ask, "Cut the whole picture", std::nullopt);
+        }
+        ui.note(
+            first_ ? "Click the opposite corner of the region."
+            : side > 1
+                ? fmt::format("A cell is the mean of {0} x {0} pixels. Click two corners of a region.", side)
+                : "Click two corners of the region that is to be cut.");
+    }
+    widgets::HeatMapView view;
+    view.title = "G(i,j)";
+    view.x_label = "x";
+    view.x_unit = "mm";
+    view.y_label = "y";
+    view.y_unit = "mm";
+    view.x = x_;
+    view.y = y_;
+    view.values = gray_;
+    view.colours = gray_colour;
+    view.when_empty = "The picture has one row or column only.";
+    view.readout = [this](std::size_t column, std::size_t row) {
+        const int i = shown_->picture.height - 1 - static_cast<int>(row);
+        const int j = static_cast<int>(column);
+        return fmt::format(
+            "G({}, {}) = {}\nx {:.2f} mm, y {:.2f} mm", i, j, shown_->gray(i, j), x_[column], y_[row]);
+    };
+    if (first_) {
+        const auto up = static_cast<std::size_t>(shown_->picture.height - 1 - first_->row);
+        view.chosen = widgets::MapPlace{x_[static_cast<std::size_t>(first_->column)], y_[up]};
+    }
+    if (const auto clicked = widgets::heat_map(ui, "gray_map", view)) {
+        mark(cell_at(clicked->x, clicked->y), ask);
+    }
+}
+
+} // namespace millwright::panels

@@ -1,0 +1,33 @@
+// The picture that is cut as a map of its brightness: G(i,j) under the mouse, and a region marked by two
+// clicks.
+#pragma once
+
+#include "core/project/plot_work.h"
+#include "ui/panels/panel.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace millwright::panels {
+
+class PicturePane final : public Panel {
+public:
+    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+
+private:
+    struct Cell {
+        int row = 0; ///< from the top
+        int column = 0;
+    };
+
+    void follow(const std::shared_ptr<const project::ShownPicture>& shown);
+    [[nodiscard]] Cell cell_at(double x, double y) const;
+    void mark(const Cell& corner, ActionQueue& ask);
+
+    std::shared_ptr<const project::ShownPicture> shown_; ///< of which the rest is
+    std::vector<double> x_, y_, gray_;                   ///< as heat_map() takes them
+    std::optional<Cell> first_;                          ///< corner of a region
+};
+
+} // namespace millwright::panels
