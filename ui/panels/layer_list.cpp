@@ -27,6 +27,11 @@ void layer_rows(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::C
     if (widgets::menu_item(ui, "usual", usual.info().title, usual.info().shortcut, usual.permission(now))) {
         ask.run(std::string(usual.info().id));
     }
+    const actions::Action& colors = catalogue.find("view.colors");
+    if (widgets::menu_item(
+            ui, "colors", colors.info().title, colors.info().shortcut, colors.permission(now))) {
+        ask.run(std::string(colors.info().id));
+    }
 }
 
 void layer_button(Ui& ui,

@@ -154,7 +154,7 @@ void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
         }
         for (const auto& action : catalogue_.all()) {
             const actions::ActionInfo& info = action->info();
-            if (info.menu != title) {
+            if (info.menu != title || info.id == "view.colors") { // which is with the layers
                 continue;
             }
             if (info.id == "file.quit") {

@@ -102,7 +102,7 @@ TEST(LayerList, IsInTheViewMenuToo) {
     person.hover(person.place("menu/view/layers").centre());
     ASSERT_TRUE(person.sees("menu/view/layers/floor"));
     person.keep("layers-menu");
-    EXPECT_LE(person.place("menu/view/layers/usual").bottom(), 800.0F);
+    EXPECT_LE(person.place("menu/view/layers/colors").bottom(), 800.0F);
     const bool before = shown_layers(person).floor;
     person.click("menu/view/layers/floor");
     EXPECT_NE(shown_layers(person).floor, before);
