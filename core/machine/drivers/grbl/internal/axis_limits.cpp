@@ -131,10 +131,10 @@ std::vector<std::string> setup_remarks(const Readout& readout) {
         not_homed.append(!checked && travel && *travel > 0.0 ? 1 : 0, readout.axes[n]);
     }
     if (!lengths.empty()) {
-        remarks.push_back(fmt::format(
-            "Setting $376 does not mark {} as rotary: in a program in inches they would turn 25.4 "
-            "times as far. Add 1 for A, 2 for B, 4 for C to $376.",
-            listed(lengths)));
+        remarks.push_back(
+            fmt::format("Setting $376 does not mark {} as rotary: a program in inches would turn it 25.4 "
+                        "times as far. Add 1 for A, 2 for B, 4 for C to $376.",
+                        listed(lengths)));
     }
     if (!unknown.empty()) {
         remarks.push_back(

@@ -324,7 +324,7 @@ TEST(GrblFirmware, LimitsAreThoseOfItsSettings) {
 /// A grblHAL that takes A for a length moves it 25.4 times as far in inches.
 TEST(GrblFirmware, WarnsOfAnAxisThatIsTakenForALength) {
     GrblWire wire({}, hal("XYZA"));
-    EXPECT_THAT(setup_remarks(wire.session.readout()), Contains(HasSubstr("takes A for lengths")));
+    EXPECT_THAT(setup_remarks(wire.session.readout()), Contains(HasSubstr("does not mark A as rotary")));
     (void)wire.session.command(command_lines("G20\nG0 A1"), wire.now);
     wire.run_to_end();
     EXPECT_NEAR(wire.grbl.axis_position('A'), 25.4, 0.01);
