@@ -44,6 +44,18 @@ void keep_dtr(int handle) {
     }
 }
 
+/// Whether the system has set the port so: what a port does not have, it may leave out without a word.
+bool is_set_so(int handle, const SerialLine& line) {
+    termios now{};
+    if (::tcgetattr(handle, &now) != 0) {
+        throw_last_error();
+    }
+    const auto has = [&](tcflag_t flag) { return (now.c_cflag & flag) != 0; };
+    return (now.c_cflag & CSIZE) == (line.data_bits == 7 ? tcflag_t{CS7} : tcflag_t{CS8}) &&
+           has(PARENB) == (line.parity != SerialParity::none) &&
+           has(PARODD) == (line.parity == SerialParity::odd) && has(CSTOPB) == (line.stop_bits == 2);
+}
+
 /// A port may not have all that lines can be: a pseudo-terminal knows no parity.
 void set_line(boost::asio::serial_port& port, const SerialAddress& address) {
     const SerialLine& line = address.line;
@@ -59,6 +71,11 @@ void set_line(boost::asio::serial_port& port, const SerialAddress& address) {
         throw Error(fmt::format("the serial port does not take {}", to_text(line)),
                     address.path,
                     failure.code().message());
+    }
+    if (!is_set_so(port.native_handle(), line)) {
+        throw Error(fmt::format("the serial port does not take {}", to_text(line)),
+                    address.path,
+                    "it has other data bits, parity or stop bits");
     }
 }
 

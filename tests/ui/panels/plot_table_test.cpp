@@ -39,8 +39,8 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     EXPECT_NE(*moving.table_tip(), Vec3::Zero());
     EXPECT_TRUE(scene_of(moving).table_tip);
     EXPECT_FALSE(scene_of(moving).opened_now); // the timeline is elsewhere
-    EXPECT_TRUE(bench.person.sees("inspector/position/points"));
-    EXPECT_EQ(bench.person.refusal("timeline/play"), "The view follows the table.");
+    EXPECT_TRUE(bench.person.sees("layers/position/points"));
+    EXPECT_EQ(bench.person.refusal("timeline/timeline/play"), "The view follows the table.");
     bench.person.keep("plot-table");
     bench.person.click("emergency/machine_emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
@@ -50,7 +50,7 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     EXPECT_EQ(table_text(after), "");
     EXPECT_EQ(after.table_tip(), stopped.status.position);
     bench.person.frames(2);
-    bench.person.click("timeline/last");
+    bench.person.click("timeline/timeline/last");
     bench.person.frames(2);
     EXPECT_FALSE(bench.person.workshop().look().table_tip());
     EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
@@ -166,7 +166,7 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     ASSERT_TRUE(bench.person.live_until(cuts, 60.0)) << table.position()[0];
     // The port is the table's while it plays, and anybody's afterwards.
     const std::unique_ptr<machine::Link> anybody = machine::make_link(table.port());
-    EXPECT_THAT(test::reason([&] { anybody->open(); }), HasSubstr("holds the serial port"));
+    EXPECT_THAT(test::reason([&] { anybody->open(); }), HasSubstr("held already"));
     bench.person.click("lower/plot_stop_table");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
     EXPECT_NO_THROW(anybody->open());
