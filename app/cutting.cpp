@@ -73,7 +73,7 @@ kinematics::MachineModel machine_of(const CuttingOptions& options) {
 namespace {
 
 Vec3 origin_of(const CuttingOptions& options) {
-    return origin_from(options.origin);
+    return origin_from(options.origin).at();
 }
 
 plot::CutPath placed(plot::CutPath path, const Vec3& origin) {

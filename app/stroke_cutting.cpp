@@ -60,9 +60,9 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
     plot::CutSettings cut;
     cut.safe_height = options.cutting.safe_height;
     if (!options.change_position.empty()) {
-        cut.change_position = origin_from(options.change_position);
+        cut.change_position = origin_from(options.change_position).at();
     }
-    cut.change_position -= origin_from(options.cutting.origin); // on the machine, as it is moved there
+    cut.change_position -= origin_from(options.cutting.origin).at(); // on the machine, as it is moved there
     cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
     cut.levels = plot::levels_for(strokes, like);
     for (plot::Level& level : cut.levels) {

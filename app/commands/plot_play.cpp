@@ -119,7 +119,7 @@ machine::Job job_to_play(const PlotPlayOptions& options) {
     const std::string text = read_file(options.file);
     plot::PointFile read = points_to_play(text, options.file);
     for (Vec3& point : read.points) {
-        point += origin_from(options.origin);
+        point += origin_from(options.origin).at();
     }
     auto model = std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
