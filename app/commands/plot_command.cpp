@@ -263,7 +263,7 @@ std::vector<Vec3> plot_points(const PlotOptions& options) {
 int decode(const PlotOptions& options) {
     std::vector<Vec3> points = plot_points(options);
     for (Vec3& point : points) {
-        point += origin_from(options.cutting.cutting.origin);
+        point += origin_from(options.cutting.cutting.origin).at();
     }
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
