@@ -3,13 +3,11 @@
 #include "core/base/files.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "core/gcode/reader/tool_comments.h"
 #include "core/machine/job.h"
 #include "core/machine/way_on.h"
 #include "core/project/color_choices.h"
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
-#include "core/project/plot_settings.h"
 #include "core/project/project_file.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/at_rest.h"
@@ -20,7 +18,6 @@
 #include "ui/actions/workshop.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -40,22 +37,6 @@ std::int64_t seconds_since_1970() {
 
 bool is_project_file(const fs::path& file) {
     return file.extension() == ".json";
-}
-
-/// Beside what it was made of; of what ships with the program, and where nothing can be written, in a folder
-/// of the user's own.
-fs::path place_of_program(const fs::path& drawing, const WorkshopOptions& options) {
-    std::error_code ignored;
-    const fs::path folder = fs::weakly_canonical(drawing.parent_path(), ignored);
-    const fs::path shipped = fs::weakly_canonical(options.assets, ignored);
-    const auto [end, rest] = std::ranges::mismatch(shipped, folder);
-    const bool ships = !options.assets.empty() && end == shipped.end();
-    if (!ships && ::access(folder.c_str(), W_OK) == 0) {
-        return drawing.parent_path();
-    }
-    const fs::path own = options.log_folder.parent_path() / "programs";
-    make_folder(own);
-    return own;
 }
 
 /// Of what is read as G-code.
@@ -143,148 +124,6 @@ void Workshop::open_gcode(const fs::path& file) {
     session_.playback = {};
     tells_of_file_ = true;
     remember(file);
-}
-
-namespace {
-
-/// What was set for one drawing and would be a surprise in the next: levels, the side of the cutter, hatches,
-/// links and order of strokes, the place on the machine, a frame, leave to go through the plate. Tools,
-/// speeds, depths, the plate, machine and control stay.
-void forget_drawing(project::PlotSettings& settings) {
-    const plot::StrokePlan usual{.tool_diameter = settings.strokes.tool_diameter};
-    settings.levels.clear();
-    settings.strokes = usual;
-    settings.origin = Vec2::Zero();
-    settings.frame.reset();
-    settings.through = false;
-}
-
-} // namespace
-
-namespace {
-
-/// The first that a CAM program names, at its beginning; nothing of other files.
-std::optional<gcode::CommentTool> tool_of_comments(const fs::path& file) {
-    if (!project::is_gcode_file(file) || project::holds_points(file)) {
-        return std::nullopt;
-    }
-    constexpr std::size_t beginning = 1 << 18;
-    std::string text(beginning, '\0');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    const auto tools = gcode::tools_in_comments(text);
-    const auto& setting = project::plot_number("tool_mm");
-    const bool fits =
-        !tools.empty() && tools.front().diameter >= setting.min && tools.front().diameter <= setting.max;
-    return fits ? std::optional(tools.front()) : std::nullopt;
-}
-
-} // namespace
-
-void Workshop::open_plot(const fs::path& file) {
-    if (jobs_->view().running) {
-        throw Error("a job is running; a plot can be opened when it has ended", file);
-    }
-    if (!fs::is_regular_file(file)) {
-        throw Error(fs::exists(file) ? "is no file" : "there is no such file", file);
-    }
-    const fs::path whole = fs::absolute(file).lexically_normal();
-    const bool another = history_.current().plot.file != whole;
-    if (!another) {
-        plot_->read_again();
-    }
-    const auto tool = another ? tool_of_comments(whole) : std::nullopt;
-    edit("Open " + file.filename().string(),
-         [&](project::Project& draft) {
-             if (another) {
-                 draft.plot.file = whole;
-                 forget_drawing(draft.plot.settings);
-             }
-             if (tool) {
-                 draft.plot.settings.strokes.tool_diameter = tool->diameter;
-             }
-         },
-         {});
-    if (tool) {
-        tell(session_,
-             widgets::Severity::info,
-             fmt::format(
-                 "A comment in line {} says the tool is {} mm wide: that is now the cutter's diameter.",
-                 tool->line,
-                 shortest(tool->diameter)));
-    }
-    session_.side_wanted = render::StandardView::top; // drawings are read from above
-    session_.workspace = Workspace::plot;
-    session_.question = FileQuestion::none;
-    session_.fit_wanted = true;
-    remember(file);
-}
-
-/// The program that was made of the plot takes the place of an opened one, while one looks at the plot.
-void Workshop::follow_plot() {
-    guarded([&] { finish_writing_plot(); });
-    if (session_.workspace != Workspace::plot) {
-        return give_place_back();
-    }
-    const auto made = plot_->latest();
-    if (!made || !made->finished || made->program.empty() || made->revision == followed_plot_ ||
-        jobs_->view().running) {
-        return;
-    }
-    followed_plot_ = made->revision;
-    project::ReadingChoice reading;
-    reading.machine = made->input.settings.machine;
-    guarded([&] { reader_->open(made->program, reading, options_.assets); });
-    session_.file.step.reset();
-    const BeginAt begin = std::exchange(session_.begin, {});
-    gcode_begin_ = std::exchange(plot_plays_, true) ? gcode_begin_ : begin;
-    session_.playback.playing = false;
-    tells_of_file_ = false;
-}
-
-/// To the program that a person had opened, if any.
-void Workshop::give_place_back() {
-    if (!plot_plays_ || gcode_.empty() || jobs_->view().running) {
-        return;
-    }
-    plot_plays_ = false;
-    followed_plot_ = 0;
-    guarded([&] { reader_->open(gcode_, session_.file.reading, options_.assets); });
-    session_.file.step.reset();
-    session_.begin = std::exchange(gcode_begin_, {});
-    session_.playback.playing = false;
-}
-
-void Workshop::write_plot(bool to_machine) {
-    writes_plot_ = to_machine;
-    plot_->make_program();
-    finish_writing_plot();
-}
-
-void Workshop::write_plot_path() {
-    const fs::path path = plot_->write_path(place_of_program(plot_->file(), options_));
-    tell(session_, widgets::Severity::good, "Path written.", path.string());
-}
-
-void Workshop::finish_writing_plot() {
-    const auto made = plot_->latest();
-    if (!writes_plot_ || !made || !made->finished || !plot_->is_current(*made) ||
-        (made->program.empty() && !made->failure)) {
-        return;
-    }
-    const bool to_machine = *std::exchange(writes_plot_, std::nullopt);
-    if (made->failure) {
-        throw Error(*made->failure);
-    }
-    const fs::path program = plot_->write_program(place_of_program(plot_->file(), options_));
-    tell(session_, widgets::Severity::good, "G-code written.", program.string());
-    if (to_machine) {
-        session_.file.reading.machine = plot_->settings().machine;
-        open_gcode(program);
-        session_.workspace = Workspace::machine;
-        follow_file();
-    }
 }
 
 void Workshop::read_again() {

@@ -14,6 +14,8 @@ namespace millwright::panels {
 
 namespace {
 
+constexpr float least_height = 300.0F; // of the map; a lower pane scrolls
+
 widgets::Colour gray_colour(double share) {
     const auto level = static_cast<widgets::Colour>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
     return 0xFF000000U | level << 16U | level << 8U | level;
@@ -111,6 +113,8 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.x = x_;
     view.y = y_;
     view.values = gray_;
+    view.same_scale = true;
+    view.height = std::max(ui.rest().h, ui.px(least_height));
     view.colours = gray_colour;
     view.when_empty = "The picture has one row or column only.";
     view.readout = [this](std::size_t column, std::size_t row) {

@@ -64,6 +64,14 @@ Mapping heat_map_mapping(const HeatMapView& view, const Rect& box) {
     return mapping;
 }
 
+/// As large as fits with a unit of x as long as one of y, at the left.
+Rect with_same_scale(const HeatMapView& view, Rect box) {
+    const Mapping whole = heat_map_mapping(view, box);
+    const auto ratio = static_cast<float>((whole.x_high - whole.x_low) / (whole.y_high - whole.y_low));
+    const float width = std::min(box.w, box.h * ratio);
+    return {box.x, box.y, width, width / ratio};
+}
+
 bool has_holes(const HeatMapView& view) {
     return !std::ranges::all_of(view.values, [](double value) { return std::isfinite(value); });
 }
@@ -276,7 +284,10 @@ std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView&
     const float left = ui.px(52.0F);
     draw_map_key(ui, {all.x, all.y, all.w, line}, view, range);
     const float top = 2.0F * line + ui.px(9.0F);
-    const Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
+    Rect box{all.x + left, all.y + top, all.w - left - ui.px(4.0F), all.h - top - line - ui.px(6.0F)};
+    if (view.same_scale) {
+        box = with_same_scale(view, box);
+    }
     fill(box, ui.colours().field, ui.px(2.0F));
     const Press now = press(ui, own, box);
     const Mapping mapping = heat_map_mapping(view, box);

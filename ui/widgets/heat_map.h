@@ -32,7 +32,8 @@ struct HeatMapView {
     std::optional<MapPlace> best = {};   ///< a cross
     /// What stands at the mouse, of the nearest value; empty: its place and itself.
     std::function<std::string(std::size_t column, std::size_t row)> readout = {};
-    float height = 0.0F; ///< 0: all that is left, at least 80 px at scale 1
+    bool same_scale = false; ///< x and y have one unit and are as long: the map is as wide as that makes it
+    float height = 0.0F;     ///< 0: all that is left, at least 80 px at scale 1
     std::string_view when_empty = "Nothing to show yet.";
 };
 

@@ -77,7 +77,8 @@ TEST(JsonValue, BrokenTextIsReportedWithItsPlace) {
     EXPECT_NE(fault([] { (void)parsed(""); }).find("ends in the middle"), std::string::npos);
     EXPECT_NE(fault([] { (void)parsed("[1e999]"); }).find("too large"), std::string::npos);
     EXPECT_NE(fault([] { (void)parsed("[NaN]"); }).find("not valid JSON"), std::string::npos);
-    EXPECT_NE(fault([] { (void)parsed("\xff\xfe"); }).find("not valid JSON"), std::string::npos);
+    EXPECT_NE(fault([] { (void)parsed("\xff\xff"); }).find("not valid JSON"), std::string::npos);
+    EXPECT_NE(fault([] { (void)parsed("\xff\xfe"); }).find("UTF-16"), std::string::npos);
 }
 
 TEST(JsonValue, ARepeatedFieldIsRefused) {

@@ -29,6 +29,7 @@ TEST(ToolSetFields, ChangeTheMachineAndGoBackToItsFile) {
     EXPECT_FALSE(person.project().machine.tool_set);
     EXPECT_EQ(mean(), before);
     person.fill_in("inspector/setup/tool_set/e", "0.5");
+    person.wait_idle();
     person.choose("inspector/setup/machine", "ac-table");
     person.wait_idle();
     EXPECT_FALSE(person.project().machine.tool_set) << "another machine has none";

@@ -20,6 +20,7 @@ namespace {
 using plot::HeightField;
 
 constexpr float air_opacity = 0.8F;
+constexpr float rows_opacity = 0.25F; ///< of a relief's path over its picture, which it covers everywhere
 constexpr float air_shade = 0.3F; ///< of the plate below it: neither a pen nor the plate is so dark
 
 std::array<glm::vec4, render::path_kinds> only_feeds(const glm::vec3& color, float opacity) {
@@ -197,7 +198,8 @@ private:
             only_feeds(on_plate ? air_shade * canvas.colors.surface : canvas.colors.rapid, air_opacity);
         air_.draw(scene, canvas, style, rough, -1, share);
         for (std::size_t n = 0; n < cuts_.size() && n < scene.plot->cuts.size(); ++n) {
-            style.color = only_feeds(pen_color(scene.plot->cuts[n].pen, canvas.colors.theme), 1.0F);
+            const float opacity = shown_ && scene.plot->levels.empty() ? rows_opacity : 1.0F;
+            style.color = only_feeds(pen_color(scene.plot->cuts[n].pen, canvas.colors.theme), opacity);
             cuts_[n].draw(scene, canvas, style, rough, -1, share);
         }
     }

@@ -249,7 +249,9 @@ TEST_P(TipPrograms, KeepEveryBlockOfTheProgramInItsPlace) {
             ++at;
         }
         ASSERT_LT(at, blocks.size());
-        EXPECT_EQ(blocks[at].duration, block.duration);
+        // The feed stays, and so the time follows the length as it is written, to four places.
+        constexpr double share = 5e-4;
+        EXPECT_NEAR(blocks[at].duration, block.duration, share * block.duration);
         ++at;
     }
     EXPECT_EQ(at, now.ready.program.blocks.size());

@@ -34,7 +34,7 @@ struct TableEmulatorBench {
         server = std::make_unique<EmulatorServer>(
             std::move(links), clock, std::make_unique<TableEmulator>(format, *model, options));
         driver = std::make_unique<StreamDriver>(
-            make_link(port.string()),
+            make_link(port.string() + ",921600"), // 32 bytes in 2 ms
             clock,
             model,
             AxisPositions::Zero(3),
