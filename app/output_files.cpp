@@ -21,8 +21,18 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Options of all commands that name a file to be written.
-constexpr std::array<std::string_view, 8> outputs{
-    "--out", "--path", "--picture", "--preview", "--pulses", "--ram-out", "--servo", "--trace"};
+constexpr std::array<std::string_view, 12> outputs{"--deviation",
+                                                   "--norms",
+                                                   "--out",
+                                                   "--path",
+                                                   "--picture",
+                                                   "--preview",
+                                                   "--pulses",
+                                                   "--ram-out",
+                                                   "--residuals",
+                                                   "--servo",
+                                                   "--trace",
+                                                   "--watch"};
 
 struct Named {
     std::string option; ///< as it is called on the command line

@@ -259,14 +259,22 @@ void expect_even(const CutProgram& program, const char* option) {
 /// As CAM programs name their tools.
 void take_diameter_of_comments(const std::string& file, StrokeCutting& cutting) {
     const auto tools = gcode::tools_in_comments(read_file(file));
-    if (!tools.empty()) {
-        cutting.plan.tool_diameter = tools.front().diameter;
+    if (const auto tool = gcode::only_tool(tools)) {
+        cutting.plan.tool_diameter = tool->diameter;
         fmt::print(
             stderr,
             "millwright: {}:{}: a comment says the tool is {} mm wide, which is taken (--tool-diameter)\n",
             file,
-            tools.front().line,
-            shortest(tools.front().diameter));
+            tool->line,
+            shortest(tool->diameter));
+    } else if (!tools.empty()) {
+        fmt::print(
+            stderr,
+            "millwright: {}:{}: comments name tools of several diameters, and none is taken: the cutter "
+            "has {} mm (--tool-diameter)\n",
+            file,
+            tools.back().line,
+            shortest(cutting.plan.tool_diameter));
     }
 }
 

@@ -280,5 +280,22 @@ TEST(ThesisCommand, WritesTheFilesOfTheProjectsOwnMachineAndDirection) {
     EXPECT_EQ(path({"--constants", "listing"}), own);
 }
 
+TEST(ThesisCommand, WritesOverNoFileThatIsRead) {
+    const ScratchFolder folder;
+    const std::string project = folder / "own.json";
+    write_content(project, content_of(dome_project));
+    const auto grid = [&](const std::string& option, const std::string& file) {
+        return run(
+            {"thesis", "grid", project, "--method", "elliptic", "--out", folder / "grid.dat", option, file});
+    };
+    for (const char* option : {"--norms", "--residuals"}) {
+        const Ended ended = grid(option, project);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr(std::string(option) + " would write over PROJECT, which is read"));
+    }
+    EXPECT_EQ(content_of(project), content_of(dome_project));
+    EXPECT_THAT(grid("--norms", folder / "grid.dat").err, HasSubstr("name the same file"));
+}
+
 } // namespace
 } // namespace millwright::test

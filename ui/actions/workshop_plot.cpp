@@ -49,7 +49,7 @@ void forget_drawing(project::PlotSettings& settings) {
     settings.through = false;
 }
 
-/// The first that a CAM program names, at its beginning; nothing of other files.
+/// The one that a CAM program names, at its beginning; nothing of other files, or of several diameters.
 std::optional<gcode::CommentTool> tool_of_comments(const fs::path& file) {
     if (!project::is_gcode_file(file) || project::holds_points(file)) {
         return std::nullopt;
@@ -59,11 +59,9 @@ std::optional<gcode::CommentTool> tool_of_comments(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    const auto tools = gcode::tools_in_comments(text);
+    const auto tool = gcode::only_tool(gcode::tools_in_comments(text));
     const auto& setting = project::plot_number("tool_mm");
-    const bool fits =
-        !tools.empty() && tools.front().diameter >= setting.min && tools.front().diameter <= setting.max;
-    return fits ? std::optional(tools.front()) : std::nullopt;
+    return tool && tool->diameter >= setting.min && tool->diameter <= setting.max ? tool : std::nullopt;
 }
 
 } // namespace

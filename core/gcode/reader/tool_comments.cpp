@@ -1,5 +1,6 @@
 #include "core/gcode/reader/tool_comments.h"
 
+#include "core/base/numbers.h"
 #include "core/gcode/reader/line_ends.h"
 #include "core/gcode/reader/modal_state.h"
 
@@ -117,6 +118,17 @@ std::optional<bool> inches_in(std::string_view words) {
     return std::nullopt;
 }
 
+/// The numbers of T words, of what stands outside of comments.
+void add_called_tools(std::string_view words, std::vector<int>& called) {
+    for (auto at = words.find('T'); at != std::string_view::npos; at = words.find('T', at + 1)) {
+        int number = 0;
+        const auto read = std::from_chars(words.data() + at + 1, words.data() + words.size(), number);
+        if (read.ec == std::errc{} && (at == 0 || !in_word(words[at - 1]))) {
+            called.push_back(number);
+        }
+    }
+}
+
 struct SplitLine {
     std::string words, comments;
 };
@@ -149,10 +161,12 @@ std::vector<CommentTool> tools_in_comments(std::string_view text) {
     };
     std::vector<Found> found;
     std::optional<bool> inches;
+    std::vector<int> called;
     for (int line = 1; !text.empty(); ++line) {
         const SplitLine parts = split(text.substr(0, end_of_line(text)));
         text.remove_prefix(next_line(text, 0));
         inches = inches ? inches : inches_in(parts.words);
+        add_called_tools(parts.words, called);
         const auto length = parts.comments.empty() ? std::nullopt : diameter_in(parts.comments);
         if (!length) {
             continue;
@@ -164,11 +178,22 @@ std::vector<CommentTool> tools_in_comments(std::string_view text) {
     }
     std::vector<CommentTool> tools;
     for (Found& one : found) {
+        if (one.tool.number && !called.empty() &&
+            std::ranges::find(called, *one.tool.number) == called.end()) {
+            continue;
+        }
         const bool in_inches = one.length.inches || (!one.length.mm && inches.value_or(false));
         one.tool.diameter *= in_inches ? mm_per_inch : 1.0;
         tools.push_back(one.tool);
     }
     return tools;
+}
+
+std::optional<CommentTool> only_tool(const std::vector<CommentTool>& tools) {
+    const bool one_width = !tools.empty() && std::ranges::all_of(tools, [&](const CommentTool& tool) {
+        return exactly_equal(tool.diameter, tools.front().diameter);
+    });
+    return one_width ? std::optional(tools.front()) : std::nullopt;
 }
 
 } // namespace millwright::gcode

@@ -18,8 +18,12 @@ struct CommentTool {
     friend bool operator==(const CommentTool&, const CommentTool&) = default;
 };
 
-/// In the order of the text; the first comment of each tool. A length without a unit is in inches where the
+/// In the order of the text; the first comment of each tool that is called: where the program has T words, a
+/// comment with another number is of none of them. A length without a unit is in inches where the
 /// first unit word of the program is G20 or G70.
 [[nodiscard]] std::vector<CommentTool> tools_in_comments(std::string_view text);
+
+/// The first of `tools` if all are as wide; nothing if one is not, or there is none.
+[[nodiscard]] std::optional<CommentTool> only_tool(const std::vector<CommentTool>& tools);
 
 } // namespace millwright::gcode

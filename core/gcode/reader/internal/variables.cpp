@@ -36,13 +36,15 @@ double of_tool(int number, const Tool& tool) {
     }
 }
 
-/// What the control keeps when it is switched off: G28, G30, G92, offsets and rotations of nine systems.
+/// What the control keeps from before: where its probe last tripped, G28, G30, G92, offsets and rotations of
+/// nine systems.
 bool is_stored_by_control(int number) {
     constexpr int members = 10;
     const auto is_among = [number](int first, int count) {
         return number >= first && number < first + count;
     };
-    if (is_among(parameter_g28, static_cast<int>(axis_count)) ||
+    if (is_among(parameter_probe, static_cast<int>(axis_count)) || number == parameter_probe_result ||
+        is_among(parameter_g28, static_cast<int>(axis_count)) ||
         is_among(parameter_g30, static_cast<int>(axis_count)) || is_among(parameter_g92_active, members)) {
         return true;
     }

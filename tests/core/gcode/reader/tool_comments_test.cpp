@@ -31,8 +31,16 @@ TEST(ToolComments, CountAsTheProgramDoesWhereTheySayNoUnit) {
 }
 
 TEST(ToolComments, OneOfEachTool) {
-    const auto tools = tools_in_comments("(T1 D=6.)\n(T2 D=3.)\nT1 M6 (T1 D=8.)\n");
+    const auto tools = tools_in_comments("(T1 D=6.)\n(T2 D=3.)\nT1 M6 (T1 D=8.)\nT2 M6\n");
     EXPECT_THAT(tools, testing::ElementsAre(CommentTool{1, 6.0, 1}, CommentTool{2, 3.0, 2}));
+    EXPECT_FALSE(only_tool(tools)) << "no diameter is that of both";
+}
+
+TEST(ToolComments, OfToolsThatAreCalledAlone) {
+    EXPECT_THAT(tools_in_comments("(T1 D=6.)\n(T2 D=3.)\nT1 M6\n"),
+                testing::ElementsAre(CommentTool{1, 6.0, 1}));
+    EXPECT_TRUE(tools_in_comments("(T2 D=3.)\nT1 M6\n").empty());
+    EXPECT_EQ(only_tool(tools_in_comments("(T1 D=6.)\n(T2 D=6.)\nT1 M6\nT2 M6\n")), (CommentTool{1, 6.0, 1}));
 }
 
 TEST(ToolComments, NothingElseIsADiameter) {
