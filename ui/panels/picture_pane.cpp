@@ -14,7 +14,7 @@ namespace millwright::panels {
 
 namespace {
 
-constexpr float least_height = 300.0F; // of the map; a lower pane scrolls
+constexpr float least_height = 170.0F; // of the map; a lower pane scrolls
 
 widgets::Colour gray_colour(double share) {
     const auto level = static_cast<widgets::Colour>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));

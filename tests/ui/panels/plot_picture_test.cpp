@@ -24,18 +24,18 @@ TEST(PlotPicture, LiesBelowItsPathWhereAPersonWantsToSeeIt) {
 }
 
 TEST(PlotPicture, ARegionIsMarkedOnTheGrayMapByTwoClicks) {
-    PlotPerson bench("assets/samples/pictures/boat.png");
+    PlotPerson bench("assets/samples/pictures/boat.png", {1280, 1400});
     bench.person.click("lower/tabs/picture");
     bench.person.frames(3);
     const widgets::Rect map = bench.person.place("lower/gray_map");
     const auto at = [&](float x, float y) { return widgets::Point{map.x + x * map.w, map.y + y * map.h}; };
-    bench.person.hover(at(0.5F, 0.5F));
+    bench.person.hover(at(0.5F, 0.4F));
     bench.person.frames(3);
     bench.person.keep("plot-gray-map");
-    bench.person.click_at(at(0.3F, 0.3F));
+    bench.person.click_at(at(0.3F, 0.1F)); // the rest of the map may be scrolled out of sight
     bench.person.frames(2);
     EXPECT_FALSE(bench.plot().settings().picture.region);
-    bench.person.click_at(at(0.7F, 0.6F));
+    bench.person.click_at(at(0.7F, 0.4F));
     bench.settle();
     const auto region = bench.plot().settings().picture.region;
     ASSERT_TRUE(region);
@@ -45,7 +45,7 @@ TEST(PlotPicture, ARegionIsMarkedOnTheGrayMapByTwoClicks) {
     const double height = shown->picture.height * shown->picture.file_pixels;
     EXPECT_NEAR(region->left / width, 0.3, 0.1);
     EXPECT_NEAR(region->width / width, 0.4, 0.1);
-    EXPECT_NEAR(region->top / height, 0.3, 0.15);
+    EXPECT_NEAR(region->top / height, 0.1, 0.1);
     EXPECT_NEAR(region->height / height, 0.3, 0.1);
     ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
     // The region is cut at the origin, and the whole picture lies around it.

@@ -21,7 +21,7 @@ using plot::HeightField;
 
 constexpr float air_opacity = 0.8F;
 constexpr float rows_opacity = 0.25F; ///< of a relief's path over its picture, which it covers everywhere
-constexpr float air_shade = 0.3F; ///< of the plate below it: neither a pen nor the plate is so dark
+constexpr float air_shade = 0.3F;     ///< of the plate below it: neither a pen nor the plate is so dark
 
 std::array<glm::vec4, render::path_kinds> only_feeds(const glm::vec3& color, float opacity) {
     std::array<glm::vec4, render::path_kinds> colors{};
