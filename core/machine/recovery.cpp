@@ -42,7 +42,7 @@ std::string sentence_of(const JobStory& story, const std::string& fault) {
     const std::string where =
         story.next_line > 0 ? fmt::format(" (line {} comes next)", story.next_line) : std::string();
     return fmt::format(
-        "Millwright ended while the job ran, after {} or later: {}{}; of the next {} nobody knows{}.",
+        "Millwright ended while the job ran, after {} or later: {}{}; the next {} may have been, too{}.",
         short_time(story.time),
         done,
         where,

@@ -30,7 +30,7 @@ TEST(StudyCommand, CountsTheFewestPoints) {
     EXPECT_EQ(run({"study", "fewest-points", "--surface", "dune"}).exit_code, 1);
 }
 
-// T23: how fast this machine is, nobody knows here; the tables are there, and the nodes the same.
+// T23: the speed of this machine is not known here; the tables are there, and the nodes the same.
 TEST(StudyCommand, TimesTheAdaptationBesideTheThesis) {
     const ScratchFolder scratch;
     const Ended ended = run({"study",

@@ -202,7 +202,7 @@ constexpr std::string_view processor_head = R"(module gcode_processor #(paramete
     output reg [7:0] command_code,
     output reg [31:0] command_parameter,
     output reg new_command,
-    output reg [4:0] stop        // why it stands; 0: it runs
+    output reg [4:0] stop        // why it stopped; 0: it runs
 );
 )";
 

@@ -117,7 +117,7 @@ void Placement::command(const Command& command, std::string_view line) {
     }
 }
 
-/// Of an axis that the program has not named, or has named in another system, nobody knows the position.
+/// The position of an axis that the program has not named, or has named in another system, is not known.
 void Placement::measured(const Command& command, std::string_view line) {
     const bool by_parameter = command.index == 0;
     const bool on_machine = command.value_2 > 0.0;

@@ -1,4 +1,4 @@
-// Serial ports as people write them, and what the system is told of them.
+// Serial ports as people write them, and the settings that the system gets.
 #include "core/machine/links/serial_address.h"
 
 #include "core/machine/drivers/points/points_driver.h"
@@ -119,7 +119,7 @@ TEST(SerialAddress, PointsThatTheLineCannotCarryInTimeAreRefused) {
     const std::string path = terminal.path().string();
     SteadyClock clock;
     const auto model = std::make_shared<const kinematics::MachineModel>(test::machine("forming-table"));
-    const std::string text = "0,0,5\n0.1,0,5\n0.2,0,5\n"; // 22 bytes a point
+    const std::string text = "0,0,5\n0.1,0,5\n0.2,0,5\n"; // 22 bytes per point
     const auto played_every = [&](double period, const std::string& answer) {
         const Job job = point_file_job(text, plot::read_points(text, "p.csv"), "p.csv", model, period);
         RecordFormat format{.pattern = "{X},{Y},{Z}"};
