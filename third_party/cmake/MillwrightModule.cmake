@@ -137,7 +137,7 @@ function(millwright_test name)
         gtest_discover_tests(${name}_test ${discovery}
             TEST_FILTER "${ARG_ON_DISPLAY}"
             TEST_LIST ${name}_test_on_display
-            PROPERTIES TIMEOUT 600 RESOURCE_LOCK display)
+            PROPERTIES TIMEOUT 600 LABELS ${name} RESOURCE_LOCK display)
         string(APPEND others ":${ARG_ON_DISPLAY}")
     endif()
     if(ARG_LONG)
@@ -148,7 +148,9 @@ function(millwright_test name)
         string(APPEND others ":${ARG_LONG}")
     endif()
     string(REGEX REPLACE "^:" "-" others "${others}")
-    gtest_discover_tests(${name}_test ${discovery} TEST_FILTER "${others}" PROPERTIES TIMEOUT 600)
+    gtest_discover_tests(${name}_test ${discovery}
+        TEST_FILTER "${others}"
+        PROPERTIES TIMEOUT 600 LABELS ${name})
 endfunction()
 
 # millwright_fuzz(NAME SOURCES ... LINK ... [CORPUS folder])

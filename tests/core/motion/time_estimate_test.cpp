@@ -87,26 +87,41 @@ MachineModel machine_for(unsigned seed) {
     return test::with_jerk(machine, seed % 7 == 0 ? none : seed % 7 < 4 ? 5.0 : 40.0);
 }
 
-TEST(TimeEstimate, IsTheDurationOfTheWholePlan) {
-    for (unsigned seed = 1; seed <= 24; ++seed) {
-        const MachineModel machine = machine_for(seed);
-        const PlannerSettings settings = settings_for(seed);
-        const Program program = test::random_program(machine, 12'000, seed);
-        const double whole = plan(program, machine, settings, {}).duration();
-        EXPECT_NEAR(estimated(program, machine, settings).seconds, whole, 1e-9 * whole) << "seed " << seed;
+void expect_the_whole_plan(const Program& program, unsigned seed, int most_kept) {
+    const MachineModel machine = machine_for(seed);
+    const PlannerSettings settings = settings_for(seed);
+    const double whole = plan(program, machine, settings, {}).duration();
+    const Estimated found = estimated(program, machine, settings);
+    EXPECT_NEAR(found.seconds, whole, 1e-9 * whole) << "seed " << seed;
+    EXPECT_LT(found.most_kept, most_kept) << "seed " << seed;
+}
+
+constexpr unsigned every_setting = 8; ///< seeds that meet each rule, look-ahead, jerk and machine
+
+void expect_estimates(unsigned first, unsigned last) {
+    for (unsigned seed = first; seed <= last; ++seed) {
+        constexpr int blocks = 12'000; // fewer than the estimate may keep
+        expect_the_whole_plan(test::random_program(machine_for(seed), blocks, seed), seed, blocks + 1);
     }
 }
 
-TEST(TimeEstimate, IsTheDurationOfAPlanThatNeverRests) {
-    for (unsigned seed = 1; seed <= 24; ++seed) {
-        const MachineModel machine = machine_for(seed);
-        const PlannerSettings settings = settings_for(seed);
-        const Program program = winding(machine, 30'000, seed);
-        const double whole = plan(program, machine, settings, {}).duration();
-        const Estimated found = estimated(program, machine, settings);
-        EXPECT_NEAR(found.seconds, whole, 1e-9 * whole) << "seed " << seed;
-        EXPECT_LT(found.most_kept, 15'000) << "seed " << seed;
+void expect_estimates_of_winding_paths(unsigned first, unsigned last) {
+    for (unsigned seed = first; seed <= last; ++seed) {
+        expect_the_whole_plan(winding(machine_for(seed), 30'000, seed), seed, 15'000);
     }
+}
+
+TEST(TimeEstimate, IsTheDurationOfTheWholePlan) {
+    expect_estimates(1, every_setting);
+}
+
+TEST(TimeEstimate, IsTheDurationOfAPlanThatNeverRests) {
+    expect_estimates_of_winding_paths(1, every_setting);
+}
+
+TEST(TimeEstimateInFull, IsTheDurationOfTheWholePlan) {
+    expect_estimates(every_setting + 1, 3 * every_setting);
+    expect_estimates_of_winding_paths(every_setting + 1, 3 * every_setting);
 }
 
 /// Braking from the feed takes more blocks than the window has.

@@ -240,6 +240,10 @@ void LinuxCncTask::run() {
     auto motion = std::make_shared<const motion::Trajectory>(
         motion::plan(*program.blocks, *model_, {}, Progress(), machine_.status().position));
     ++truth_.runs;
+    const auto moving =
+        std::ranges::find_if(program.blocks->blocks.rbegin(), program.blocks->blocks.rend(), &Block::moves);
+    read_line_ = moving == program.blocks->blocks.rend() ? 0 : moving->source_line;
+    show_read_line();
     machine_.start({program.blocks, std::move(motion), nullptr, {}});
     program_ = std::move(program);
     paused_ = false;
@@ -260,7 +264,15 @@ void LinuxCncTask::resume() {
     }
 }
 
+void LinuxCncTask::show_read_line() {
+    constexpr double moment = 0.05; // s
+    shows_read_until_ = clock_.now() + moment;
+}
+
 void LinuxCncTask::abort() {
+    if (program_) {
+        show_read_line();
+    }
     machine_.stop();
     paused_ = homing_ = false;
     follow(machine_.status());

@@ -52,8 +52,9 @@ public:
     [[nodiscard]] DriverStatus machine() const { return machine_.status(); }
     [[nodiscard]] const kinematics::MachineModel& model() const { return *model_; }
     [[nodiscard]] std::string program_status() const;
-    /// The line in execution, or the last one; 0 before any program.
-    [[nodiscard]] int program_line() const { return line_; }
+    /// The line in execution, or the last one; 0 before any program. While a program begins, and after it is
+    /// aborted, for a moment the last line with a move that was read, as the real one.
+    [[nodiscard]] int program_line() const { return clock_.now() < shows_read_until_ ? read_line_ : line_; }
     /// The oldest that nobody has taken; "OK" if there is none.
     [[nodiscard]] std::string take_error();
     [[nodiscard]] std::string take_message();
@@ -84,6 +85,7 @@ private:
     void follow(const DriverStatus& now);
     void tell_messages(int before_line);
     void end_program();
+    void show_read_line();
     void fall_off();
 
     std::shared_ptr<const kinematics::MachineModel> model_;
@@ -96,6 +98,8 @@ private:
     bool has_file_ = false;
     std::optional<Program> program_;
     int line_ = 0;
+    int read_line_ = 0;              ///< the last one that was read ahead
+    double shows_read_until_ = -1.0; ///< s
     std::deque<std::string> errors_, messages_;
     LinuxCncTruth truth_;
 };

@@ -248,12 +248,11 @@ private:
     }
 };
 
-TEST(LinuxCncFaultCampaign, NeverMovesAfterAFaultNorLiesAboutALineInAThousandRuns) {
-    constexpr int runs = 1000;
+void run_linuxcnc_campaign(int runs) {
     std::array<int, linuxcnc_fault_count> done{};
     std::array<int, linuxcnc_fault_count> all{};
     const test::ScratchFolder logs;
-    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(runs); ++seed) {
         LinuxCncCampaignRun run(seed, logs.path());
         EXPECT_EQ(run.run(), "") << "seed " << seed;
         done[seed % linuxcnc_fault_count] += run.done() ? 1 : 0;
@@ -266,6 +265,14 @@ TEST(LinuxCncFaultCampaign, NeverMovesAfterAFaultNorLiesAboutALineInAThousandRun
     EXPECT_LT(done[static_cast<std::size_t>(LinuxCncFault::alarm)],
               all[static_cast<std::size_t>(LinuxCncFault::alarm)]);
     EXPECT_EQ(done[static_cast<std::size_t>(LinuxCncFault::bad_line)], 0);
+}
+
+TEST(LinuxCncFaultCampaign, NeverMovesAfterAFaultNorLiesAboutALine) {
+    run_linuxcnc_campaign(270);
+}
+
+TEST(LinuxCncFaultCampaignInFull, NeverMovesAfterAFaultNorLiesAboutALineInThreeThousandRuns) {
+    run_linuxcnc_campaign(3000);
 }
 
 } // namespace

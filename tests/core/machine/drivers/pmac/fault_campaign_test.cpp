@@ -94,6 +94,9 @@ public:
             watch_limits();
         }
         if (!at_rest()) {
+            if (broke && link_works()) {
+                wrong("the fault was not noticed");
+            }
             wire_.session.emergency_stop(wire_.now); // held by a character that was garbled, or lost in it
         }
         const DriverState state = wire_.state();
@@ -124,6 +127,11 @@ private:
     [[nodiscard]] bool at_rest() {
         const DriverState state = wire_.state();
         return state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
+    }
+
+    [[nodiscard]] bool link_works() const {
+        return kind_ == PmacFault::reset || kind_ == PmacFault::amplifiers || kind_ == PmacFault::no_power ||
+               kind_ == PmacFault::encoder || kind_ == PmacFault::emergency_stop;
     }
 
     void begin() {
@@ -223,10 +231,7 @@ private:
             }
         }
         // over a link that is dead or lies nobody can kill what stands still
-        const bool link_works = kind_ == PmacFault::reset || kind_ == PmacFault::amplifiers ||
-                                kind_ == PmacFault::no_power || kind_ == PmacFault::encoder ||
-                                kind_ == PmacFault::emergency_stop;
-        if (alarm && link_works && wire_.powered()) {
+        if (alarm && link_works() && wire_.powered()) {
             wrong("an alarm, and a motor has power");
         }
     }
