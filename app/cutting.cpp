@@ -83,11 +83,23 @@ plot::CutPath placed(plot::CutPath path, const Vec3& origin) {
     return path;
 }
 
+plot::ToolTips tips_with(const plot::ToolTip& usual, const PreviewOptions& preview) {
+    plot::ToolTips tips{usual, {}};
+    for (const auto& [tool, diameter] : preview.tool_diameters) {
+        tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
+    }
+    return tips;
+}
+
 gcode::Program program_of(const plot::CutPath& path,
                           const kinematics::MachineModel& machine,
                           const CuttingOptions& options,
-                          const std::vector<std::string>& header) {
+                          const std::vector<std::string>& header,
+                          const std::optional<plot::ToolTip>& tip) {
     gcode::PlotProgramSettings settings;
+    if (tip) {
+        settings.tips = tips_with(*tip, options.preview);
+    }
     settings.machine = machine.name();
     settings.axes = gcode::plot_axes(machine);
     settings.spindle_rpm = options.spindle_rpm;
@@ -101,11 +113,8 @@ std::string preview_of(const plot::CutPath& path,
                        const PreviewOptions& preview,
                        const plot::ToolTip& tip,
                        const Progress& progress) {
-    plot::ToolTips tips{tip, {}};
-    for (const auto& [tool, diameter] : preview.tool_diameters) {
-        tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
-    }
-    const plot::HeightField field = plot::finished_by(path, tips, preview.pixels, progress);
+    const plot::HeightField field =
+        plot::finished_by(path, tips_with(tip, preview), preview.pixels, progress);
     constexpr double spare = 0.5;
     const double plate = preview.plate.value_or(spare - static_cast<double>(std::ranges::min(field.z)));
     return plot::png_bytes(preview.against_light ? plot::against_light(field, plate, preview.half_light)
@@ -115,8 +124,9 @@ std::string preview_of(const plot::CutPath& path,
 PostedText posted_text(const plot::CutPath& path,
                        const kinematics::MachineModel& machine,
                        const CuttingOptions& options,
-                       const std::vector<std::string>& header) {
-    return posted(program_of(path, machine, options, header),
+                       const std::vector<std::string>& header,
+                       const std::optional<plot::ToolTip>& tip) {
+    return posted(program_of(path, machine, options, header, tip),
                   machine,
                   options.post,
                   std::filesystem::path(options.out).stem().string());
@@ -133,7 +143,7 @@ double seconds_of(const PostedText& text,
 
 double planned_seconds(const plot::CutPath& path, const CuttingOptions& options, const Progress& progress) {
     const kinematics::MachineModel machine = machine_of(options);
-    return seconds_of(posted_text(path, machine, options, {}), machine, options, progress);
+    return seconds_of(posted_text(path, machine, options, {}, std::nullopt), machine, options, progress);
 }
 
 void write_program(const plot::CutPath& path,
@@ -149,7 +159,7 @@ void write_program(const plot::CutPath& path,
         plot::expect_within_plate(path, *options.preview.plate);
     }
     const kinematics::MachineModel machine = machine_of(options);
-    const PostedText text = posted_text(path, machine, options, header);
+    const PostedText text = posted_text(path, machine, options, header, tip);
     const std::string preview =
         options.preview.file.empty() ? "" : preview_of(path, options.preview, tip, progress.part(0.2, 0.6));
     progress.check();

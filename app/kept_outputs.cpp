@@ -23,13 +23,6 @@ fs::path file_to_lose(const fs::path& file) {
     return has_bytes && !failure ? real : fs::path();
 }
 
-/// Whether `file` has a second name now: that of the same file, or of a copy where files have but one.
-bool named_twice(const fs::path& file, const fs::path& name) {
-    std::error_code failure;
-    fs::create_hard_link(file, name, failure);
-    return !failure || fs::copy_file(file, name, failure);
-}
-
 bool is_untouched(const fs::path& file, const fs::path& name) {
     std::error_code failure;
     if (fs::equivalent(file, name, failure)) {
@@ -50,6 +43,12 @@ fs::path kept_name(const fs::path& file) {
             return name;
         }
     }
+}
+
+bool named_twice(const fs::path& file, const fs::path& name) {
+    std::error_code failure;
+    fs::create_hard_link(file, name, failure);
+    return !failure || fs::copy_file(file, name, failure);
 }
 
 void say_kept(const fs::path& file, const fs::path& name) {

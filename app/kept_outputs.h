@@ -10,6 +10,10 @@ namespace millwright::app {
 /// "program-kept-1.ngc", which is free.
 [[nodiscard]] std::filesystem::path kept_name(const std::filesystem::path& file);
 
+/// Gives `file` a second name, that of the same file or of a copy where files have but one. False if it
+/// cannot have one.
+[[nodiscard]] bool named_twice(const std::filesystem::path& file, const std::filesystem::path& name);
+
 /// On standard error.
 void say_kept(const std::filesystem::path& file, const std::filesystem::path& name);
 

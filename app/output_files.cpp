@@ -100,6 +100,12 @@ std::vector<fs::path> named_outputs(const CLI::App& app) {
     for (const Named& out : files.written) {
         named.emplace_back(out.value);
     }
+    constexpr std::string_view to_file = "file:";
+    for (const Named& other : files.others) { // a coordinate stream
+        if (other.option == "--port" && other.value.starts_with(to_file)) {
+            named.emplace_back(other.value.substr(to_file.size()));
+        }
+    }
     return named;
 }
 

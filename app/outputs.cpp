@@ -71,6 +71,37 @@ bool has_bytes(const fs::path& file, const std::string& bytes) {
     }
 }
 
+/// Of files that are to stay when others take their place; taken back unless stay() is called.
+class SecondNames {
+public:
+    SecondNames() = default;
+    SecondNames(const SecondNames&) = delete;
+    SecondNames& operator=(const SecondNames&) = delete;
+    ~SecondNames() {
+        for (const auto& [file, name] : names_) {
+            std::error_code ignored;
+            fs::remove(name, ignored);
+        }
+    }
+
+    void add(const fs::path& file) {
+        const fs::path name = kept_name(file);
+        if (!named_twice(file, name)) {
+            throw Error("cannot be kept as " + name.filename().string(), file, "choose another folder");
+        }
+        names_.emplace_back(file, name);
+    }
+    void stay() {
+        for (const auto& [file, name] : names_) {
+            say_kept(file, name);
+        }
+        names_.clear();
+    }
+
+private:
+    std::vector<std::pair<fs::path, fs::path>> names_;
+};
+
 /// As typed, but without "..": a link before it is followed, and what is missing before it is not made.
 fs::path without_ups(const fs::path& folder) {
     if (std::ranges::find(folder, "..") == folder.end()) {
@@ -122,22 +153,18 @@ void write_outputs(const fs::path& typed, const std::vector<OutputFile>& files, 
         drafts.back()->write(file.bytes);
     }
     WrittenFiles written;
-    std::vector<bool> foreign;
     std::vector<fs::path> places;
-    std::vector<std::pair<fs::path, fs::path>> kept;
+    SecondNames kept; // before any file loses its own: we may be killed at any time
     for (std::size_t n = 0; n < files.size(); ++n) {
         const fs::path& place = places.emplace_back(drafts[n]->target());
-        foreign.push_back(!written.holds(place) && !has_bytes(place, files[n].bytes));
+        std::error_code missing;
+        if (fs::exists(place, missing) && !written.holds(place) && !has_bytes(place, files[n].bytes)) {
+            kept.add(place);
+        }
     }
     try {
         for (const auto& draft : drafts) {
             draft->exchange();
-        }
-        for (std::size_t n = 0; n < files.size(); ++n) {
-            if (foreign[n] && drafts[n]->had_old()) {
-                kept.emplace_back(places[n], kept_name(places[n]));
-                drafts[n]->keep_old(kept.back().second);
-            }
         }
     } catch (const Error&) {
         for (const auto& draft : drafts) {
@@ -145,9 +172,7 @@ void write_outputs(const fs::path& typed, const std::vector<OutputFile>& files, 
         }
         throw;
     }
-    for (const auto& [file, name] : kept) {
-        say_kept(file, name);
-    }
+    kept.stay();
     written.add(places);
 }
 

@@ -1,6 +1,7 @@
 #include "app/picture_choice.h"
 
 #include "app/names.h"
+#include "app/text_validator.h"
 #include "core/base/error.h"
 
 #include <CLI/App.hpp>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -45,7 +47,8 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
         .add_option("--gray-steps",
                     choice.reading.gray_steps,
                     "Brightness in so many steps, as 2, 8 or 16; 0: as it is")
-        ->check(CLI::Range(0, 256));
+        ->check(parsed_by([](const std::string& text) { plot::expect_gray_steps(std::atoi(text.c_str())); }))
+        ->type_name("0|2-256");
     command.add_option("--pixel-aspect", choice.reading.pixel_aspect, "Height of a pixel by its width")
         ->check(CLI::Range(0.05, 20.0))
         ->capture_default_str();

@@ -142,6 +142,7 @@ std::unique_ptr<machine::Driver> PlannedMachine::make_driver(const machine::Job&
     if (choice.kind == machine::DriverKind::cordic) {
         machine::CordicDriverOptions processor;
         processor.clock_hz = choice_.processor_hz;
+        processor.origin = choice_.origin;
         auto made = std::make_unique<machine::CordicDriver>(
             job.program->start, machine::VirtualSpeed{choice_.speed}, clock_, job.machine, processor);
         cordic_ = made.get();

@@ -25,8 +25,9 @@ struct PlannedMachineChoice {
     double speed = 1.0;             ///< times real time; 0: as fast as it goes
     double period = 0.01;           ///< of a coordinate stream, s
     double processor_hz = machine::CordicDriverOptions().clock_hz;
-    RecordChoice record;         ///< of a coordinate stream, and of records
-    ControllerChoice controller; ///< port of these, keys, optional stops
+    std::optional<gcode::WorkOrigin> origin{}; ///< of what the CORDIC processor executes
+    RecordChoice record;                       ///< of a coordinate stream, and of records
+    ControllerChoice controller;               ///< port of these, keys, optional stops
 };
 
 /// Adds --speed, --period, --clock and those of records to `command`.

@@ -3,6 +3,7 @@
 #include "app/finite_number.h"
 #include "app/names.h"
 #include "app/origin_choice.h"
+#include "app/text_validator.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/closing.h"
@@ -50,6 +51,18 @@ void expect_another(const std::vector<plot::Level>& named,
     }
 }
 
+void expect_not_below(double change_height, double safe_height) {
+    if (change_height < safe_height) {
+        throw Error(
+            fmt::format("--change-position: tools would be changed at Z {:g} mm, below the safe height "
+                        "of {:g} mm",
+                        change_height,
+                        safe_height),
+            {},
+            "give a Z that is not below it, or a lower --safe-height");
+    }
+}
+
 plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& options) {
     plot::Level like;
     like.depth = options.depth;
@@ -59,11 +72,13 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
     like.tabs = options.tabs;
     plot::CutSettings cut;
     cut.safe_height = options.cutting.safe_height;
-    if (!options.change_position.empty()) {
+    if (options.change_position.empty()) {
+        cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
+    } else {
         cut.change_position = origin_from(options.change_position).at();
+        expect_not_below(cut.change_position.z(), cut.safe_height);
     }
     cut.change_position -= origin_from(options.cutting.origin).at(); // on the machine, as it is moved there
-    cut.change_position.z() = std::max(cut.change_position.z(), cut.safe_height);
     cut.levels = plot::levels_for(strokes, like);
     for (plot::Level& level : cut.levels) {
         const auto drawn = std::ranges::find(options.drawn_levels, level.pen, &plot::Level::pen);
@@ -173,6 +188,7 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
                     options.levels,
                     "Of one pen: PEN:depth=MM,passes=N,feed=F,plunge=F,order=N,tool=N,side=SIDE,cutter=MM,"
                     "tabs=N,off")
+        ->check(parsed_by([](const std::string& text) { (void)plot::parse_level(text, {}); }))
         ->allow_extra_args(false);
     command
         .add_option(

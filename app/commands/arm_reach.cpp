@@ -1,6 +1,7 @@
 #include "app/commands/arm_reach.h"
 
 #include "app/arm_choice.h"
+#include "app/diagnostics.h"
 #include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -112,6 +113,7 @@ std::vector<ArmWay> ways_of(const ArmReachOptions& options) {
         fault.hint = options.machine.empty() ? "name the machine that the program is for with --machine" : "";
         throw Error(fault);
     }
+    print_warnings(found.unplaced);
     auto ways =
         gcode::arm_ways(std::make_shared<const gcode::Program>(std::move(found.program)), machine, frame);
     if (ways.empty()) {

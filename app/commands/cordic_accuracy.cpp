@@ -1,5 +1,6 @@
 #include "app/commands/cordic_accuracy.h"
 
+#include "app/commands/cordic_source.h"
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
@@ -248,8 +249,9 @@ void add_cordic_accuracy(CLI::App& group, Command& chosen) {
     command.add_option("--random", options->random, "Inputs of formats longer than 16 bits")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
         ->capture_default_str();
-    command.add_option(
-        "--format", options->format, "One format alone: f64 (default), f32, or qI.F as in q2.22");
+    command
+        .add_option("--format", options->format, "One format alone: f64 (default), f32, or qI.F as in q2.22")
+        ->check(number_format_text());
     command
         .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")
         ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}));

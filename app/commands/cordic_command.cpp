@@ -7,6 +7,7 @@
 #include "app/commands/cordic_rtl_processor.h"
 #include "app/commands/cordic_run.h"
 #include "app/commands/cordic_sew.h"
+#include "app/commands/cordic_source.h"
 #include "app/outputs.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -151,6 +152,7 @@ CLI::App& add_command(CLI::App& group,
                       const std::shared_ptr<NumberOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("--format", options->format, "Number format: f64, f32, or qI.F as in q2.22")
+        ->check(number_format_text())
         ->capture_default_str();
     command
         .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")

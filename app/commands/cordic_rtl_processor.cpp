@@ -84,7 +84,8 @@ void add_cordic_rtl_processor(CLI::App& group, Command& chosen) {
                     "Program that the bench executes: G-code, assembler text (.asm) or image (.bin); "
                     "without it, random instructions and every way to stop")
         ->check(CLI::ExistingFile);
-    command.add_option("--format", options->source.format, "Fixed point as in q12.20; of an image its own");
+    command.add_option("--format", options->source.format, "Fixed point as in q12.20; of an image its own")
+        ->check(number_format_text());
     add_cordic_arithmetic(command, options->choice.arithmetic);
     add_cordic_unit(command, options->choice);
     command.add_option("--out", options->out, "Folder for the Verilog files and what the bench reads")

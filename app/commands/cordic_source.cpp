@@ -1,6 +1,8 @@
 #include "app/commands/cordic_source.h"
 
 #include "app/diagnostics.h"
+#include "app/origin_choice.h"
+#include "app/text_validator.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -9,6 +11,7 @@
 #include "core/cordic/microprogram.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/interpreter.h"
+#include "core/gcode/reader/work_origin.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -60,11 +63,15 @@ gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic
     gcode::ReaderSettings reading;
     reading.any_tool = true;
     reading.most_errors = 100;
+    if (!source.origin.empty()) {
+        gcode::put_origin(reading, origin_from(source.origin));
+    }
     gcode::Interpreter program(source.file, std::move(reading), builder);
     program.run();
     refuse(program.errors());
     gcode::CordicProgram made = builder.take();
     refuse(made.faults);
+    refuse(made.unplaced);
     print_warnings(made.warnings);
     made.image.made_for = made_for;
     return made;
@@ -156,7 +163,9 @@ bool is_of_microprogram(cordic::Stop stop) {
 
 void add_cordic_source(CLI::App& command, CordicSource& source, const char* kinds) {
     command.add_option("FILE", source.file, kinds)->required();
+    add_origin_option(command, source.origin);
     command.add_option("--format", source.format, "Number format: f64, f32, or qI.F as in q12.20")
+        ->check(number_format_text())
         ->default_str("f32");
     source.of_gcode = {
         command
@@ -172,10 +181,15 @@ void add_cordic_source(CLI::App& command, CordicSource& source, const char* kind
                          source.whole_arcs,
                          "G-code: do not divide arcs, however far rounding leads them from the tolerance"),
         command.add_flag(
-            "--other-axes", source.other_axes, "G-code: leave out what other axes than X, Y and Z do")};
+            "--other-axes", source.other_axes, "G-code: leave out what other axes than X, Y and Z do"),
+        command.get_option("--origin")};
     command.add_option("--acceleration", source.acceleration, "G-code: Amax, mm/s2")
         ->check(CLI::Range(1e-3, 1e7))
         ->default_str(fmt::format("{}", gcode::CordicProgramSettings().acceleration));
+}
+
+CLI::Validator number_format_text() {
+    return parsed_by([](const std::string& text) { (void)cordic::parse_number_format(text); });
 }
 
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic) {

@@ -24,6 +24,7 @@ struct CordicSource {
     bool thesis_arcs = false;
     bool whole_arcs = false;
     bool other_axes = false;
+    std::vector<double> origin;               ///< of the program on the machine; empty: not known
     bool plans_motion = false;                ///< what Amax limits then, whatever the program is
     std::vector<const CLI::Option*> of_gcode; ///< that mean nothing to other programs
 };
@@ -48,6 +49,8 @@ struct CordicChoice {
 void add_cordic_source(CLI::App& command,
                        CordicSource& source,
                        const char* kinds = "G-code, assembler text (.asm) or image (.bin)");
+/// Of --format.
+[[nodiscard]] CLI::Validator number_format_text();
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic);
 /// Wait states, set-points over the bus, the whole acceleration.
 void add_cordic_unit(CLI::App& command, CordicChoice& choice);

@@ -2,6 +2,7 @@
 
 #include "app/commands/gcode_options.h"
 #include "app/commands/gcode_pulses.h"
+#include "app/diagnostics.h"
 #include "app/origin_choice.h"
 #include "app/posting.h"
 #include "core/base/error.h"
@@ -14,6 +15,7 @@
 #include "core/gcode/reader/line_index.h"
 #include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/program_text.h"
+#include "core/gcode/reader/tool_comments.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/motion/time_estimate.h"
@@ -227,9 +229,23 @@ PostedText posted_from(const std::string& file,
     }
 }
 
+/// That the comments of the file name, which are not taken along otherwise. What can be read but once has
+/// none.
+std::vector<gcode::ProgramCutter> cutters_named_in(const std::string& file) {
+    std::vector<gcode::ProgramCutter> cutters;
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none)) {
+        for (const gcode::CommentTool& tool : gcode::tools_in_comments(read_file(file))) {
+            cutters.push_back({.number = tool.number.value_or(0), .diameter = tool.diameter});
+        }
+    }
+    return cutters;
+}
+
 /// For another control.
 int convert_gcode(const GcodeOptions& options) {
-    const MachineRun run = machine_run(options);
+    MachineRun run = machine_run(options);
+    run.found.program.cutters = cutters_named_in(options.file);
     throw_first(run.found.lost);
     throw_first(run.found.unplaced);
     for (const Diagnostic& simplified : run.found.simplified) {
@@ -312,7 +328,7 @@ struct EstimatedTime {
     double seconds = 0.0;
     double length = 0.0; ///< mm
     int blocks = 0;
-    std::vector<Diagnostic> beyond_travel;
+    std::vector<Diagnostic> warnings; ///< what was taken for 0, and ways beyond the travel
 };
 
 /// How long the machine takes: the duration of the motion that is planned for it. Throws Error with the first
@@ -341,20 +357,20 @@ EstimatedTime estimated_time(const GcodeOptions& options) {
     for (const gcode::Block& block : rest.program.blocks) {
         estimate.add(block);
     }
-    return {estimate.finish(), rest.length, count, rest.beyond_travel};
+    std::vector<Diagnostic> warnings = rest.unplaced;
+    warnings.insert(warnings.end(), rest.beyond_travel.begin(), rest.beyond_travel.end());
+    return {estimate.finish(), rest.length, count, std::move(warnings)};
 }
 
 int time(const GcodeOptions& options) {
     const EstimatedTime found = estimated_time(options);
-    for (const Diagnostic& warning : found.beyond_travel) {
-        fmt::print(stderr, "millwright: {}\n", to_text(warning));
-    }
+    print_warnings(found.warnings);
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["time_s"] = found.seconds;
         answer["length_mm"] = found.length;
         answer["blocks"] = found.blocks;
-        answer["warnings"] = diagnostics_json(found.beyond_travel);
+        answer["warnings"] = diagnostics_json(found.warnings);
         fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
         fmt::print("{} ({:.3f} s), {:.1f} mm, {} blocks\n",
@@ -368,6 +384,7 @@ int time(const GcodeOptions& options) {
 
 int pulses(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
+    print_warnings(run.found.unplaced);
     const motion::Trajectory trajectory =
         motion::plan(run.found.program, run.machine, planner_settings(options), Progress());
     return report_pulses(trajectory, run.found.program, options.pulses, options.file, options.json);

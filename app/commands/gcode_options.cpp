@@ -54,6 +54,7 @@ void add_motion_options(CLI::App& command, const std::shared_ptr<GcodeOptions>& 
     constexpr double most_mm = 100.0;
     constexpr int most_blocks = 1'000'000;
     command.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
+    add_origin_option(command, options->origin);
     command
         .add_option("--path-tolerance",
                     options->path_tolerance,

@@ -3,6 +3,7 @@
 #include "app/finite_number.h"
 #include "app/picture_choice.h"
 #include "app/stroke_cutting.h"
+#include "app/text_validator.h"
 #include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -131,6 +132,7 @@ void add_picture_engrave(CLI::App& group, Command& chosen) {
     command.add_option("--angle", options->angle_deg, "Of a halftone's rows to x, degrees")
         ->capture_default_str();
     command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
+        ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
     command.add_option("--depth", options->depth, "Of dithered dots, mm")
         ->check(above_zero())

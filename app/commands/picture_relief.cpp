@@ -3,6 +3,7 @@
 #include "app/cutting.h"
 #include "app/finite_number.h"
 #include "app/picture_choice.h"
+#include "app/text_validator.h"
 #include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -100,6 +101,7 @@ void add_picture_relief(CLI::App& group, Command& chosen) {
     add_picture_options(command, options->picture);
     command.add_option("--depth", options->depth, "Of white, mm")->check(above_zero())->required();
     command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
+        ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
     command.add_option("--out", options->cutting.out, "G-code file")->required();
     command.add_option("--step-over", options->step_over, "Between rows, mm")->check(above_zero());

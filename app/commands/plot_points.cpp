@@ -4,9 +4,11 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
+#include "core/plot/path_file.h"
 #include "core/plot/point_file.h"
 #include "core/plot/point_path.h"
 #include "core/plot/work_time.h"
+#include "core/project/plot_input.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +32,9 @@ std::vector<Vec3> points_of(const std::string& file) {
     if (!read.diagnostics.empty()) {
         throw Error(read.diagnostics.front());
     }
+    if (read.points.empty()) {
+        throw Error("there is no point in it", file);
+    }
     return std::move(read.points);
 }
 
@@ -46,7 +51,8 @@ plot::WorkTime way_of(const std::vector<Vec3>& points, const plot::Strokes& stro
 } // namespace
 
 bool is_point_file(const std::filesystem::path& file) {
-    return plot::is_point_file(head_of_file(file));
+    const std::string head = head_of_file(file);
+    return plot::is_point_file(head) || (project::is_point_file(file) && !plot::is_path_file(head));
 }
 
 int points_info(const std::string& file, bool json) {

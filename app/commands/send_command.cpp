@@ -2,6 +2,7 @@
 
 #include "app/arm_choice.h"
 #include "app/controller.h"
+#include "app/diagnostics.h"
 #include "app/interrupt.h"
 #include "app/origin_choice.h"
 #include "app/planned_machine.h"
@@ -9,6 +10,7 @@
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/gcode/reader/machine_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/pmac/motion_program.h"
 #include "core/machine/feed_check.h"
@@ -41,9 +43,13 @@ struct SendOptions {
     std::optional<double> clearance;
 };
 
+bool is_simulated(const SendOptions& options) {
+    return options.machine.driver == "virtual" || options.machine.driver == "cordic";
+}
+
 bool is_moved_from_here(const SendOptions& options) {
     const std::string& driver = options.machine.driver;
-    return driver == "virtual" || driver == "stream" || driver == "records" || driver == "cordic";
+    return is_simulated(options) || driver == "stream" || driver == "records";
 }
 
 void check_model(const SendOptions& options) {
@@ -55,8 +61,8 @@ void check_model(const SendOptions& options) {
         throw UsageError(
             "a machine and where it stands are for the drivers virtual, cordic, stream and records");
     }
-    if (!options.origin.empty() && (!moved || options.machine.driver == "cordic")) {
-        throw UsageError("an origin is for the drivers virtual, stream and records",
+    if (!options.origin.empty() && !moved) {
+        throw UsageError("an origin is for the drivers virtual, cordic, stream and records",
                          {},
                          "other controllers have work offsets of their own, as G54");
     }
@@ -77,10 +83,14 @@ std::shared_ptr<const kinematics::MachineModel> model_of(const SendOptions& opti
         project::machine_path(options.model, std::filesystem::current_path(), project::assets_folder())));
 }
 
+/// A machine that is simulated begins at zero, or at its nearest limits.
 std::optional<kinematics::AxisPositions> place_of(const kinematics::MachineModel& model,
-                                                  const std::vector<double>& at) {
+                                                  const SendOptions& options) {
+    const std::vector<double>& at = options.at;
     if (at.empty()) {
-        return std::nullopt;
+        return is_simulated(options)
+                   ? std::optional(gcode::MachineProgramBuilder(model, "").take().program.start)
+                   : std::nullopt;
     }
     kinematics::AxisPositions place = kinematics::AxisPositions::Zero(model.axis_count());
     for (std::size_t n = 0; n < at.size(); ++n) {
@@ -155,12 +165,12 @@ int send_motion(const SendOptions& options) {
         if (options.machine.driver == "cordic" && plot::is_path_file(read_file(file))) {
             throw Error(Diagnostic{{file, 1, 1, -1}, "the CORDIC processor takes G-code, no path file", {}});
         }
-        machine::Job job = ready(machine::file_job(file,
-                                                   model,
-                                                   {.start = place_of(*model, options.at),
-                                                    .origin = origin_from(options.origin).at()}),
-                                 options,
-                                 from_line);
+        machine::Job job =
+            ready(machine::file_job(
+                      file, model, {.start = place_of(*model, options), .origin = options.machine.origin}),
+                  options,
+                  from_line);
+        app::print_warnings(job.notices);
         if (const auto faults = machine::preflight(job); !faults.empty()) {
             throw Error(faults.front());
         }
@@ -177,7 +187,10 @@ int send_motion(const SendOptions& options) {
     return run_series(options.series, steps, interrupt.token());
 }
 
-int send(const SendOptions& options) {
+int send(SendOptions options) {
+    if (!options.origin.empty()) {
+        options.machine.origin = origin_from(options.origin);
+    }
     check(options.machine);
     check_model(options);
     check_place(options);

@@ -137,7 +137,7 @@ Draft::~Draft() {
     if (!place_.empty()) {
         ::unlink(place_.c_str());
     }
-    if (!old_.empty() && !keeps_) {
+    if (!old_.empty()) {
         ::unlink(old_.c_str());
     }
 }
@@ -201,8 +201,26 @@ void Draft::finish() {
     close();
 }
 
-/// A file that others own and we may write keeps its owner only so. Everything is in the draft by then.
+/// One that a person finds, and that no program takes for abandoned.
+void Draft::take_visible_name() {
+    constexpr int most = 1000;
+    for (int n = 1; n <= most; ++n) {
+        fs::path name = target_;
+        name += n == 1 ? std::string(".new") : ".new-" + std::to_string(n);
+        if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) == 0) {
+            place_ = std::move(name);
+            return;
+        }
+        if (errno != EEXIST) {
+            return; // a file system without it
+        }
+    }
+}
+
+/// A file that others own and we may write keeps its owner only so. Everything is in the draft by then, and
+/// stays there if we are killed before all of it is copied.
 void Draft::copy_into_place() {
+    take_visible_name();
     const int to = ::open(target_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
     if (to < 0) {
         fail();
@@ -235,18 +253,20 @@ void Draft::exchange() {
         }
     } else if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
         old_ = place_;
-    } else { // not on every file system
+    } else { // not on every file system; the old file never leaves its place before the new one takes it
         fs::path aside = random_name(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
-        if (::rename(target_.c_str(), aside.c_str()) != 0) {
-            fail();
-        }
-        if (::rename(place_.c_str(), target_.c_str()) != 0) {
-            const int why = errno;
-            ::rename(aside.c_str(), target_.c_str());
-            errno = why;
+        std::error_code failure;
+        if (::link(target_.c_str(), aside.c_str()) != 0 && !fs::copy_file(target_, aside, failure)) {
             fail();
         }
         old_ = std::move(aside);
+        if (::rename(place_.c_str(), target_.c_str()) != 0) {
+            const int why = errno;
+            ::unlink(old_.c_str());
+            old_.clear();
+            errno = why;
+            fail();
+        }
     }
     place_.clear();
     close();
@@ -260,15 +280,6 @@ void Draft::put_back() {
         fail();
     }
     old_.clear();
-}
-
-void Draft::keep_old(const fs::path& name) {
-    if (::renameat2(AT_FDCWD, old_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) != 0 &&
-        (errno == EEXIST || ::rename(old_.c_str(), name.c_str()) != 0)) {
-        fail();
-    }
-    old_ = name;
-    keeps_ = true;
 }
 
 /// What was to last has been synchronised before.

@@ -28,16 +28,15 @@ public:
     /// Puts the file in its place, with owner and rights of the old one. Nothing may be written then.
     void finish();
 
-    /// The same, but the old file lives on until the end of this, so that it can be put back.
+    /// The same, but the old file lives on until the end of this, so that it can be put back. Who kills us
+    /// before that ends it, too: what is to stay has another name by then.
     void exchange();
     void put_back();
-    /// Gives the old file another name, which must be free; there is one after exchange() if had_old().
-    void keep_old(const std::filesystem::path& name);
-    [[nodiscard]] bool had_old() const { return !old_.empty(); }
 
 private:
     void make();
     void take_rights();
+    void take_visible_name();
     void copy_into_place();
     void close();
     [[noreturn]] void fail() const;
@@ -48,7 +47,6 @@ private:
     std::filesystem::path old_;   ///< where the old file is; empty: there is none, or it is in its place
     int handle_ = -1;
     bool replaces_ = false;
-    bool keeps_ = false;         ///< the old file has a name to stay under
     bool owner_is_lost_ = false; ///< a rename would give the file to us
 };
 

@@ -67,6 +67,7 @@ CadKind checked_kind(const std::filesystem::path& file) {
         throw Error("the file cannot be read", file);
     }
     head.resize(static_cast<std::size_t>(stream.gcount()));
+    refuse_wide_text(head, file);
     head.erase(0, head.size() - without_byte_order_mark(head).size());
     const std::size_t start = head.find_first_not_of(" \t\r\n");
     if (start == std::string::npos) {

@@ -84,7 +84,7 @@ MeshFile parse_mesh(std::string_view bytes,
     Soup soup(file, mm_per_unit);
     const std::string kind = kind_of(file);
     if (kind == "stl") {
-        read_stl(bytes, soup, progress);
+        read_stl(bytes, file, soup, progress);
     } else if (kind == "obj") {
         refuse_wide_text(bytes, file);
         read_obj(bytes, soup, progress);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -48,6 +49,7 @@ public:
         program_.blocks.reserve(program_.blocks.size() + path.size() + others);
         if (!path.empty()) {
             begin_with(path);
+            name_cutters(path);
         }
         bool first = true;
         for (const plot::CutPoint& point : path) {
@@ -98,6 +100,37 @@ private:
         }
         move({.at = {0.0, 0.0, path.front().at.z()}}, AxisSet::only(index_[2]));
         spindle(true);
+    }
+
+    void name_cutters(const plot::CutPath& path) {
+        std::set<int> tools;
+        for (const plot::CutPoint& point : path) {
+            const bool first = tools.insert(point.tool).second;
+            if (first && settings_.tips) {
+                add_cutter(point.tool, settings_.tips->of(point.tool));
+            }
+        }
+    }
+
+    /// A point has no diameter.
+    void add_cutter(int tool, const plot::ToolTip& tip) {
+        ProgramCutter cutter{.number = tool, .diameter = tip.diameter, .corner_radius = 0.0};
+        switch (tip.kind) {
+        case plot::TipKind::point:
+            return;
+        case plot::TipKind::flat:
+            cutter.kind = "flat end mill";
+            break;
+        case plot::TipKind::ball:
+            cutter.corner_radius = tip.diameter / 2.0;
+            cutter.kind = "ball end mill";
+            break;
+        case plot::TipKind::v:
+            cutter.half_angle = tip.angle / 2.0;
+            cutter.kind = "engraving tool";
+            break;
+        }
+        program_.cutters.push_back(std::move(cutter));
     }
 
     void change_tool(int tool) {

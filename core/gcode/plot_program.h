@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/gcode/program.h"
 #include "core/plot/cut_path.h"
+#include "core/plot/picture/finished_look.h"
 
 #include <cstddef>
 #include <optional>
@@ -16,11 +17,12 @@ namespace millwright::gcode {
 inline constexpr std::size_t most_program_points = 4'000'000;
 
 struct PlotProgramSettings {
-    std::string machine = "XYZ";          ///< the name that the program carries
-    std::string axes = "XYZ";             ///< these three, in the order of the machine's axes
-    std::vector<std::string> header = {}; ///< comments on its top
-    double spindle_rpm = 10'000.0;        ///< 0 leaves the spindle alone
-    int length_decimals = 4;              ///< targets are rounded to them, as they are written
+    std::string machine = "XYZ";             ///< the name that the program carries
+    std::string axes = "XYZ";                ///< these three, in the order of the machine's axes
+    std::vector<std::string> header = {};    ///< comments on its top
+    double spindle_rpm = 10'000.0;           ///< 0 leaves the spindle alone
+    int length_decimals = 4;                 ///< targets are rounded to them, as they are written
+    std::optional<plot::ToolTips> tips = {}; ///< what cuts; not given: the program does not say
 };
 
 /// Throws Error for the first axis that cannot go where the path does, which was moved by `origin`; its hint

@@ -90,11 +90,23 @@ struct ProgramTool {
     friend bool operator==(const ProgramTool&, const ProgramTool&) = default;
 };
 
+/// What a program was made for, and says in a comment, since G-code has no word for a diameter.
+struct ProgramCutter {
+    int number = 1;                        ///< of T; 0: no tool is called
+    double diameter = 0.0;                 ///< > 0, mm
+    std::optional<double> corner_radius{}; ///< mm; half of the diameter: a ball; nullopt: not known
+    std::optional<double> half_angle{};    ///< of a cone, between axis and flank, rad
+    std::string kind{};                    ///< as "flat end mill"; may be empty
+
+    friend bool operator==(const ProgramCutter&, const ProgramCutter&) = default;
+};
+
 struct Program {
-    std::string machine;             ///< name of the machine it was made for
-    std::vector<ProgramAxis> axes;   ///< in the order of MachineModel::axes()
-    kinematics::AxisPositions start; ///< where the axes are taken to be before the first block
-    std::optional<ProgramTool> tool; ///< called before the first block; nullopt: the one in the spindle
+    std::string machine;                  ///< name of the machine it was made for
+    std::vector<ProgramAxis> axes;        ///< in the order of MachineModel::axes()
+    kinematics::AxisPositions start;      ///< where the axes are taken to be before the first block
+    std::optional<ProgramTool> tool;      ///< called before the first block; nullopt: the one in the spindle
+    std::vector<ProgramCutter> cutters{}; ///< of the tools that it uses, as far as they are known
     std::vector<Block> blocks;
 
     [[nodiscard]] int block_count() const { return static_cast<int>(blocks.size()); }

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/gcode/internal/comment_text.h"
+#include "core/gcode/internal/cutter_comment.h"
 
 #include <fmt/format.h>
 
@@ -42,6 +43,9 @@ public:
 
     Listing take() {
         frame(format_.blocks.top);
+        for (const ProgramCutter& cutter : program_.cutters) {
+            comment(internal::cutter_comment(cutter, format_.length_unit()));
+        }
         auto arc = wording_.arcs.begin();
         for (block_ = 0; block_ < program_.block_count(); ++block_) {
             const bool begins_arc = arc != wording_.arcs.end() && arc->first == block_;

@@ -21,8 +21,9 @@ gcode::Program program_of_path(const std::string& text,
                                const FileJobSettings& settings) {
     std::vector<int> lines;
     plot::CutPath path = plot::read_path(text, file, &lines);
+    const Vec3 origin = settings.origin.value_or(gcode::WorkOrigin()).at();
     for (plot::CutPoint& point : path) {
-        point.at += settings.origin;
+        point.at += origin;
     }
     gcode::Program program = gcode::plot_program(
         path, {.machine = machine.name(), .axes = gcode::plot_axes(machine), .spindle_rpm = 0.0});
@@ -47,7 +48,7 @@ Job file_job(const std::filesystem::path& file,
         job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, program));
         job.program = std::make_shared<const gcode::Program>(std::move(program));
         job.machine = std::move(machine);
-        job.hash = internal::hash_of(*job.listing, settings.origin);
+        job.hash = internal::hash_of(*job.listing, settings.origin.value_or(gcode::WorkOrigin()).at());
     } else {
         job = internal::planned_text(
             text, file, std::move(machine), {.start = settings.start, .origin = settings.origin});

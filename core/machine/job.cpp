@@ -3,6 +3,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/axes.h"
 #include "core/gcode/reader/line_ends.h"
+#include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/program_text.h"
 #include "core/gcode/reader/word_column.h"
 #include "core/kinematics/travel.h"
@@ -147,7 +148,10 @@ Job planned_job(std::string_view text,
                 const std::filesystem::path& file,
                 std::shared_ptr<const MachineModel> machine,
                 std::optional<kinematics::AxisPositions> start) {
-    return internal::planned_text(text, file, std::move(machine), {.start = std::move(start)});
+    const kinematics::AxisPositions from =
+        start.value_or(gcode::MachineProgramBuilder(*machine, file).take().program.start);
+    return internal::planned_text(
+        text, file, std::move(machine), {.start = from, .origin = gcode::WorkOrigin(Vec3(0.0, 0.0, 0.0))});
 }
 
 namespace {

@@ -28,6 +28,7 @@ struct Job {
     int from_line = 1;   ///< of the file; more than 1: the lines above are an approach (run_from_line.h)
     std::string options; ///< of the command that asked for it, for its log; may be empty
     std::string hash;    ///< program_hash() of the whole file; empty: of the listing
+    std::vector<Diagnostic> notices{}; ///< what of the file is executed in another way, or not at all
 
     [[nodiscard]] int block_count() const;
 };
@@ -40,8 +41,8 @@ struct Job {
 [[nodiscard]] Job for_axes_of(const Job& job, const std::vector<gcode::ProgramAxis>& axes);
 
 /// A job of a G-code file, by LinuxCNC's rules, whose motion is planned here for `machine`, which stands at
-/// `start` (not given: at zero, or at its nearest limits). Throws Error with the first thing that is wrong
-/// with it, or that this machine cannot do.
+/// `start` (not given: at zero, or at its nearest limits), its zero at that of the machine. Throws Error with
+/// the first thing that is wrong with it, or that this machine cannot do.
 [[nodiscard]] Job planned_job(std::string_view text,
                               const std::filesystem::path& file,
                               std::shared_ptr<const kinematics::MachineModel> machine,

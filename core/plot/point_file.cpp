@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace millwright::plot {
 namespace {
@@ -22,29 +24,67 @@ std::string_view trimmed(std::string_view text) {
                                            : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::optional<double> finite_number(std::string_view text) {
-    text = trimmed(text);
+/// `comma`: it is the decimal point.
+std::optional<double> finite_number(std::string_view field, bool comma) {
+    std::string text(trimmed(field));
+    if (comma) {
+        std::ranges::replace(text, ',', '.');
+    }
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = error == std::errc() && end == text.data() + text.size();
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-std::optional<Vec3> point(std::string_view line) {
-    Vec3 p;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto comma = line.find(',');
-        if ((comma == std::string_view::npos) != (axis == 2)) {
+/// Where a line has semicolons or tabs, these separate, and a number may have a decimal comma.
+char separator_in(std::string_view line) {
+    return line.find(';') != std::string_view::npos    ? ';'
+           : line.find('\t') != std::string_view::npos ? '\t'
+                                                       : ',';
+}
+
+/// Three, or nothing.
+std::optional<std::array<std::string_view, 3>> fields_of(std::string_view line) {
+    const char separator = separator_in(line);
+    std::array<std::string_view, 3> fields;
+    for (std::size_t n = 0; n < fields.size(); ++n) {
+        const auto end = line.find(separator);
+        if ((end == std::string_view::npos) != (n == 2)) {
             return std::nullopt;
         }
-        const auto value = finite_number(line.substr(0, comma));
+        fields[n] = line.substr(0, end);
+        line.remove_prefix(n == 2 ? 0 : end + 1);
+    }
+    return fields;
+}
+
+std::optional<Vec3> point(std::string_view line) {
+    const auto fields = fields_of(line);
+    Vec3 p;
+    for (std::size_t n = 0; fields && n < fields->size(); ++n) {
+        const auto value = finite_number((*fields)[n], separator_in(line) != ',');
         if (!value) {
             return std::nullopt;
         }
-        p[axis] = *value;
-        line.remove_prefix(axis == 2 ? 0 : comma + 1);
+        p[static_cast<Eigen::Index>(n)] = *value;
     }
-    return p;
+    return fields ? std::optional(p) : std::nullopt;
+}
+
+/// `X,Y,Z`, `x (mm); y (mm); z (mm)`, `"X","Y","Z"`: the names of the columns.
+bool names_columns(std::string_view line) {
+    const auto fields = fields_of(line);
+    for (std::size_t n = 0; fields && n < fields->size(); ++n) {
+        const std::string_view name = (*fields)[n];
+        const auto first = name.find_first_not_of(" \t#\"'");
+        const bool is_axis =
+            first != std::string_view::npos && (name[first] | ' ') == "xyz"[n] &&
+            (first + 1 == name.size() || std::isalpha(static_cast<unsigned char>(name[first + 1])) == 0);
+        if (!is_axis) {
+            return false;
+        }
+    }
+    return fields.has_value();
 }
 
 } // namespace
@@ -61,22 +101,23 @@ PointFile read_points(std::string_view text, const std::filesystem::path& file) 
     PointFile read;
     refuse_wide_text(text, file);
     text = without_byte_order_mark(text);
-    for (int finite_number = 1; !text.empty(); ++finite_number) {
+    bool first = true;
+    for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
-        if (line.empty()) {
+        if (line.empty() || (std::exchange(first, false) && names_columns(line))) {
             continue;
         }
         if (const auto p = point(line)) {
             read.points.push_back(*p);
-            read.lines.push_back(finite_number);
+            read.lines.push_back(number);
         } else if (read.diagnostics.size() < most_diagnostics) {
             constexpr std::size_t most_shown = 60;
             read.diagnostics.push_back(
-                {.place = {.file = file, .line = finite_number},
+                {.place = {.file = file, .line = number},
                  .message = fmt::format("'{}' is no point", line.substr(0, most_shown)),
-                 .hint = "three numbers with commas between: X, Y, Z"});
+                 .hint = "three numbers with commas or semicolons between: X, Y, Z"});
         }
     }
     return read;
@@ -84,8 +125,14 @@ PointFile read_points(std::string_view text, const std::filesystem::path& file) 
 
 bool is_point_file(std::string_view text) {
     text = without_byte_order_mark(text);
-    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-    return point(trimmed(text.substr(0, text.find('\n')))).has_value();
+    const auto take_line = [&text] {
+        text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(line.size());
+        return trimmed(line);
+    };
+    const std::string_view first = take_line();
+    return point(names_columns(first) ? take_line() : first).has_value();
 }
 
 } // namespace millwright::plot

@@ -189,10 +189,14 @@ ProgramMoves moves_of(const gcode::Program& program) {
 }
 
 /// Between two looks along a move a round cutter leaves step^2 / 8 r: no more than a micrometre.
-double sweep_step(const toolpath::Profile& cutter) {
+/// What an arc leaves between two looks, mm.
+double step_of_arc(const toolpath::Profile& cutter) {
     constexpr double left = 1e-3; // mm
-    return std::clamp(std::sqrt(8.0 * left * cutter.shape().corner), 0.1, 0.5);
+    return std::sqrt(8.0 * left * cutter.shape().corner);
 }
+
+constexpr double shortest_sweep_step = 0.1; // mm
+constexpr double longest_sweep_step = 0.5;
 
 toolpath::SweepSettings
 sweep_settings(const grid::Grid& grid, const toolpath::Profile& cutter, double highest_ridge) {
@@ -200,7 +204,8 @@ sweep_settings(const grid::Grid& grid, const toolpath::Profile& cutter, double h
     toolpath::SweepSettings settings;
     settings.nu = points(grid.nu());
     settings.nv = points(grid.nv());
-    settings.step = sweep_step(cutter);
+    settings.step = std::clamp(step_of_arc(cutter), shortest_sweep_step, longest_sweep_step);
+    settings.between_looks = step_of_arc(cutter) < shortest_sweep_step;
     settings.highest = cut_reach(cutter, highest_ridge);
     return settings;
 }

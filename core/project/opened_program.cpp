@@ -233,6 +233,8 @@ private:
         job.program = motion->program;
         job.listing = motion->listing;
         now.findings = machine::preflight(job);
+        now.unplaced = std::move(made.unplaced);
+        now.findings.insert(now.findings.end(), now.unplaced.begin(), now.unplaced.end());
         now.motion = std::move(motion);
     }
 

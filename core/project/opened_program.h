@@ -56,9 +56,11 @@ struct OpenedProgram {
     gcode::PreviewPath path;
     std::shared_ptr<const gcode::Execution> execution; ///< null before the end was reached
     std::shared_ptr<const PlannedMotion> motion;
-    std::vector<Diagnostic> errors;   ///< of the program, in the order of reading
-    std::vector<Diagnostic> faults;   ///< what the machine cannot do
-    std::vector<Diagnostic> findings; ///< of the check before a job: limits, axes, a missing end
+    std::vector<Diagnostic> errors; ///< of the program, in the order of reading
+    std::vector<Diagnostic> faults; ///< what the machine cannot do
+    std::vector<Diagnostic>
+        findings; ///< of the check before a job: limits, axes, a missing end; and unplaced
+    std::vector<Diagnostic> unplaced; ///< MachineProgram::unplaced: its motion takes 0 for it
     std::string no_motion;            ///< why there is no motion, in a sentence; empty if there is or will be
     double seconds = 0.0;             ///< as fast as programmed
     double length = 0.0;              ///< of the tip's way, mm

@@ -197,6 +197,9 @@ void add_program(Plan& plan, const Project& project, const Progress& progress) {
     gcode::PostResult posted = gcode::post(
         machine, chosen.toolpath, chosen.axes, settings, header_of(project, plan, chosen), progress);
     posted.program.tool = program_tool(project.tool, machine);
+    if (const auto cutter = program_cutter(project.tool)) {
+        posted.program.cutters.push_back(*cutter);
+    }
     progress.check();
     gcode::ReleasedText released = gcode::release(posted.program,
                                                   machine,

@@ -78,18 +78,11 @@ void PlotDerivation::note(std::optional<Diagnostic> notice) {
 }
 
 void PlotDerivation::make_look() {
-    const bool strokes = !result_.picture || settings_.use == PictureUse::outlines;
-    const plot::ToolTip tip =
-        strokes ? plot::ToolTip{.kind = plot::TipKind::flat, .diameter = settings_.strokes.tool_diameter}
-                : settings_.tip;
+    const plot::ToolTips tips = tips_of(result_);
     const bool cuts =
         std::ranges::any_of(*result_.path, [](const plot::CutPoint& point) { return point.at.z() < 0.0; });
-    if (!cuts || tip.kind == plot::TipKind::point) {
+    if (!cuts || tips.usual.kind == plot::TipKind::point) {
         return;
-    }
-    plot::ToolTips tips{tip, {}};
-    for (const auto& [tool, diameter] : plot::tool_diameters(result_.levels)) {
-        tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
     }
     auto look = std::make_shared<plot::HeightField>(
         plot::finished_by(*result_.path, tips, look_squares, progress_.part(0.5, 0.7)));
@@ -287,6 +280,21 @@ plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& as_drawn, const 
     return plot::linked(shaped.strokes, drawn, plan);
 }
 
+/// Of a path that changes tools.
+void PlotDerivation::note_raised_change() {
+    const bool changes = std::ranges::any_of(
+        *result_.path, [](const plot::CutPoint& point) { return point.move == plot::CutMove::tool_change; });
+    if (changes && settings_.change_position.z() < settings_.safe_height) {
+        note(Diagnostic{
+            {},
+            fmt::format("tools are changed at Z {:g} mm, the safe height: Tool change Z, {:g} mm, is "
+                        "below it",
+                        settings_.safe_height,
+                        settings_.change_position.z()),
+            "raise Tool change Z, or lower the safe height, under Work"});
+    }
+}
+
 void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     const plot::Strokes planned = plan_strokes(drawn, end);
     result_.drawn_strokes = drawn.size();
@@ -309,6 +317,7 @@ void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     const plot::CutSettings cut = cut_of(standing(result_.levels));
     as_drawn_ = placed(plot::cut_path(drawn, cut));
     use(plot::cut_path(planned, cut));
+    note_raised_change();
     result_.cut_as_drawn = as_drawn_ == *result_.path;
 }
 

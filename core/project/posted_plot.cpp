@@ -10,6 +10,19 @@
 
 namespace millwright::project {
 
+plot::ToolTips tips_of(const PlotResult& result) {
+    const PlotSettings& settings = result.input.settings;
+    const bool strokes = !result.picture || settings.use == PictureUse::outlines;
+    plot::ToolTips tips;
+    tips.usual = strokes
+                     ? plot::ToolTip{.kind = plot::TipKind::flat, .diameter = settings.strokes.tool_diameter}
+                     : settings.tip;
+    for (const auto& [tool, diameter] : plot::tool_diameters(result.levels)) {
+        tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
+    }
+    return tips;
+}
+
 PostedPlot
 posted_plot(const PlotResult& result, const plot::CutPath& path, const std::filesystem::path& assets) {
     const PlotSettings& settings = result.input.settings;
@@ -22,7 +35,8 @@ posted_plot(const PlotResult& result, const plot::CutPath& path, const std::file
                             {.machine = machine.name(),
                              .axes = gcode::plot_axes(machine),
                              .header = {"made of: " + result.input.file.filename().string()},
-                             .spindle_rpm = result.spindle_rpm()});
+                             .spindle_rpm = result.spindle_rpm(),
+                             .tips = tips_of(result)});
     gcode::PostFormat format = gcode::read_post(post_path(settings.post, folder, assets));
     const std::string name = result.input.file.stem().string();
     const std::filesystem::path file = name + "." + format.extension;

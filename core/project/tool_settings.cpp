@@ -234,6 +234,31 @@ std::optional<gcode::ProgramTool> program_tool(const ToolInput& input,
     return gcode::ProgramTool{input.number, machine.description().tool_length_offset};
 }
 
+std::optional<gcode::ProgramCutter> program_cutter(const ToolInput& input) {
+    gcode::ProgramCutter cutter{.number = input.number, .diameter = input.diameter_mm, .corner_radius = 0.0};
+    switch (input.cutter) {
+    case CutterKind::point:
+        return std::nullopt;
+    case CutterKind::ball:
+        cutter.corner_radius = input.diameter_mm / 2.0;
+        cutter.kind = "ball end mill";
+        break;
+    case CutterKind::flat:
+        cutter.kind = "flat end mill";
+        break;
+    case CutterKind::bull_nose:
+        cutter.corner_radius = input.corner_radius_mm;
+        cutter.kind = "bullnose end mill";
+        break;
+    case CutterKind::cone:
+        cutter.corner_radius = input.corner_radius_mm;
+        cutter.half_angle = from_degrees(input.half_angle_deg);
+        cutter.kind = "tapered mill";
+        break;
+    }
+    return cutter;
+}
+
 std::string tool_length_text(const ToolInput& input, const kinematics::MachineModel& machine) {
     const kinematics::MachineDescription& description = machine.description();
     const std::optional<double> length = gauge_length_mm(input);

@@ -38,6 +38,9 @@ namespace millwright::project {
 [[nodiscard]] std::optional<gcode::ProgramTool> program_tool(const ToolInput& input,
                                                              const kinematics::MachineModel& machine);
 
+/// What its comment says of the tool. Nullopt of a point.
+[[nodiscard]] std::optional<gcode::ProgramCutter> program_cutter(const ToolInput& input);
+
 /// Which length the program was made for, in one line for people.
 [[nodiscard]] std::string tool_length_text(const ToolInput& input, const kinematics::MachineModel& machine);
 

@@ -134,22 +134,35 @@ double displacement(const Profile& body, const geometry::ToolPose& a, const geom
 class Sweep {
 public:
     Sweep(const std::vector<Tile>& tiles, const Tool& tool, double highest)
-        : tiles_(tiles), tool_(tool), highest_(highest), heights_(tiles.size()) {}
+        : tiles_(tiles), tool_(tool), highest_(highest), heights_(tiles.size()), lowest_at_(tiles.size()) {}
 
-    /// At a few poses that follow each other.
-    void look(std::span<const geometry::ToolPose> poses) {
+    /// At a few poses that follow each other; `first`: which look of the move the first of them is.
+    void look(std::span<const geometry::ToolPose> poses, int first) {
         const std::vector<std::size_t> to_cut = tiles_near(*tool_.cutter, poses, highest_);
         const std::vector<std::size_t> to_hit =
             tool_.holder ? tiles_near(*tool_.holder, poses, 0.0) : std::vector<std::size_t>{};
+        int look = first;
         for (const geometry::ToolPose& pose : poses) {
             for (const std::size_t tile : to_cut) {
                 if (within(*tool_.cutter, pose, tiles_[tile], highest_)) {
-                    cut(pose, tile);
+                    cut(pose, tile, look);
                 }
             }
+            ++look;
             for (const std::size_t tile : to_hit) {
                 if (within(*tool_.holder, pose, tiles_[tile], 0.0)) {
                     hit(pose, tiles_[tile]);
+                }
+            }
+        }
+    }
+
+    /// The least height of each point, around the look that found it: `pose_at` takes looks and parts of one.
+    template <class PoseAt> void look_between(const PoseAt& pose_at, int looks) {
+        for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+            for (std::size_t n = 0; n < heights_[tile].size(); ++n) {
+                if (heights_[tile][n] < highest_) {
+                    descend(pose_at, looks, tiles_[tile].points[n], heights_[tile][n], lowest_at_[tile][n]);
                 }
             }
         }
@@ -194,21 +207,48 @@ private:
                distance(body, pose, tile.middle) - tile.radius < limit;
     }
 
-    void cut(const geometry::ToolPose& pose, std::size_t tile) {
+    void cut(const geometry::ToolPose& pose, std::size_t tile, int look) {
         const std::vector<SurfacePoint>& points = tiles_[tile].points;
-        std::vector<double>& heights = heights_[tile];
-        heights.resize(points.size(), highest_);
+        heights_[tile].resize(points.size(), highest_);
+        lowest_at_[tile].resize(points.size());
         for (std::size_t n = 0; n < points.size(); ++n) {
-            const SurfacePoint& point = points[n];
-            const double nearer = std::max(heights[n], 0.0); // the height is not below the distance
-            if (is_far(*tool_.cutter, pose, point.position, nearer) ||
-                distance(*tool_.cutter, pose, point.position) >= nearer) {
-                continue;
+            if (lower(pose, points[n], heights_[tile][n])) {
+                lowest_at_[tile][n] = look;
             }
-            const double height = height_below(*tool_.cutter, pose, point.position, point.normal, heights[n]);
-            if (height < heights[n]) {
-                heights[n] = height;
-                note(by_cutter_, height, point, pose);
+        }
+    }
+
+    /// True if the cutter in `pose` begins below `height` over the point, which it then lowers.
+    bool lower(const geometry::ToolPose& pose, const SurfacePoint& point, double& height) {
+        const double nearer = std::max(height, 0.0); // the height is not below the distance
+        if (is_far(*tool_.cutter, pose, point.position, nearer) ||
+            distance(*tool_.cutter, pose, point.position) >= nearer) {
+            return false;
+        }
+        const double found = height_below(*tool_.cutter, pose, point.position, point.normal, height);
+        if (!(found < height)) {
+            return false;
+        }
+        height = found;
+        note(by_cutter_, height, point, pose);
+        return true;
+    }
+
+    /// By golden sections of what is left and right of the lowest look, as far as the next ones.
+    template <class PoseAt>
+    void descend(const PoseAt& pose_at, int looks, const SurfacePoint& point, double& height, int lowest) {
+        constexpr double golden = 0.381966;
+        constexpr double near_enough = 1e-3; // of a look
+        double from = std::max(lowest - 1, 0);
+        double at = lowest;
+        double to = std::min(lowest + 1, looks);
+        while (to - from > near_enough) {
+            const bool right = to - at > at - from;
+            const double other = right ? at + golden * (to - at) : at - golden * (at - from);
+            if (lower(pose_at(other), point, height)) {
+                (right ? from : to) = std::exchange(at, other);
+            } else {
+                (right ? to : from) = other;
             }
         }
     }
@@ -246,6 +286,7 @@ private:
     const Tool& tool_;
     double highest_ = 0.0;
     std::vector<std::vector<double>> heights_; // of the points of each tile; none where it was never near
+    std::vector<std::vector<int>> lowest_at_;  // the look that found each
     Lowest by_cutter_, by_holder_;
 };
 
@@ -260,7 +301,7 @@ void look_along(Sweep& sweep,
         poses.push_back(actual_pose(machine, move.from, move.to, static_cast<double>(k) / looks));
         if (poses.size() == at_once || k == looks) {
             progress.check();
-            sweep.look(poses);
+            sweep.look(poses, k + 1 - static_cast<int>(poses.size()));
             poses.clear();
         }
     }
@@ -329,6 +370,12 @@ SweptCut swept_cut(const geometry::BezierPatch& patch,
             const double step = move.cuts ? settings.step : hits_only * settings.step;
             const int looks = looks_at(machine, move, step);
             look_along(sweep, machine, move, looks, progress);
+            if (settings.between_looks && move.cuts) {
+                progress.check();
+                sweep.look_between(
+                    [&](double look) { return actual_pose(machine, move.from, move.to, look / looks); },
+                    looks);
+            }
             Found& of_move = found[static_cast<std::size_t>(n)];
             of_move = sweep.found(patch);
             for (int k = 0; k <= looks && buried.may_follow(of_move.bites.cutter); ++k) {

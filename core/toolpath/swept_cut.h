@@ -23,6 +23,9 @@ struct SweepSettings {
     int nu = 100, nv = 100; ///< points of the raster at equal parameter steps, 2 or more
     double step = 0.15;     ///< mm of the tip's way between two looks; four times that where nothing is cut
     double highest = 5.0;   ///< mm: material that is higher is taken for not cut
+    /// The least height of each point is looked for between two looks, too: under an edge it changes with the
+    /// way, not with its square as under an arc.
+    bool between_looks = false;
 };
 
 /// How deep one body comes below the surface.

@@ -51,7 +51,7 @@ TEST(Cordic, SaysWhatDoesNotFit) {
     EXPECT_EQ(large.exit_code, 1);
     EXPECT_THAT(large.err, HasSubstr("does not fit into q2.22"));
     const Ended format = run({"cordic", "rotate", "1", "0", "30", "--format", "q2"});
-    EXPECT_EQ(format.exit_code, 1);
+    EXPECT_EQ(format.exit_code, 2);
     EXPECT_THAT(format.err, HasSubstr("\"q2\" is no number format"));
     EXPECT_EQ(run({"cordic", "rotate", "1", "0"}).exit_code, 2);
     EXPECT_EQ(run({"cordic", "rotate", "1", "0", "10", "--iterations", "63"}).exit_code, 2);

@@ -97,6 +97,28 @@ TEST(Gcode, EveryCommandTakesWhatCheckPasses) {
     }
 }
 
+// Planning takes 0 for it, and said nothing.
+TEST(Gcode, TimeSaysWhatIsNotKnown) {
+    const ScratchFolder folder;
+    const auto file = folder.path() / "part.ngc";
+    write_content(file, "G21 G90\nG0 X1 Y1 Z5\nG53 G0 Z0\nM2\n");
+    for (const char* command : {"time", "pulses"}) {
+        const Ended ended = run({"gcode", command, file.string(), "--machine", "router-xyz"});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr("part.ngc:3:1: G53 goes to a machine position"));
+        const Ended placed =
+            run({"gcode", command, file.string(), "--machine", "router-xyz", "--origin", "1,2,-50"});
+        EXPECT_EQ(placed.exit_code, 0) << placed.err;
+        EXPECT_EQ(placed.err, "");
+    }
+    const Ended json = run({"gcode", "time", file.string(), "--machine", "router-xyz", "--json"});
+    EXPECT_THAT(json.out, HasSubstr("G53 goes to a machine position"));
+    const Ended refused = run({"cordic", "run", file.string()});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("part.ngc:3:1: G53 goes to a machine position"));
+    EXPECT_EQ(run({"cordic", "run", file.string(), "--origin", "1,2,-50"}).exit_code, 0);
+}
+
 TEST(Gcode, CheckReadsKlartextAndNamesOtherLanguages) {
     const ScratchFolder folder;
     const auto file = folder.path() / "part.h";

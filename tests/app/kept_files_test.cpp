@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <memory>
 
@@ -70,6 +71,54 @@ TEST_F(KeptFiles, AProgramThatAPersonHasEditedIsKeptUnderAnotherName) {
     EXPECT_THAT(second.err, Not(HasSubstr("kept"))) << "its own, which may be replaced";
     EXPECT_FALSE(fs::exists(out / "program-kept-2.ngc"));
     EXPECT_TRUE(drafts().empty());
+}
+
+/// The contents of all files in `folder`, those with a dot in front only where `hidden`.
+std::vector<std::string> contents(const fs::path& folder, bool hidden) {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (hidden || !entry.path().filename().string().starts_with('.')) {
+            found.push_back(content_of(entry.path()));
+        }
+    }
+    return found;
+}
+
+// The file of a person had a draft's name for a moment, and the next command removed it as an abandoned
+// draft.
+TEST_F(KeptFiles, AKillAtAnyMomentLosesNoFileThatAPersonHad) {
+    const std::vector<std::string> words{"cordic", "rtl", "--out", out.string(), "--vectors", "2"};
+    ASSERT_EQ(run(words).exit_code, 0);
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(out)) {
+        names.push_back(entry.path().filename().string());
+    }
+    ASSERT_GE(names.size(), 2U);
+    constexpr int most = 100;
+    int kills = 0;
+    for (int n = 1; n < most; ++n) {
+        fs::remove_all(out);
+        fs::create_directory(out);
+        for (const std::string& name : names) {
+            write_content(out / name, name + " of a person");
+        }
+        const Ended ended = run_killed_at(n, words);
+        if (ended.exit_code == 0) {
+            break;
+        }
+        ASSERT_EQ(ended.exit_code, -SIGKILL) << ended.err;
+        ++kills;
+        for (const std::string& name : names) {
+            EXPECT_THAT(contents(out, true), testing::Contains(name + " of a person")) << n;
+        }
+        ASSERT_EQ(run(words).exit_code, 0) << n;
+        EXPECT_TRUE(drafts().empty()) << n;
+        for (const std::string& name : names) {
+            EXPECT_THAT(contents(out, false), testing::Contains(name + " of a person")) << n;
+        }
+    }
+    EXPECT_GE(kills, 3 * static_cast<int>(names.size()));
+    EXPECT_LT(kills, most - 1) << "the program comes to its end";
 }
 
 TEST_F(KeptFiles, AFileThatAnOptionNamesIsKeptTooUnlessACommandHasWrittenItLast) {

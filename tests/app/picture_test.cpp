@@ -348,6 +348,18 @@ TEST(PictureCommand, SaysWhatIsWrong) {
     EXPECT_THAT(relief("none.png", {"--depth", "1"}).err, HasSubstr("none.png"));
     EXPECT_THAT(relief("pixel.bmp", {"--depth", "1", "--tool", "drill:3"}).err,
                 HasSubstr("'drill:3' is no tool"));
+    for (const auto& [option, value] : {std::pair("--gray-steps", "1"),
+                                        std::pair("--gray-steps", "257"),
+                                        std::pair("--gray-steps", "-1"),
+                                        std::pair("--tool", "ball:0"),
+                                        std::pair("--pixel-aspect", "0")}) {
+        const Ended refused = relief("pixel.bmp", {"--depth", "1", option, value});
+        EXPECT_EQ(refused.exit_code, 2) << option; // as of any value out of its range; it was 1
+        EXPECT_THAT(refused.err, HasSubstr(std::string(option) + ": ")) << option;
+    }
+    EXPECT_THAT(
+        relief("pixel.bmp", {"--depth", "1", "--gray-steps", "1"}).err,
+        HasSubstr("--gray-steps: 1 gray steps are not possible (2 to 256, or 0: the picture as it is)"));
     EXPECT_THAT(relief("pixel.bmp", {"--depth", "-1"}).err, HasSubstr("--depth: \"-1\" has to be above 0"));
     EXPECT_EQ(relief("pixel.bmp", {}).exit_code, 2);
     EXPECT_EQ(relief("pixel.bmp", {"--depth", "1", "--width", "3", "--dpi", "96"}).exit_code, 2);

@@ -49,6 +49,12 @@ TEST(PlotCommand, EachPenHasItsSideItsCutterAndItsTool) {
          {"X28.5000", "X58.0000", "X102.0000", "X5.0000", "Y6.0000", "Z40.0000", "to tool 2"}) {
         EXPECT_THAT(text, HasSubstr(word));
     }
+    EXPECT_THAT(text, HasSubstr("(T1 D=3. CR=0. - FLAT END MILL)\n(T2 D=6. CR=0. - FLAT END MILL)\n"));
+    const Ended low = cut({"--level", "2:side=inside,tool=2", "--change-position", "5,6,4"});
+    EXPECT_EQ(low.exit_code, 1); // it was raised to the safe height without a word
+    EXPECT_THAT(
+        low.err,
+        HasSubstr("--change-position: tools would be changed at Z 4 mm, below the safe height of 5 mm"));
     EXPECT_THAT(cut({"--level", "2:cutter=6"}).err,
                 HasSubstr("tool 1 is 6 mm wide in one level and 3 mm in another"));
     EXPECT_THAT(cut({"--level", "2:order=8,side=inside", "--level", "2:order=9"}).err,

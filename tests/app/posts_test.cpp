@@ -152,6 +152,16 @@ TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise
     EXPECT_THAT(ended.out, HasSubstr("G0 X1.000 Y2.000 Z-15.000\nG1 X10.000 F300.0\nG0 Z0.000\n"));
 }
 
+// Millwright's own plot commands, and others, take the diameters from there.
+TEST_F(Posts, ConvertKeepsTheDiametersOfTools) {
+    write_content(part,
+                  "(T1 D=6. CR=0. - ZMIN=-3. - FLAT END MILL)\n(T2 | 1/8 BALL ENDMILL)\nG21 G90\nT1 M6\n"
+                  "G0 X0 Y0 Z5\nG1 X9 F300\nT2 M6\nG1 X0\nM2\n");
+    const Ended ended = convert("router-xyz", "grbl");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, testing::StartsWith("(T1 D=6.)\n(T2 D=3.175)\n"));
+}
+
 /// A retract to a reference point that nobody stored never goes down; a parameter file says where it is.
 TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
     write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG1 X9 F300\nG28 G91 Z0\nM2\n");
@@ -159,13 +169,18 @@ TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
     Ended ended = convert("router-xyz", "grbl", {"--origin", "0,0,10"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr(":4:1: G28 would take Z from 15.000 to 0.000, towards the part"));
-    write_content(remembered, "5163 50\n5221 1\n5222 2\n5223 -20\n");
+    write_content(remembered, "5163 50\n5210 0\n5221 1\n5222 2\n5223 -20\n5230 0\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("G0 X1.000 Y2.000 Z-15.000\n"));
     EXPECT_THAT(ended.out, HasSubstr("Z50.000\n"));
     write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG53 G0 X0\nG53 G0 Z0\nM2\n");
-    write_content(remembered, "5221 1\n5222 2\n");
+    write_content(remembered, "5210 0\n5221 1\n5222 2\n");
+    ended = convert("router-xyz", "grbl", {"--parameters", remembered});
+    EXPECT_EQ(ended.exit_code, 1); // which counted as 0
+    EXPECT_THAT(ended.err,
+                HasSubstr(":3:1: G53 goes to a machine position, and the rotation of G54 is not known"));
+    write_content(remembered, "5210 0\n5221 1\n5222 2\n5230 0\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr(":4:1: G53 goes to a machine position"));

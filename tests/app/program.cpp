@@ -147,6 +147,16 @@ Ended run(const std::vector<std::string>& arguments, const std::string& input) {
     return Program(arguments, input).end();
 }
 
+Ended run_killed_at(int n, const std::vector<std::string>& arguments) {
+    return Program(arguments,
+                   {},
+                   {"env",
+                    "LD_PRELOAD=" MILLWRIGHT_KILLER,
+                    "ASAN_OPTIONS=verify_asan_link_order=0",
+                    "MILLWRIGHT_KILL_AT=" + std::to_string(n)})
+        .end();
+}
+
 std::filesystem::path small_project(const std::filesystem::path& folder,
                                     const std::string& name,
                                     const std::string& from,

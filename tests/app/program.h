@@ -48,6 +48,10 @@ private:
 
 [[nodiscard]] std::filesystem::path program_file();
 
+/// Runs the program and kills it, as kill -9 does, right after its call number `n` that renames, links or
+/// removes a file; it ends as ever if it makes fewer.
+[[nodiscard]] Ended run_killed_at(int n, const std::vector<std::string>& arguments);
+
 /// Runs the program to its end.
 [[nodiscard]] Ended run(const std::vector<std::string>& arguments, const std::string& input = {});
 

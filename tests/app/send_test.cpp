@@ -407,6 +407,28 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
     EXPECT_THAT(content_of(stream), testing::EndsWith("30.0000 0.0000 0.0000\n"));
 }
 
+// The offset of a work system that nobody gave was 0: the retract went down to Z0 of the work.
+TEST_F(Send, PlansNoPositionsThatNobodyCanKnow) {
+    write_content(file, "G21 G90\nG0 X1 Y1 Z50\nG1 Z40 F3000\nG53 G0 Z60\nM2\n");
+    const std::string stream = (scratch / "stream.txt").string();
+    for (const char* driver : {"virtual", "cordic", "stream", "records"}) {
+        std::vector<std::string> words{
+            "send", file, "--driver", driver, "--machine", "router-xyz", "--log", logs};
+        const bool to_port = driver == std::string("stream") || driver == std::string("records");
+        if (to_port) {
+            words.insert(words.end(), {"--port", "file:" + stream});
+        } else {
+            words.insert(words.end(), {"--speed", "0"});
+        }
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 1) << driver;
+        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:4:1: G53 goes to a machine position")) << driver;
+        words.insert(words.end(), {"--origin", "0,0,5"});
+        const Ended placed = run(words);
+        EXPECT_EQ(placed.exit_code, 0) << driver << placed.err;
+    }
+}
+
 TEST_F(Send, AsksForAMachineWhereItPlans) {
     write_content(file, "G1 X1 F100\n");
     EXPECT_THAT(run({"send", file, "--driver", "virtual"}).err,

@@ -86,8 +86,15 @@ Permission program_ready(const Workbench& now) {
         if (!now.opened->errors.empty()) {
             return Permission::refused("The program has errors.");
         }
-        return sends_text(now) || now.opened->motion ? Permission{}
-                                                     : Permission::refused(now.opened->no_motion);
+        if (sends_text(now)) {
+            return {};
+        }
+        const bool real =
+            now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
+        if (real && !now.opened->unplaced.empty()) { // it has no work offsets of its own
+            return Permission::refused(to_text(now.opened->unplaced.front()));
+        }
+        return now.opened->motion ? Permission{} : Permission::refused(now.opened->no_motion);
     }
     if (!now.program() || !now.trajectory() || !now.listing()) {
         return Permission::refused("There is no program yet.");

@@ -127,10 +127,7 @@ fs::path PlotBench::write_program(const fs::path& folder) const {
     const auto now = latest();
     expects(now != nullptr && !now->program.empty(), "there is a program to be written");
     const fs::path target = free_place(folder, file().stem().string(), "ngc");
-    std::error_code failure;
-    if (!fs::copy_file(now->program, target, failure)) {
-        throw Error("cannot be written: " + failure.message(), target);
-    }
+    write_file(target, read_file(now->program));
     return target;
 }
 

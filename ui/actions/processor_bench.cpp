@@ -143,6 +143,8 @@ void ProcessorBench::compile_gcode() {
         failure_ = program.errors().front();
     } else if (!program_.faults.empty()) {
         failure_ = program_.faults.front();
+    } else if (!program_.unplaced.empty()) {
+        failure_ = program_.unplaced.front();
     }
 }
 

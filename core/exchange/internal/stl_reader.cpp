@@ -1,3 +1,4 @@
+#include "core/base/text.h"
 #include "core/exchange/internal/mesh_readers.h"
 #include "core/exchange/internal/word_lines.h"
 #include "core/exchange/mesh_file.h"
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -133,9 +135,23 @@ bool is_text(std::string_view bytes) {
            bytes.substr(0, stl_head_size).find('\0') == std::string_view::npos;
 }
 
+/// The header of a binary file may look like such text, too, but not with solid in it.
+void refuse_wide_stl(std::string_view bytes, const std::filesystem::path& file) {
+    const std::string_view head = bytes.substr(0, stl_head_size);
+    std::string letters;
+    std::ranges::copy_if(head, std::back_inserter(letters), [](char c) { return c > ' ' && c <= '~'; });
+    if (begins_with_solid(letters)) {
+        refuse_wide_text(head, file);
+    }
+}
+
 } // namespace
 
-void read_stl(std::string_view bytes, Soup& soup, const Progress& progress) {
+void read_stl(std::string_view bytes,
+              const std::filesystem::path& file,
+              Soup& soup,
+              const Progress& progress) {
+    refuse_wide_stl(bytes, file);
     is_text(bytes) ? read_text(bytes, soup, progress) : read_binary(bytes, soup, progress);
 }
 

@@ -63,6 +63,7 @@ public:
         result_.program.axes = program.axes;
         result_.program.start = program.start;
         result_.program.tool = program.tool;
+        result_.program.cutters = program.cutters;
         result_.program.blocks.reserve(program.blocks.size());
         result_.wording.blocks.reserve(program.blocks.size());
         meant_ = program.start;

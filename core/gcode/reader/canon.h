@@ -89,7 +89,7 @@ enum class CommandKind : std::uint8_t {
     use_length_units,        ///< index: 1 inch, 2 mm
     set_g5x_offset,          ///< index: coordinate system 1 to 9; mode: AxisBits whose offset is known; axes
     set_g92_offset,          ///< mode: AxisBits whose offset is known; axes
-    set_xy_rotation,         ///< value: degrees
+    set_xy_rotation,         ///< index: 1 if it is known, else 0; value: degrees
     set_feed_reference,      ///< always XYZ
     set_feed_mode,           ///< index: 0 a minute (or inverse time), 1 a revolution
     set_feed_rate,           ///< value

@@ -8,7 +8,9 @@
 #include "core/gcode/reader/internal/cordic_code.h"
 #include "core/gcode/reader/internal/cordic_commands.h"
 #include "core/gcode/reader/internal/cordic_path.h"
+#include "core/gcode/reader/internal/placement.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
+#include "core/gcode/reader/internal/xyz_machine.h"
 
 #include <fmt/format.h>
 
@@ -54,15 +56,16 @@ std::int64_t chord_count(double radius, double sweep, double tolerance) {
 class CordicProgramBuilder::Parts {
 public:
     Parts(std::filesystem::path file, const CordicProgramSettings& settings)
-        : settings_(settings), code_(std::move(file), settings),
-          path_(settings, code_, place_of(settings.start)), at_(settings.start) {
+        : settings_(settings), code_(file, settings), path_(settings, code_, place_of(settings.start)),
+          placement_(machine_, std::move(file), true), at_(settings.start) {
         expects(settings.chord_tolerance > 0.0, "a chord tolerance is positive");
     }
 
     void begin_line(const SourceLine& now) { code_.begin_line(now); }
 
-    void move(const Move& move) {
+    void move(const Move& move, std::string_view line_text) {
         const AxisValues end = frame_.to_machine(move.target);
+        placement_.move(move, at_, end, line_text);
         switch (move.kind) {
         case MoveKind::traverse:
             return line({Opcode::g00, Opcode::g00z}, end, settings_.rapid_speed, move.source);
@@ -80,7 +83,8 @@ public:
         }
     }
 
-    void curve(const Curve& curve) {
+    void curve(const Curve& curve, std::string_view line_text) {
+        placement_.curve(curve.source, line_text);
         const AxisValues start = frame_.from_machine(at_);
         if (const auto speed = feed_speed(curve.source)) {
             internal::curve_chords(start,
@@ -90,8 +94,9 @@ public:
         }
     }
 
-    void command(const Command& command) {
+    void command(const Command& command, std::string_view line_text) {
         frame_.command(command);
+        placement_.command(command, line_text);
         feed_.command(command, frame_.unit());
         commands_.command(command);
     }
@@ -108,7 +113,9 @@ public:
                                     cordic::rom_size,
                                     settings_.rom_pages));
         }
-        return code_.take();
+        CordicProgram made = code_.take();
+        made.unplaced = placement_.take_unplaced();
+        return made;
     }
 
 private:
@@ -118,7 +125,10 @@ private:
     internal::CordicCommands commands_{code_};
     CanonFrame frame_;
     internal::ProgrammedFeed feed_;
+    kinematics::MachineModel machine_ = internal::xyz_machine();
+    internal::Placement placement_;
     AxisValues at_; ///< on the machine, mm and degrees
+
     /// True if only X, Y and Z go somewhere.
     bool is_inside(const AxisValues& end, SourcePlace source) {
         if (settings_.leaves_out_other_axes) {
@@ -244,6 +254,15 @@ private:
     }
 };
 
+namespace {
+
+/// Empty where another line brought what `source` asked for.
+std::string_view line_asking_for(const SourceLine& now, SourcePlace source) {
+    return now.place == source ? now.text : std::string_view();
+}
+
+} // namespace
+
 CordicProgramBuilder::CordicProgramBuilder(std::filesystem::path file, const CordicProgramSettings& settings)
     : parts_(std::make_unique<Parts>(std::move(file), settings)) {}
 
@@ -251,17 +270,17 @@ CordicProgramBuilder::~CordicProgramBuilder() = default;
 
 void CordicProgramBuilder::move(const Move& move, const SourceLine& now) {
     parts_->begin_line(now);
-    parts_->move(move);
+    parts_->move(move, line_asking_for(now, move.source));
 }
 
 void CordicProgramBuilder::curve(const Curve& curve, const SourceLine& now) {
     parts_->begin_line(now);
-    parts_->curve(curve);
+    parts_->curve(curve, line_asking_for(now, curve.source));
 }
 
 void CordicProgramBuilder::command(const Command& command, const SourceLine& now) {
     parts_->begin_line(now);
-    parts_->command(command);
+    parts_->command(command, line_asking_for(now, command.source));
 }
 
 CordicProgram CordicProgramBuilder::take() {

@@ -55,6 +55,7 @@ struct CordicProgram {
     std::vector<int> command_lines;           ///< of each command that it will hand over, in that order
     std::vector<Diagnostic> faults;           ///< what the processor cannot do; such moves are left out
     std::vector<Diagnostic> warnings;         ///< what is left out, or done otherwise than asked for
+    std::vector<Diagnostic> unplaced{};       ///< as MachineProgram::unplaced; the start is known
 };
 
 class CordicProgramBuilder final : public CanonSink {

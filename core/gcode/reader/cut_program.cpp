@@ -2,6 +2,7 @@
 
 #include "core/gcode/plot_program.h"
 #include "core/gcode/reader/internal/cut_program_builder.h"
+#include "core/gcode/reader/internal/xyz_machine.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/gcode/reader/machine_program.h"
 #include "core/gcode/reader/program_text.h"
@@ -17,21 +18,6 @@
 namespace millwright::gcode {
 
 namespace {
-
-/// X, Y and Z without limits: what a path has.
-kinematics::MachineModel path_machine() {
-    kinematics::MachineDescription description;
-    description.name = "X, Y, Z";
-    for (int n = 0; n < 3; ++n) {
-        kinematics::MachineAxis axis;
-        axis.letter = "XYZ"[n];
-        axis.direction = Vec3::Unit(n);
-        axis.max_velocity = 1.0; // nothing is planned for it
-        axis.max_acceleration = 1.0;
-        description.head.push_back(axis);
-    }
-    return kinematics::MachineModel(std::move(description));
-}
 
 void throw_first(const std::vector<Diagnostic>& found) {
     if (!found.empty()) {
@@ -157,7 +143,7 @@ CutProgram made_of(MachineProgram read,
 template <class Begin>
 CutProgram
 read_by(const Begin& begin, const std::filesystem::path& file, const CutProgramSettings& settings) {
-    const kinematics::MachineModel machine = path_machine();
+    const kinematics::MachineModel machine = internal::xyz_machine();
     ProgramAndTools sink(machine, file, settings);
     Interpreter interpreter = begin(sink);
     while (interpreter.step()) {

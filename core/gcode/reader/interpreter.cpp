@@ -116,6 +116,11 @@ void Interpreter::Parts::start() {
     if (is_grbl()) {
         s.motion = 0;
     }
+    if (settings.dialect != Dialect::linuxcnc) { // whose work systems are not turned
+        for (int system = 1; system <= 9; ++system) {
+            run.variables.set(internal::parameter_g5x(system) + 9, 0.0);
+        }
+    }
     for (const auto& [number, value] : settings.parameters) {
         expects(internal::Variables::is_number(number), "a parameter that is set at the start exists");
         run.variables.set(number, value);
@@ -126,6 +131,8 @@ void Interpreter::Parts::start() {
     if (run.variables.stored(internal::parameter_g92_active) > 0.0) {
         s.g92_offset = run.to_program(run.variables.axes_from(internal::parameter_g92));
         run.g92_known = run.variables.axes_set(internal::parameter_g92);
+    } else if (run.variables.is_set(internal::parameter_g92_active)) {
+        run.g92_known = internal::every_axis;
     }
     s.spindle_tool.unknown = tool_unknown;
     s.tool_offset[Axis::z] = settings.tool_length * run.machine_to_program();
@@ -133,7 +140,7 @@ void Interpreter::Parts::start() {
     run.out.send(CommandKind::use_length_units, static_cast<int>(s.unit));
     internal::send_system(run);
     internal::send_g92(run);
-    run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
+    internal::send_rotation(run);
     if (!exactly_equal(settings.tool_length, 0.0)) {
         run.out.send(internal::command_of(CommandKind::use_tool_length_offset, s.tool_offset));
     }

@@ -126,11 +126,16 @@ bool has_long_g_of_sinumerik(std::string_view text) {
     return false;
 }
 
-/// IN, SP1, PU0,0, PA100,200: a command of two letters and its numbers; or one of those that begin with ESC.
+/// What a printer or plotter takes before the plot: PJL, which holds words of any language, escapes of PCL,
+/// and a comment of HPGL.
+bool begins_a_plot(std::string_view line) {
+    const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+    line.remove_prefix(first);
+    return line.starts_with('\x1B') || line.starts_with("@PJL") || line.starts_with("CO\"");
+}
+
+/// IN, SP1, PU0,0, PA100,200: a command of two letters and its numbers.
 bool is_hpgl(std::string_view text) {
-    if (text.starts_with("\x1B.") || text.starts_with("\x1B%")) {
-        return true;
-    }
     constexpr std::array<std::string_view, 9> commands{"IN", "DF", "SP", "PU", "PD", "PA", "PR", "IP", "SC"};
     for (std::size_t at = 0; at < text.size();) {
         const std::string_view command = text.substr(at, 2);
@@ -192,6 +197,9 @@ bool is_printer(std::string_view text) {
 } // namespace
 
 std::optional<Language> language_of_line(std::string_view line) {
+    if (begins_a_plot(line)) {
+        return Language::hpgl;
+    }
     const std::string text = plain_line(line);
     if (is_klartext(text)) {
         return Language::klartext;

@@ -47,17 +47,133 @@ struct WrittenLength {
     bool mm = false;
 };
 
-/// A number above 0, with its unit behind it.
-std::optional<WrittenLength> length_at(std::string_view text) {
-    WrittenLength length;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), length.value);
-    if (read.ec != std::errc{} || !(length.value > 0.0 && length.value < 1000.0)) {
+/// Takes a number off the front of `text`.
+std::optional<double> take_number(std::string_view& text) {
+    double value = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (read.ec != std::errc{}) {
         return std::nullopt;
     }
-    text = without_first(text.substr(static_cast<std::size_t>(read.ptr - text.data())), " \t");
-    length.mm = text.starts_with("MM");
-    length.inches = text.starts_with("IN") || text.starts_with('"');
+    text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+    return value;
+}
+
+/// Takes `/4` off the front of `text`, behind `of`; nothing if it is no fraction.
+std::optional<double> take_denominator(std::string_view& text, double of) {
+    std::string_view rest = text;
+    if (!rest.starts_with('/')) {
+        return std::nullopt;
+    }
+    rest.remove_prefix(1);
+    const auto denominator = take_number(rest);
+    if (!denominator || !(*denominator > 0.0)) {
+        return std::nullopt;
+    }
+    text = rest;
+    return of / *denominator;
+}
+
+/// Takes the unit off the front of `text`.
+void take_unit(std::string_view& text, WrittenLength& length) {
+    std::string_view rest = without_first(text, " \t");
+    for (const std::string_view unit : {"INCHES", "INCH", "IN", "\"", "MM"}) {
+        const bool ends = unit == "\"" || rest.size() == unit.size() ||
+                          (rest.size() > unit.size() && !in_word(rest[unit.size()]));
+        if (rest.starts_with(unit) && ends) {
+            length.mm = unit == "MM";
+            length.inches = !length.mm;
+            rest.remove_prefix(unit.size());
+            text = rest;
+            return;
+        }
+    }
+}
+
+/// Takes a number above 0 off the front of `text`, with its unit behind it: `6.`, `6MM`, `0.25 IN`, and of
+/// inches `1/4` and `1-1/2`.
+std::optional<WrittenLength> take_length(std::string_view& text) {
+    std::string_view rest = text;
+    const auto first = take_number(rest);
+    if (!first) {
+        return std::nullopt;
+    }
+    WrittenLength length{*first};
+    bool fraction = false;
+    if (const auto part = take_denominator(rest, *first)) {
+        length.value = *part;
+        fraction = true;
+    } else if (rest.starts_with('-')) {
+        std::string_view behind = rest.substr(1);
+        const auto numerator = take_number(behind);
+        const auto rest_of_inch = numerator ? take_denominator(behind, *numerator) : std::nullopt;
+        if (rest_of_inch) {
+            length.value += *rest_of_inch;
+            rest = behind;
+            fraction = true;
+        }
+    }
+    take_unit(rest, length);
+    length.inches = length.inches || (fraction && !length.mm);
+    if (!(length.value > 0.0 && length.value < 1000.0)) {
+        return std::nullopt;
+    }
+    text = rest;
     return length;
+}
+
+std::optional<WrittenLength> length_at(std::string_view text) {
+    return take_length(text);
+}
+
+/// Whether `text` begins with one of `words`.
+template <std::size_t count>
+bool begins_with_word_of(std::string_view text, const std::array<std::string_view, count>& words) {
+    return std::ranges::any_of(words, [&](std::string_view word) {
+        return text.starts_with(word) && (text.size() == word.size() || !in_word(text[word.size()]));
+    });
+}
+
+/// `6MM ENDMILL`, `1/4 FLAT END MILL`: a length with a unit, then what kind of tool it is of. `6MM DEEP WITH
+/// THE END MILL` is none.
+std::optional<WrittenLength> size_of_tool_in(std::string_view comment) {
+    constexpr std::array<std::string_view, 12> tools{"ENDMILL",
+                                                     "MILL",
+                                                     "DRILL",
+                                                     "BIT",
+                                                     "CUTTER",
+                                                     "VBIT",
+                                                     "BALLNOSE",
+                                                     "ENGRAVER",
+                                                     "ROUGHER",
+                                                     "BURR",
+                                                     "REAMER",
+                                                     "NOSE"};
+    constexpr std::array<std::string_view, 34> kinds{
+        "FLAT",   "BALL",      "BULL",     "SQUARE",      "CARBIDE",  "HSS",    "COBALT",  "END",  "V",
+        "SPIRAL", "ENGRAVING", "ROUGHING", "FINISHING",   "STRAIGHT", "ROUTER", "SPOT",    "FACE", "CENTER",
+        "CENTRE", "UPCUT",     "DOWNCUT",  "COMPRESSION", "SINGLE",   "TWO",    "CHAMFER", "SLOT", "DIA",
+        "DIAM",   "DIAMETER",  "SOLID",    "TAPERED",     "CORNER",   "FLUTE",  "FL"};
+    for (std::size_t at = comment.find_first_of("0123456789."); at != std::string_view::npos;) {
+        const bool apart =
+            at == 0 || std::string_view(" \t|:,(").find(comment[at - 1]) != std::string_view::npos;
+        std::string_view rest = comment.substr(at);
+        const auto length = apart ? take_length(rest) : std::nullopt;
+        if (length && (length->mm || length->inches)) {
+            rest = without_first(rest, " \t.,-");
+            const std::string_view behind_flutes = without_first(rest, "0123456789 -");
+            const bool names_kind =
+                begins_with_word_of(rest, tools) || begins_with_word_of(behind_flutes, kinds);
+            const bool names_tool = std::ranges::any_of(tools, [&](std::string_view tool) {
+                return find_word(rest, tool) != std::string_view::npos;
+            });
+            if (names_kind && names_tool) {
+                return length;
+            }
+        }
+        const std::size_t end = comment.find_first_not_of("0123456789./-", at);
+        at = comment.find_first_of("0123456789.", std::min(end, comment.size()));
+    }
+    return std::nullopt;
 }
 
 /// Behind `D=`, `DIA`, `DIA.`, `DIAMETER` and what separates it from the number, or second of an APT record.
@@ -80,7 +196,7 @@ std::optional<WrittenLength> diameter_in(std::string_view comment) {
             }
         }
     }
-    return std::nullopt;
+    return size_of_tool_in(comment);
 }
 
 /// Behind `T` or `TOOL`.
@@ -123,7 +239,9 @@ void add_called_tools(std::string_view words, std::vector<int>& called) {
     for (auto at = words.find('T'); at != std::string_view::npos; at = words.find('T', at + 1)) {
         int number = 0;
         const auto read = std::from_chars(words.data() + at + 1, words.data() + words.size(), number);
-        if (read.ec == std::errc{} && (at == 0 || !in_word(words[at - 1]))) {
+        const bool whole =
+            read.ptr == words.data() + words.size() || *read.ptr != '.'; // T0.005 is a tolerance
+        if (read.ec == std::errc{} && whole && (at == 0 || !in_word(words[at - 1]))) {
             called.push_back(number);
         }
     }

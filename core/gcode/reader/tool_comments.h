@@ -1,7 +1,7 @@
 // Tools that CAM programs name in comments, since G-code has no word for a diameter: Fusion 360 and HSM
-// `(T1 D=6. CR=0. - FLAT END MILL)`, Mastercam `(TOOL - 1 DIA. OFF. - 1 LEN. - 1 DIA. - 6.)`, `( TOOL DIA. =
-// 6 )`,
-// `(Tool 2, diameter: 3.175 mm)`, APT `(TOOL/MILL,6,0,50)`. Lengths mm.
+// `(T1 D=6. CR=0. - FLAT END MILL)`, Mastercam `(TOOL - 1 DIA. OFF. - 1 LEN. - 1 DIA. - 6.)`,
+// `( TOOL DIA. = 6 )`, `(Tool 2, diameter: 3.175 mm)`, `(6MM ENDMILL)`, `(T1 | 1/4 FLAT ENDMILL)`, APT
+// `(TOOL/MILL,6,0,50)`. Lengths mm.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ struct CommentTool {
 };
 
 /// In the order of the text; the first comment of each tool that is called: where the program has T words, a
-/// comment with another number is of none of them. A length without a unit is in inches where the
-/// first unit word of the program is G20 or G70.
+/// comment with another number is of none of them. A fraction is of an inch; another length
+/// without a unit is in inches where the first unit word of the program is G20 or G70.
 [[nodiscard]] std::vector<CommentTool> tools_in_comments(std::string_view text);
 
 /// The first of `tools` if all are as wide; nothing if one is not, or there is none.

@@ -21,8 +21,9 @@ struct WorkOrigin {
     [[nodiscard]] Vec3 at() const { return Vec3(x, y, z.value_or(0.0)); }
 };
 
-/// Every work system (G54 to G59.3) begins there until the program changes it. With Z it is a whole origin:
-/// axes other than X, Y and Z, and the rotation, begin at 0 where the settings do not have them.
+/// Every work system (G54 to G59.3) begins there until the program changes it, without a rotation and without
+/// G92 where the settings do not have them. With Z it is a whole origin: axes other than X, Y and Z begin at
+/// 0 where the settings do not have them.
 void put_origin(ReaderSettings& settings, const WorkOrigin& origin);
 
 } // namespace millwright::gcode

@@ -37,7 +37,9 @@ Job planned_text(std::string_view text,
                  const PlannedText& how) {
     gcode::ReaderSettings settings;
     settings.any_tool = true;
-    gcode::put_origin(settings, gcode::WorkOrigin(how.origin));
+    if (how.origin) {
+        gcode::put_origin(settings, *how.origin);
+    }
     settings.subroutine_folders = {file.parent_path().empty() ? "." : file.parent_path()};
     if (how.start) { // what no word names stays where it is
         settings.start = for_the_reader(*machine, *how.start);
@@ -46,7 +48,10 @@ Job planned_text(std::string_view text,
     gcode::Interpreter reader(text, file, std::move(settings), builder);
     reader.run();
     gcode::MachineProgram made = builder.take();
-    for (const auto* faults : {&reader.errors(), &std::as_const(made.faults), &std::as_const(made.lost)}) {
+    for (const auto* faults : {&reader.errors(),
+                               &std::as_const(made.faults),
+                               &std::as_const(made.lost),
+                               &std::as_const(made.unplaced)}) {
         if (!faults->empty()) {
             throw Error(faults->front());
         }
@@ -60,7 +65,8 @@ Job planned_text(std::string_view text,
     job.machine = std::move(machine);
     job.listing = std::make_shared<const gcode::Listing>(gcode::listing_of(text, made.program));
     job.program = std::make_shared<const gcode::Program>(std::move(made.program));
-    job.hash = hash_of(*job.listing, how.origin);
+    job.notices = std::move(made.simplified);
+    job.hash = hash_of(*job.listing, how.origin.value_or(gcode::WorkOrigin()).at());
     return job;
 }
 

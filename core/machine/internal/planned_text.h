@@ -1,6 +1,7 @@
 // Jobs of G-code files whose motion is planned here.
 #pragma once
 
+#include "core/gcode/reader/work_origin.h"
 #include "core/geometry/vectors.h"
 #include "core/machine/job.h"
 
@@ -13,11 +14,11 @@
 namespace millwright::machine::internal {
 
 struct PlannedText {
-    std::optional<kinematics::AxisPositions> start = {}; ///< as planned_job()
-    Vec3 origin = Vec3::Zero();                          ///< where the program's zero lies on the machine
+    std::optional<kinematics::AxisPositions> start = {}; ///< of the machine; not given: not known
+    std::optional<gcode::WorkOrigin> origin = {};        ///< as FileJobSettings::origin
 };
 
-/// As planned_job().
+/// As file_job().
 [[nodiscard]] Job planned_text(std::string_view text,
                                const std::filesystem::path& file,
                                std::shared_ptr<const kinematics::MachineModel> machine,

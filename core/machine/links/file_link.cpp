@@ -1,6 +1,7 @@
 #include "core/machine/links/file_link.h"
 
 #include "core/base/error.h"
+#include "core/base/files.h"
 
 #include <chrono>
 #include <thread>
@@ -9,7 +10,8 @@ namespace millwright::machine {
 
 void FileLink::open() {
     const std::scoped_lock lock(mutex_);
-    out_ = std::ofstream(file_, std::ios::binary | std::ios::trunc);
+    write_file(file_, ""); // what was there may have another name, under which it stays
+    out_ = std::ofstream(file_, std::ios::binary | std::ios::app);
     failed_ = false;
     if (!out_) {
         throw Error("cannot be written", file_);

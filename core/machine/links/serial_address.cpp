@@ -51,6 +51,28 @@ std::string_view last_part(std::string_view text) {
     return comma == std::string_view::npos || comma == 0 ? std::string_view() : text.substr(comma + 1);
 }
 
+/// A path may have commas, but none with a digit behind it: that is meant for a rate or a frame.
+void refuse_malformed(std::string_view path, std::string_view address) {
+    constexpr const char* as_it_is_written =
+        "as /dev/ttyUSB0,9600,8E1: the rate, then data bits 7 or 8, parity "
+        "N, E or O, and stop bits 1 or 2";
+    if (address.starts_with(',')) {
+        throw Error(
+            fmt::format("'{}': there is no serial port before the comma", address), {}, as_it_is_written);
+    }
+    for (auto comma = path.find(','); comma != std::string_view::npos; comma = path.find(',', comma + 1)) {
+        const auto first = path.find_first_not_of(" \t", comma + 1);
+        const bool ends = first == std::string_view::npos;
+        if (ends || (path[first] >= '0' && path[first] <= '9')) {
+            throw Error(fmt::format("'{}': '{}' behind the port is neither a rate nor a frame",
+                                    address,
+                                    address.substr(comma + 1)),
+                        {},
+                        as_it_is_written);
+        }
+    }
+}
+
 std::string frame_text(const SerialLine& line) {
     return fmt::format(
         "{}{}{}", line.data_bits, parity_letters[static_cast<std::size_t>(line.parity)], line.stop_bits);
@@ -84,6 +106,7 @@ SerialAddress parse_serial_address(std::string_view address) {
         found.line.baud = rate_of(rate, address);
         drop_last();
     }
+    refuse_malformed(path, address);
     found.path = path;
     return found;
 }

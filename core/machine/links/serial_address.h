@@ -53,7 +53,8 @@ struct SerialAddress {
 [[nodiscard]] bool is_serial_address(std::string_view address);
 
 /// `PATH`, `PATH,RATE` or `PATH,RATE,FRAME`, where a frame is data bits, N, E or O, and stop bits, as 8N1.
-/// Throws Error for a rate that serial ports do not have.
+/// Throws Error for a rate that serial ports do not have, and for what is meant for one of them and is
+/// neither.
 [[nodiscard]] SerialAddress parse_serial_address(std::string_view address);
 
 /// What parse_serial_address() reads back; of the usual line (115200, 8N1) the path alone.

@@ -68,11 +68,8 @@ void make_steps(Picture& picture, int steps) {
 }
 
 void expect_in_range(const PictureSettings& settings) {
-    constexpr int most_steps = 256;
     constexpr double flattest = 0.05, highest = 20.0;
-    if (settings.gray_steps != 0 && (settings.gray_steps < 2 || settings.gray_steps > most_steps)) {
-        throw Error(fmt::format("{} gray steps; there can be 2 to {}", settings.gray_steps, most_steps));
-    }
+    expect_gray_steps(settings.gray_steps);
     if (!(settings.pixel_aspect >= flattest && settings.pixel_aspect <= highest)) {
         throw Error(fmt::format("a pixel {} times as high as wide; it can be {} to {}",
                                 settings.pixel_aspect,
@@ -82,6 +79,15 @@ void expect_in_range(const PictureSettings& settings) {
 }
 
 } // namespace
+
+void expect_gray_steps(int steps) {
+    constexpr int most_steps = 256;
+    if (steps != 0 && (steps < 2 || steps > most_steps)) {
+        throw Error(fmt::format("{} gray steps are not possible", steps),
+                    {},
+                    fmt::format("2 to {}, or 0: the picture as it is", most_steps));
+    }
+}
 
 ReadPicture read_picture(std::string_view bytes,
                          const std::filesystem::path& file,

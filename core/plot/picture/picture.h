@@ -72,6 +72,9 @@ struct ReadPicture {
     std::vector<Diagnostic> notices; ///< what a person should know: averaged, transparent, CMYK
 };
 
+/// Throws Error for a number of gray steps that no picture can have.
+void expect_gray_steps(int steps);
+
 /// Reads a file's bytes; which format it is they say themselves. Pixels that are not square are made so.
 /// Throws Error for gray steps and an aspect out of their range, naming `file` for what is no picture, is
 /// damaged or cut off, or leaves the limits; and for a region that leaves the picture. Throws Cancelled

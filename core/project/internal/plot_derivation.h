@@ -40,6 +40,7 @@ private:
     [[nodiscard]] plot::CutPath placed(plot::CutPath path) const;
     void use(plot::CutPath path);
     void note(std::optional<Diagnostic> notice);
+    void note_raised_change();
     [[nodiscard]] plot::CutSettings cut_of(std::vector<plot::Level> levels) const;
     [[nodiscard]] std::vector<plot::Level> levels_of(const plot::Strokes& strokes) const;
 

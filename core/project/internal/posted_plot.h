@@ -6,6 +6,7 @@
 #include "core/gcode/posts/release.h"
 #include "core/kinematics/machine_model.h"
 #include "core/plot/cut_path.h"
+#include "core/plot/picture/finished_look.h"
 #include "core/project/plot_work.h"
 
 #include <filesystem>
@@ -18,6 +19,9 @@ struct PostedPlot {
     gcode::ReleasedText released;
     std::filesystem::path file; ///< its name in diagnostics
 };
+
+/// What cuts it.
+[[nodiscard]] plot::ToolTips tips_of(const PlotResult& result);
 
 /// With the settings and the spindle of `result`. Throws Error.
 [[nodiscard]] PostedPlot

@@ -191,21 +191,18 @@ TEST_F(DraftTest, AnExchangeIsTakenBack) {
             draft->exchange();
         }
         EXPECT_EQ(read_file(folder_ / "a"), "new");
-        EXPECT_TRUE(replaced.had_old());
-        EXPECT_FALSE(added.had_old());
         replaced.put_back();
         added.put_back();
     }
     EXPECT_EQ(read_file(folder_ / "a"), "old");
     EXPECT_EQ(names(folder_), std::vector<std::string>{"a"});
     {
-        Draft kept(folder_ / "a");
-        kept.write("new");
-        kept.exchange();
-        kept.keep_old(folder_ / "a-1");
+        Draft replaced(folder_ / "a");
+        replaced.write("new");
+        replaced.exchange();
     }
     EXPECT_EQ(read_file(folder_ / "a"), "new");
-    EXPECT_EQ(read_file(folder_ / "a-1"), "old");
+    EXPECT_EQ(names(folder_), std::vector<std::string>{"a"});
 }
 
 TEST_F(DraftTest, ReadersHaveABoundThatTheyName) {

@@ -308,6 +308,14 @@ TEST_F(CadFile, DamagedAndOtherFilesAreRefused) {
     EXPECT_THAT(refusal("", "part.step"), HasSubstr("empty"));
     EXPECT_THAT(refusal("solid plate\n", "part.step"), HasSubstr("ISO-10303-21"));
     EXPECT_THAT(refusal("hello\n", "part.igs"), HasSubstr("column 73"));
+    for (const char* name : {"part.step", "part.igs"}) {
+        std::string wide = "\xFF\xFE";
+        for (const char c : std::string("ISO-10303-21;\nHEADER;\nENDSEC;\nEND-ISO-10303-21;\n")) {
+            wide += {c, '\0'};
+        }
+        EXPECT_THAT(refusal(wide, name), HasSubstr("the file is text in UTF-16"));
+        EXPECT_THAT(refusal(wide.substr(2), name), HasSubstr("the file is text in UTF-16"));
+    }
     write_step(geometry::surface_preset("dome").make(), folder_ / "whole.step", {});
     const std::string whole = read_file(folder_ / "whole.step");
     EXPECT_THAT(refusal(whole.substr(0, whole.size() / 2), "half.step"), HasSubstr("the file is cut off"));

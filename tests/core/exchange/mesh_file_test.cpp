@@ -303,6 +303,27 @@ TEST(MeshFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(refusal("plyx\n", "part.ply"), HasSubstr("begins with the word ply"));
 }
 
+/// As UTF-16, `first` 0: of Intel's byte order.
+std::string in_utf16(std::string_view text, std::size_t first) {
+    std::string wide;
+    for (const char c : text) {
+        wide += first == 0 ? std::string{c, '\0'} : std::string{'\0', c};
+    }
+    return wide;
+}
+
+// A text STL was called a binary one of 922761216 triangles.
+TEST(MeshFile, TextInUtf16IsNamedAsWhatItIs) {
+    for (const std::size_t first : {0U, 1U}) {
+        const std::string mark = first == 0 ? "\xFF\xFE" : "\xFE\xFF";
+        for (const char* name : {"part.stl", "part.obj", "part.ply"}) {
+            EXPECT_THAT(refusal(in_utf16(two_triangles, first), name),
+                        HasSubstr("the file is text in UTF-16"));
+            EXPECT_THAT(refusal(mark + in_utf16(two_triangles, first), name), HasSubstr("is text in UTF-16"));
+        }
+    }
+}
+
 TEST(MeshFile, NumbersThatAreNotFiniteAreRefused) {
     std::array<float, 18> broken = plate;
     broken[4] = std::numeric_limits<float>::quiet_NaN();

@@ -71,6 +71,47 @@ TEST(FileJob, BeyondTheTravelOfTheThesisIsFoundBefore) {
             .empty());
 }
 
+// What is not known was executed as 0: a G53 in the middle of work positions, a second system.
+TEST(FileJob, OfPositionsThatNobodyCanKnowIsRefused) {
+    const test::ScratchFolder folder;
+    const auto file = written(folder / "down.ngc", "G21 G90\nG0 X9 Y9 Z20\nG1 Z10 F100\nG53 G0 Z0\nM2\n");
+    expect_error(file, "down.ngc:4:1: G53 goes to a machine position");
+    expect_error(written(folder / "two.ngc", "G21 G90\nG0 X9 Z9\nG55 X9\nM2\n"),
+                 "X moves in two systems, and the offset of G55 is not known");
+    expect_error(written(folder / "read.ngc", "G21 G90\nG0 X#5221\nM2\n"), "its value is not known");
+    expect_error(written(folder / "step.ngc", "G21 G91\nG0 X5\nM2\n"),
+                 "X moves from where it is, and the program has not said where");
+    const auto model = table();
+    const Job job = file_job(file, model, {.origin = gcode::WorkOrigin(Vec3(5.0, 0.0, 7.0))});
+    const int z = model->axis_index('Z');
+    std::vector<double> heights;
+    for (const gcode::Block& block : job.program->blocks) {
+        if (block.moves()) {
+            heights.push_back(block.target[z]);
+        }
+    }
+    EXPECT_THAT(heights, testing::ElementsAre(27.0, 17.0, 0.0));
+    try { // Z is not known
+        (void)file_job(file, model, {.origin = gcode::WorkOrigin(5.0, 0.0)});
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.diagnostic().message, HasSubstr("is not known in Z"));
+    }
+    EXPECT_NO_THROW((void)file_job(written(folder / "step.ngc", "G21 G91\nG0 X5\nM2\n"),
+                                   model,
+                                   {.start = kinematics::AxisPositions::Zero(3)}));
+}
+
+TEST(FileJob, TellsWhatIsExecutedInAnotherWay) {
+    const test::ScratchFolder folder;
+    const auto file = written(folder / "other.ngc", "G21 G90 G55\nM7\nG0 X9 Y9 Z20\nM2\n");
+    const Job job = file_job(file, table());
+    ASSERT_EQ(job.notices.size(), 2U);
+    EXPECT_THAT(to_text(job.notices[0]), HasSubstr("other.ngc:1"));
+    EXPECT_THAT(to_text(job.notices[0]), HasSubstr("the offset of G55: it is taken for 0"));
+    EXPECT_THAT(to_text(job.notices[1]), HasSubstr("mist (M7)"));
+}
+
 TEST(FileJob, SaysWhatIsWrongAndWhere) {
     const test::ScratchFolder folder;
     expect_error(written(folder / "bad.ngc", "G21\nG1 X5\n"), "bad.ngc:2");

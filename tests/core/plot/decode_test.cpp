@@ -468,7 +468,7 @@ TEST(PointFiles, AByteOrderMarkIsSkipped) {
 }
 
 TEST(PointFiles, BadLinesAreReportedByTheirNumber) {
-    const PointFile read = read_points("1,2,3\n\n1;2;3\n4,5\n6,7,8,9\n1,2,nan\n7,8,9", "a.csv");
+    const PointFile read = read_points("1,2,3\n\n1 2 3\n4,5\n6,7,8,9\n1,2,nan\n7,8,9", "a.csv");
     EXPECT_EQ(read.points, (std::vector<Vec3>{{1.0, 2.0, 3.0}, {7.0, 8.0, 9.0}}));
     ASSERT_EQ(read.diagnostics.size(), 4U);
     EXPECT_EQ(read.diagnostics[0].place.line, 3);

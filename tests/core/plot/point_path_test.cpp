@@ -57,10 +57,40 @@ TEST(PointFile, IsKnownByItsFirstLine) {
     EXPECT_TRUE(is_point_file("\n \n-1,2e1, 3\n"));
     EXPECT_TRUE(is_point_file("\xEF\xBB\xBF"
                               "1,2,3"));
-    for (const char* text :
-         {"", "IN;SP1;", "G0 X1\n", "1,2\n", "x,y,z\n1,2,3\n", "# millwright path 1\n", "1,2,3,4\n"}) {
+    for (const char* text : {"",
+                             "IN;SP1;",
+                             "G0 X1\n",
+                             "1,2\n",
+                             "y,x,z\n1,2,3\n",
+                             "x,y,z\nG0\n",
+                             "# millwright path 1\n",
+                             "1,2,3,4\n",
+                             "PA;PD;PU;\n",
+                             "1;2\n"}) {
         EXPECT_FALSE(is_point_file(text)) << text;
     }
+}
+
+// As spreadsheets write them; they were taken for HPGL.
+TEST(PointFile, MayHaveSemicolonsAndNamesOfItsColumns) {
+    for (const char* text : {"1.5;-2;3\n4;5;6\n",
+                             "1,5;-2,0;3\n4;5;6\n",
+                             "1.5\t-2\t3\n4\t5\t6\n",
+                             "X,Y,Z\r\n1.5,-2,3\r\n4,5,6\r\n",
+                             "\"x\";\"y\";\"z\"\n1,5;-2;3\n4;5;6\n",
+                             "\n# X (mm), Y (mm), Z (mm)\n1.5, -2, 3\n4, 5, 6\n"}) {
+        EXPECT_TRUE(is_point_file(text)) << text;
+        const PointFile read = read_points(text, "points.csv");
+        EXPECT_TRUE(read.diagnostics.empty()) << text;
+        ASSERT_EQ(read.points.size(), 2U) << text;
+        EXPECT_EQ(read.points[0], Vec3(1.5, -2.0, 3.0)) << text;
+        EXPECT_EQ(read.points[1], Vec3(4.0, 5.0, 6.0)) << text;
+    }
+    EXPECT_EQ(read_points("x,y,z\n1,2,3\n", "p.csv").lines, std::vector<int>{2});
+    const PointFile twice = read_points("1,2,3\nx,y,z\n1,5,2,3\n", "points.csv");
+    ASSERT_EQ(twice.diagnostics.size(), 2U);
+    EXPECT_EQ(to_text(twice.diagnostics[0]),
+              "points.csv:2: 'x,y,z' is no point (three numbers with commas or semicolons between: X, Y, Z)");
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <set>
@@ -202,6 +203,18 @@ TEST(PlotWork, ToolsAreChangedAtAPlaceOfTheMachine) {
         }
     }
     EXPECT_EQ(changes, 1);
+    const auto says_raised = [&] {
+        const auto now = derived(input);
+        return std::ranges::any_of(now->notices, [](const Diagnostic& notice) {
+            return notice.message ==
+                   "tools are changed at Z 5 mm, the safe height: Tool change Z, 4 mm, is below it";
+        });
+    };
+    EXPECT_FALSE(says_raised());
+    input.settings.change_position.z() = 4.0; // it was raised without a word
+    EXPECT_TRUE(says_raised());
+    input.settings.levels[1].tool = 1;
+    EXPECT_FALSE(says_raised()) << "no tool is changed";
 }
 
 TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {

@@ -145,6 +145,42 @@ TEST(SweptCut, AgreesWithTheFormulaOfSecondOrderOnACurvedPart) {
     EXPECT_NEAR(in_the_middle, scallop_height(4.0, -bend, 1.0), 1e-3);
 }
 
+/// Up a slope of 45 degrees, tip on it: the edge behind the tip cuts R / sqrt(2) too deep. Between two looks
+/// it was told up to half a look too high, by the rule for arcs.
+TEST(SweptCut, UnderAnEdgeIsExactBetweenLooks) {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            net.point(i, j) = {40.0 * i, 40.0 * j - 20.0, 40.0 * i};
+        }
+    }
+    const auto machine = test::machine("router-xyz");
+    const auto at = [&](double x) {
+        return kinematics::with_tip_at(
+            machine, kinematics::AxisPositions::Zero(machine.axis_count()), Vec3(x, 0.0, x));
+    };
+    const std::vector<SweptMove> moves{{at(5.0), at(18.3), true}, {at(18.3), at(35.0), true}};
+    const double exact = -0.5 * test::flat_end.diameter / std::sqrt(2.0);
+    SweepSettings settings{.nu = 41, .nv = 3, .step = 0.7, .highest = 5.0};
+    const auto farthest_off = [&] {
+        const SweptCut cut = swept_cut(geometry::BezierPatch(net),
+                                       false,
+                                       machine,
+                                       {.cutter = test::body(test::flat_end)},
+                                       moves,
+                                       settings);
+        double most = 0.0;
+        for (int x = 10; x <= 35; ++x) {
+            most = std::max(most, std::abs(cut.height(x, 1) - exact));
+        }
+        EXPECT_NEAR(cut.moves[1].cutter.depth, -exact, settings.between_looks ? 1e-2 : 1.0);
+        return most;
+    };
+    EXPECT_GT(farthest_off(), 0.1);
+    settings.between_looks = true;
+    EXPECT_LT(farthest_off(), 1e-3);
+}
+
 /// All bodies at all poses against all points, without tiles, orders or descents.
 TEST(SweptCut, IsWhatBruteForceFinds) {
     const auto patch = test::patch("two-bell");

@@ -120,6 +120,18 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
     person.keep("table-goes-on");
 }
 
+// It has no work offsets: a position that needs one went to it as if the offset were 0.
+TEST_F(MachineTable, RunsNoProgramWhosePositionsNobodyCanKnow) {
+    connect();
+    const std::filesystem::path file = person.folder() / "down.ngc";
+    write_file(file, "G21 G90\nG0 X9 Y9 Z20\nG1 Z10 F1000\nG53 G0 Z0\nM2\n");
+    person.open(file);
+    person.wait_idle();
+    person.frames(3);
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("G53 goes to a machine position"));
+    EXPECT_EQ(now().opened->findings.size(), 1U);
+}
+
 TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     connect();
     test::press_run(person);

@@ -112,6 +112,27 @@ TEST(PlotWorkspace, ThePlannersTimeIsToldWithLinksAndWithout) {
     bench.person.keep("plot-planner");
 }
 
+TEST(PlotWorkspace, ADrawingBeyondTheTableSaysWhichOriginWouldDo) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    ASSERT_FALSE(bench.made().failure);
+    bench.person.fill_in("inspector/work/origin_x_mm", "600");
+    bench.settle();
+    ASSERT_TRUE(bench.made().failure);
+    EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("axis X would have to go to"));
+    EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("put its origin at"));
+    EXPECT_TRUE(bench.person.sees("inspector/failure"));
+    EXPECT_NE(bench.person.refusal("inspector/plot_to_machine"), "");
+    bench.person.click("lower/tabs/notices");
+    bench.person.frames();
+    EXPECT_TRUE(bench.person.sees("lower/what_is_wrong"));
+    bench.person.fill_in("inspector/work/origin_x_mm", "300");
+    bench.settle();
+    EXPECT_FALSE(bench.made().failure);
+    EXPECT_FALSE(bench.person.sees("lower/what_is_wrong"));
+    EXPECT_FALSE(bench.person.sees("inspector/failure"));
+    EXPECT_EQ(bench.person.refusal("inspector/plot_to_machine"), "");
+}
+
 TEST(PlotWorkspace, EachAxisHasItsUnit) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     const auto farthest_cut = [&](Eigen::Index axis) {

@@ -56,8 +56,13 @@ AxisValues given_axes(const Block& block, AxisValues otherwise) {
 void send_system(Run& run) {
     const int system = run.state.coordinate_system;
     Command selected = command_of(CommandKind::set_g5x_offset, run.state.g5x_offset, system);
-    selected.mode = run.variables.known_in_system(system);
+    selected.mode = run.variables.axes_set(parameter_g5x(system));
     run.out.send(selected);
+}
+
+void send_rotation(Run& run) {
+    const bool known = run.variables.is_set(parameter_g5x(run.state.coordinate_system) + 9);
+    run.out.send(CommandKind::set_xy_rotation, known ? 1 : 0, run.state.rotation_deg);
 }
 
 void send_g92(Run& run) {
@@ -130,7 +135,7 @@ void select_coordinate_system(Run& run, int code) {
     s.position = in_system(bare, s.g5x_offset, s.rotation_deg, s.g92_offset);
     send_system(run);
     send_g92(run);
-    run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
+    send_rotation(run);
 }
 
 void set_tool_length(Run& run, const Block& block, int code) {
@@ -178,8 +183,10 @@ void set_axis_offsets(Run& run, const Block& block, int code) {
     AxisValues offset;
     if (code == 923) {
         run.g92_known = run.variables.axes_set(parameter_g92);
-    } else if (code != 920) {
-        run.g92_known |= code == 520 ? axes_given(block) : every_axis;
+    } else if (code == 520) {
+        run.g92_known |= axes_given(block);
+    } else if (code != 920) { // G92 counts from where the axes are, which is as certain as before
+        run.g92_known = every_axis;
     }
     if (code == 920) {
         send_measured(run, block, code);
@@ -313,7 +320,7 @@ void set_system_data(Run& run, const Block& block) {
     s.g5x_offset = offset;
     s.rotation_deg = rotation;
     send_system(run);
-    run.out.send(CommandKind::set_xy_rotation, 0, rotation);
+    send_rotation(run);
 }
 
 } // namespace
@@ -373,7 +380,7 @@ void reset_coordinate_system(Run& run) {
     s.rotation_deg = run.variables.stored(parameter_g5x(1) + 9);
     s.position = in_system(bare, s.g5x_offset, s.rotation_deg, s.g92_offset);
     send_system(run);
-    run.out.send(CommandKind::set_xy_rotation, 0, s.rotation_deg);
+    send_rotation(run);
 }
 
 } // namespace millwright::gcode::internal

@@ -12,7 +12,8 @@ namespace millwright::gcode::internal {
 /// G28 and G30. As in LinuxCNC, the tool offset along A, B and C is not taken off.
 [[nodiscard]] AxisValues relative_to_system(const AxisValues& machine, const ModalState& state);
 
-void send_system(Run& run); ///< the offset in force, and of which axes it is known
+void send_system(Run& run);   ///< the offset in force, and of which axes it is known
+void send_rotation(Run& run); ///< of that system, and whether it is known
 void send_g92(Run& run);
 
 void set_units(Run& run, int code);                            ///< G20, G21

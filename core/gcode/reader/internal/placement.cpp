@@ -1,5 +1,6 @@
 #include "core/gcode/reader/internal/placement.h"
 
+#include "core/base/numbers.h"
 #include "core/gcode/reader/internal/losses.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
 #include "core/gcode/retract.h"
@@ -14,9 +15,10 @@ namespace millwright::gcode::internal {
 
 namespace {
 
+constexpr int g10_in_tenths = 100;
 constexpr const char* place_by_rapid = "move the axis to a position first, in G90";
 constexpr const char* place_the_work = "say where the program's zero lies on the machine: --origin X,Y,Z (of "
-                                       "plots --work-origin) or --parameters FILE";
+                                       "plots --work-origin); gcode and plot also take --parameters FILE";
 
 std::string_view code_of_frame(MoveFrame frame) {
     switch (frame) {
@@ -43,18 +45,6 @@ std::string name_of_system(int system) {
     constexpr int whole = 6; // G54 to G59
     return system <= whole ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - whole);
 }
-
-namespace {
-
-constexpr int with_unknown_g92 = 10; ///< of Placement::Frame
-
-/// Of Placement::Frame, but for the machine's.
-std::string name_of_frame(int frame) {
-    const int system = frame % with_unknown_g92;
-    return system == 0 ? "G92" : name_of_system(system);
-}
-
-} // namespace
 
 Placement::Placement(const kinematics::MachineModel& machine, std::filesystem::path file, bool start_known)
     : machine_(machine), file_(std::move(file)),
@@ -92,23 +82,94 @@ void Placement::refuse_at(Kind kind, SourcePlace source, int column, Diagnostic 
     }
 }
 
+/// X and Y are turned together, on a machine that has both.
+bool Placement::is_turned(int axis) const {
+    const char letter = letter_of(axis);
+    return (letter == 'X' || letter == 'Y') && machine_.axis_index('X') >= 0 && machine_.axis_index('Y') >= 0;
+}
+
 Placement::Frame Placement::frame_of(int axis) const {
+    constexpr AxisBits in_plane = 0b11;
     const std::size_t index = index_of_[static_cast<std::size_t>(axis)];
-    const bool system = ((system_known_ >> index) & 1) != 0;
-    const bool g92 = ((g92_known_ >> index) & 1) != 0;
-    return (system ? 0 : system_) + (g92 ? 0 : with_unknown_g92);
+    const bool of_both = is_turned(axis) && rotation_known_ && !exactly_equal(rotation_deg_, 0.0);
+    const bool system =
+        of_both ? (system_known_ & in_plane) == in_plane : ((system_known_ >> index) & 1) != 0;
+    return {system ? 0 : system_, is_turned(axis) ? turned_ : 0, ((g92_known_ >> index) & 1) == 0};
+}
+
+/// What of `frame` is not known and otherwise in `other`.
+std::string Placement::name_of_unknown(const Frame& frame, const Frame& other) const {
+    if (frame.system != other.system) {
+        return "the offset of " + name_of_system(frame.system > 0 ? frame.system : other.system);
+    }
+    if (frame.turned != other.turned) {
+        const int place = frame.turned > 0 ? frame.turned : other.turned;
+        return "the rotation of " +
+               name_of_system(turned_places_[static_cast<std::size_t>(place) - 1].system);
+    }
+    return "the offset of G92";
+}
+
+std::string Placement::remedy_for(const Frame& frame, const Frame& other) {
+    if (frame.system != other.system) {
+        return place_the_work;
+    }
+    return (frame.turned != other.turned ? "set the rotation with R of G10 L2 before the first move, or "
+                                         : "clear it with G92.1 before the first move, or ") +
+           std::string(place_the_work);
+}
+
+/// Touching off moves the system along its own axes, however it is turned: positions before and after it are
+/// still known to each other.
+void Placement::find_turned_place() {
+    if (rotation_known_) {
+        turned_ = 0;
+        return;
+    }
+    const TurnedPlace now{system_, offset_ + tool_};
+    if (std::exchange(touched_off_, false) && turned_ > 0 &&
+        turned_places_[static_cast<std::size_t>(turned_) - 1].system == system_) {
+        turned_places_[static_cast<std::size_t>(turned_) - 1] = now;
+        return;
+    }
+    const auto found = std::ranges::find_if(turned_places_, [&](const TurnedPlace& place) {
+        return place.system == now.system && (place.offset - now.offset).norm() <= same_place;
+    });
+    turned_ = static_cast<int>(found - turned_places_.begin()) + 1;
+    if (found == turned_places_.end()) {
+        turned_places_.push_back(now);
+    }
+}
+
+void Placement::take_rotation(const Command& command) {
+    rotation_known_ = command.index == 1;
+    rotation_deg_ = command.value;
+    find_turned_place();
 }
 
 void Placement::command(const Command& command, std::string_view line) {
+    const auto in_plane = [&] { return Vec2(command.axes[Axis::x] * unit_, command.axes[Axis::y] * unit_); };
+    touched_off_ = touched_off_ && (command.kind == CommandKind::set_g5x_offset ||
+                                    command.kind == CommandKind::set_xy_rotation);
     switch (command.kind) {
+    case CommandKind::use_length_units:
+        unit_ = command.index == static_cast<int>(LengthUnit::inch) ? mm_per_inch : 1.0;
+        return;
     case CommandKind::set_g5x_offset:
         system_ = command.index;
         system_known_ = static_cast<AxisBits>(command.mode);
+        offset_ = in_plane();
         return;
+    case CommandKind::set_xy_rotation:
+        return take_rotation(command);
+    case CommandKind::use_tool_length_offset:
+        tool_ = in_plane();
+        return find_turned_place();
     case CommandKind::set_g92_offset:
         g92_known_ = static_cast<AxisBits>(command.mode);
         return;
     case CommandKind::measure_position:
+        touched_off_ = command.index == g10_in_tenths;
         return measured(command, line);
     case CommandKind::read_unknown:
         return read_unknown(command);
@@ -126,7 +187,7 @@ void Placement::measured(const Command& command, std::string_view line) {
             continue;
         }
         const auto& used = frame_used_[static_cast<std::size_t>(n)];
-        const Frame frame = on_machine ? Frame{} : frame_of(n);
+        const Frame frame = on_machine ? Frame() : frame_of(n);
         Diagnostic found;
         if (!known_.contains(n)) {
             found = {{},
@@ -136,12 +197,12 @@ void Placement::measured(const Command& command, std::string_view line) {
                      place_by_rapid};
         } else if (used.value_or(frame) != frame) {
             found = {{},
-                     fmt::format("{} takes the position of {} {}, and the offset of {} is not known",
+                     fmt::format("{} takes the position of {} {}, and {} is not known",
                                  by_parameter ? "a parameter" : code_in_tenths(command.index),
                                  letter_of(n),
                                  on_machine ? "on the machine" : "in " + name_of_system(system_),
-                                 name_of_frame(*used == 0 ? frame : *used)),
-                     place_the_work};
+                                 name_of_unknown(*used, frame)),
+                     remedy_for(*used, frame)};
         } else {
             continue;
         }
@@ -287,18 +348,19 @@ void Placement::look_at_frame(const Move& move, const std::vector<int>& moving, 
             continue;
         }
         const Frame frame = frame_of(n);
-        if (of_machine && frame != 0) {
-            const bool of_all = system_known_ == 0;
+        if (of_machine && !frame.is_machine()) {
+            const bool of_one = frame.turned == 0 && system_known_ != 0;
             refuse(Kind::machine_position,
                    move.source,
                    line,
                    'G',
                    {{},
-                    fmt::format("{} goes to a machine position, and where the program's zero lies on the "
-                                "machine is not known{}",
+                    fmt::format("{} goes to a machine position, and {} is not known{}",
                                 code_of_frame(move.words.frame),
-                                of_all ? "" : fmt::format(" in {}", letter_of(n))),
-                    place_the_work});
+                                frame.system > 0 ? "where the program's zero lies on the machine"
+                                                 : name_of_unknown(frame, Frame()),
+                                of_one ? fmt::format(" in {}", letter_of(n)) : ""),
+                    remedy_for(frame, Frame())});
             continue;
         }
         expect_one_frame(n, move.source, line);
@@ -316,11 +378,10 @@ void Placement::expect_one_frame(int axis, SourcePlace source, std::string_view 
                line,
                'G',
                {{},
-                fmt::format("the program also moves {} in another system than {}, whose offset is not known: "
-                            "how their positions lie to each other nobody can say",
+                fmt::format("{} moves in two systems, and {} is not known: their positions cannot be related",
                             letter_of(axis),
-                            name_of_frame(frame == 0 ? before : frame)),
-                place_the_work});
+                            name_of_unknown(frame, before)),
+                remedy_for(frame, before)});
     }
 }
 
@@ -336,7 +397,7 @@ void Placement::look_at_reference(const Move& move,
     }
     const RetractAxis retract = retract_axis(machine_);
     const std::size_t index = index_of_[static_cast<std::size_t>(retract.axis)];
-    if (frame_of(retract.axis) != 0 || ((move.words.reference_set >> index) & 1) != 0) {
+    if (!frame_of(retract.axis).is_machine() || ((move.words.reference_set >> index) & 1) != 0) {
         return;
     }
     if (known_.contains(retract.axis) && retract.sense * (to[index] - from[index]) < -same_place) {

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/gcode/program.h"
 #include "core/gcode/reader/canon.h"
+#include "core/geometry/vectors.h"
 #include "core/kinematics/machine_model.h"
 
 #include <filesystem>
@@ -42,15 +43,32 @@ public:
 
 private:
     enum class Kind { increment, arc, measured, stored, machine_position, two_systems, lowers, inverse_time };
-    /// What the positions of an axis count from: 0, the machine's zero; else a system of unknown offset, 1:
-    /// G54 to 9: G59.3, and 10 more where a stored G92 offset that is not known is added.
-    using Frame = int;
+    /// What the positions of an axis count from, by what of it is not known; the machine's zero where all is.
+    struct Frame {
+        int system = 0;   ///< that has an unknown offset, 1: G54 to 9: G59.3; 0: the offset is known
+        int turned = 0;   ///< place among turned_places_, from 1, of an unknown rotation; 0: it is known
+        bool g92 = false; ///< a stored G92 offset, which is not known, is added
+
+        [[nodiscard]] bool is_machine() const { return *this == Frame{}; }
+        friend bool operator==(const Frame&, const Frame&) = default;
+    };
+    /// Where a system of unknown rotation is turned about: positions of two such places have nothing to do
+    /// with each other.
+    struct TurnedPlace {
+        int system = 1;
+        Vec2 offset = Vec2::Zero(); ///< with that of the tool, mm
+    };
 
     void refuse(Kind kind, SourcePlace source, std::string_view line, char letter, Diagnostic found);
     void refuse_at(Kind kind, SourcePlace source, int column, Diagnostic found);
     void measured(const Command& command, std::string_view line);
     void read_unknown(const Command& command);
+    void take_rotation(const Command& command);
+    void find_turned_place();
+    [[nodiscard]] bool is_turned(int axis) const;
     [[nodiscard]] Frame frame_of(int axis) const;
+    [[nodiscard]] std::string name_of_unknown(const Frame& frame, const Frame& other) const;
+    [[nodiscard]] static std::string remedy_for(const Frame& frame, const Frame& other);
     void expect_known_begin(const Move& move, const std::vector<int>& moving, std::string_view line);
     void take_words(const Move& move, std::string_view line);
     void look_at_frame(const Move& move, const std::vector<int>& moving, std::string_view line);
@@ -69,6 +87,14 @@ private:
     int system_ = 1;                               ///< 1: G54 to 9: G59.3
     AxisBits system_known_ = 0;                    ///< axes whose offset in it is known
     AxisBits g92_known_ = 0;                       ///< the same for G92
+    bool rotation_known_ = true;                   ///< of the system
+    double rotation_deg_ = 0.0;                    ///< of the system
+    double unit_ = 1.0;                            ///< of the program, mm
+    Vec2 offset_ = Vec2::Zero();                   ///< of the system in X and Y, mm
+    Vec2 tool_ = Vec2::Zero();                     ///< offset of the tool in X and Y, mm
+    bool touched_off_ = false;                     ///< the offset that comes next is one of G10 L20
+    std::vector<TurnedPlace> turned_places_;       ///< so far
+    int turned_ = 0;                               ///< Frame::turned of X and Y
     std::vector<std::optional<Frame>> frame_used_; ///< of each axis by the moves so far
     std::set<Kind> refused_;
     std::vector<Diagnostic> unplaced_;

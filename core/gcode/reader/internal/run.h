@@ -44,11 +44,11 @@ struct Run {
     std::optional<SavedModes> saved;   ///< of the subroutine being executed
     Vec2 compensated_begin = Vec2::Zero(); ///< where the waiting moves begin, in the plane
     bool compensated_begin_known = false;
-    Vec2 flushed_to = Vec2::Zero();  ///< where the last compensated move that was sent ended, in the plane
-    Bookmark line_begin;             ///< of the line being executed
-    bool ended = false;              ///< by M2, M30, or M99 of the main program
-    bool in_percents = false;        ///< the program began with %
-    AxisBits g92_known = every_axis; ///< axes whose G92 offset in force is known
+    Vec2 flushed_to = Vec2::Zero(); ///< where the last compensated move that was sent ended, in the plane
+    Bookmark line_begin;            ///< of the line being executed
+    bool ended = false;             ///< by M2, M30, or M99 of the main program
+    bool in_percents = false;       ///< the program began with %
+    AxisBits g92_known = 0;         ///< axes whose G92 offset in force is known
 
     /// Axes of which it is known how the active system lies on the machine.
     [[nodiscard]] AxisBits placed_axes() const {

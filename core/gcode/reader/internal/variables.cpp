@@ -177,10 +177,11 @@ AxisBits Variables::axes_set(int first) const {
 AxisBits Variables::known_in_system(int system) const {
     constexpr AxisBits in_turned_plane = 0b11;
     const int first = parameter_g5x(system);
+    const int rotation = first + static_cast<int>(axis_count);
     const AxisBits axes = axes_set(first);
-    const bool turned = !exactly_equal(stored(first + static_cast<int>(axis_count)), 0.0);
     const bool both = (axes & in_turned_plane) == in_turned_plane;
-    return turned && !both ? static_cast<AxisBits>(axes & ~in_turned_plane) : axes;
+    const bool in_plane = is_set(rotation) && (both || exactly_equal(stored(rotation), 0.0));
+    return in_plane ? axes : static_cast<AxisBits>(axes & ~in_turned_plane);
 }
 
 void Variables::set_axes(int first, const AxisValues& values, AxisBits changed, AxisBits known) {

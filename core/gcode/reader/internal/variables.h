@@ -89,8 +89,10 @@ public:
     void set_axes(int first, const AxisValues& values, AxisBits changed, AxisBits known);
     /// Axes of the nine parameters from `first` on that were ever set, be it to 0.
     [[nodiscard]] AxisBits axes_set(int first) const;
-    /// Axes whose offset in coordinate system `system` (1 to 9) is known: X and Y of a turned one only
-    /// together.
+    /// Whether it was ever set, be it to 0.
+    [[nodiscard]] bool is_set(int number) const { return told_[static_cast<std::size_t>(number)]; }
+    /// Axes whose position in coordinate system `system` (1 to 9) says where they are on the machine, but for
+    /// G92: X and Y need its rotation, and of a turned one each other's offset.
     [[nodiscard]] AxisBits known_in_system(int system) const;
 
     /// Those noted since the last call.

@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/gcode/reader/cordic_motion.h"
 #include "core/gcode/reader/interpreter.h"
+#include "core/machine/hand_lines.h"
 #include "core/motion/plan_within.h"
 
 #include <fmt/format.h>
@@ -96,6 +97,9 @@ gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing,
     gcode::ReaderSettings reading;
     reading.any_tool = true;
     reading.start = start;
+    if (options_.origin) {
+        gcode::put_origin(reading, *options_.origin);
+    }
     if (tool) { // the table of a processor that has none
         gcode::Tool& row = reading.tools.tools.emplace_back();
         row.number = tool->number;
@@ -106,7 +110,26 @@ gcode::CordicProgram CordicDriver::compiled(const gcode::Listing& listing,
     throw_first(program.errors());
     gcode::CordicProgram made = builder.take();
     throw_first(made.faults);
+    throw_first(made.unplaced);
     return made;
+}
+
+std::vector<StoredOffset> CordicDriver::stored_offsets() const {
+    if (!options_.origin) {
+        return machine_.stored_offsets();
+    }
+    std::vector<StoredOffset> offsets;
+    constexpr int systems = 9;
+    for (int system = 1; system <= systems; ++system) {
+        AxisPositions value = AxisPositions::Zero(model_->axis_count());
+        for (int n = 0; n < 3; ++n) {
+            if (const int axis = model_->axis_index("XYZ"[n]); axis >= 0) {
+                value[axis] = options_.origin->at()[n];
+            }
+        }
+        offsets.push_back({work_system_name(system), value});
+    }
+    return offsets;
 }
 
 /// A block is executed when nothing that is left comes from it or from one before it, as in a loop.

@@ -7,6 +7,7 @@
 #include "core/cordic/endless_watch.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/reader/cordic_program.h"
+#include "core/gcode/reader/work_origin.h"
 #include "core/machine/clock.h"
 #include "core/machine/driver.h"
 #include "core/machine/drivers/virtual_machine/virtual_machine.h"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,8 @@ struct CordicDriverOptions {
     cordic::ProcessorSettings processor;
     double clock_hz = 8e6; ///< for the report: which set-points would come late
     std::int64_t most_clocks = cordic::usual_most_clocks; ///< a program that takes more is refused
+    /// Where the zero of programs lies on the machine; not given: not known, so that none may depend on it.
+    std::optional<gcode::WorkOrigin> origin{};
 };
 
 class CordicDriver final : public Driver {
@@ -48,8 +52,8 @@ public:
     [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
     void connect() override { machine_.connect(); }
-    /// Uses the listing alone. Throws Error with line and column for what the processor cannot do, and if it
-    /// stops before the end of the program.
+    /// Uses the listing alone. Throws Error with line and column for what the processor cannot do, for what
+    /// depends on where the work lies while nobody said so, and if it stops before the end of the program.
     void start(Work work) override;
     void hold() override { machine_.hold(); }
     void resume() override { machine_.resume(); }
@@ -63,9 +67,8 @@ public:
     void stop_jog() override { machine_.stop_jog(); }
     void home() override { machine_.home(); }
     int command(const std::string& lines) override { return machine_.command(lines); }
-    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override {
-        return machine_.stored_offsets();
-    }
+    /// The origin, of every work system; without one what was set by hand.
+    [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override;
     [[nodiscard]] Console* console() override { return machine_.console(); }
 
 private:

@@ -50,8 +50,15 @@ TEST(Language, IsKnownByALine) {
     for (const char* line : {"VC1=5", "G0 X=VC1", "IF[VC1 EQ 5]N100", "VZOFZ[1]=0", "VS1=VC2+1"}) {
         EXPECT_EQ(language_of_line(line), Language::okuma) << line;
     }
-    for (const char* line :
-         {"IN;SP1;PU0,0;PD100,0;", "PU0,0;", "INSP1PU0,0PD100,0", "PA -10,20", "\x1B.(", "IN"}) {
+    for (const char* line : {"IN;SP1;PU0,0;PD100,0;",
+                             "PU0,0;",
+                             "INSP1PU0,0PD100,0",
+                             "PA -10,20",
+                             "\x1B.(",
+                             "IN",
+                             "@PJL SET RESOLUTION=300",
+                             "\x1B%-12345X@PJL JOB NAME=A",
+                             "CO\"R=5\";IN;SP1;"}) {
         EXPECT_EQ(language_of_line(line), Language::hpgl) << line;
     }
     for (const char* line : {"G1 X10.2 Y3 E0.0432", "G92 E0", "M109 S210", "M82 ;absolute extrusion"}) {

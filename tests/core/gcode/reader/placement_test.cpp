@@ -183,7 +183,7 @@ TEST(Placement, TheOffsetOfASystemIsKnownForEachAxis) {
     put_origin(flat, WorkOrigin(10, 10));
     EXPECT_THAT(unplaced(down, flat), ElementsAre(without_z));
     ReaderSettings file;
-    file.parameters = {{5221, 10.0}, {5222, 20.0}};
+    file.parameters = {{5221, 10.0}, {5222, 20.0}, {5210, 0.0}};
     EXPECT_THAT(unplaced(down, file), ElementsAre(without_z));
     EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X1 Y2\nG0 X1 Y1 Z50\nG53 G0 Z0\nM2\n"),
                 ElementsAre(HasSubstr("is not known in Z")));
@@ -192,8 +192,9 @@ TEST(Placement, TheOffsetOfASystemIsKnownForEachAxis) {
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z50\nG53 G0 X0 Y0\nM2\n", flat), IsEmpty());
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG28 X0 Y0\nG28 Z9\nM2\n", flat),
                 ElementsAre(HasSubstr("part.ngc:4:1: G28 goes to a machine position")));
-    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Z5\nG55\nG0 X1\nZ5\nM2\n", flat),
-                ElementsAre(HasSubstr("part.ngc:5:1: the program also moves Z in another system than G55")));
+    EXPECT_THAT(
+        unplaced("G21 G90\nG0 X1 Z5\nG55\nG0 X1\nZ5\nM2\n", flat),
+        ElementsAre(HasSubstr("part.ngc:5:1: Z moves in two systems, and the offset of G55 is not known")));
     EXPECT_THAT(unplaced(down, with_origin(Vec3(1, 2, 3))), IsEmpty());
     file.parameters.emplace_back(5230, 30.0); // turned: X and Y only together
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG53 X0\nM2\n", file), IsEmpty());
@@ -208,7 +209,70 @@ TEST(Placement, AStoredG92OffsetIsKnownForEachAxis) {
                 ElementsAre(HasSubstr("part.ngc:4:1: G53 goes")));
     EXPECT_THAT(unplaced("G21 G90\nG92.1\nG0 X1 Y1 Z5\nG53 Z0\nM2\n", stored), IsEmpty());
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG92.3\nG0 Z5\nM2\n", with_origin(Vec3(1, 2, 3))),
-                ElementsAre(HasSubstr("moves Z in another system than G92, whose offset is not known")));
+                ElementsAre(HasSubstr("Z moves in two systems, and the offset of G92 is not known")));
+}
+
+// A rotation that was never given counted as 0: G53 went elsewhere than the moves around it.
+TEST(Placement, ARotationThatIsNotKnownIsNotZero) {
+    ReaderSettings file;
+    file.parameters = {{5221, 10.0}, {5222, 20.0}, {5223, 30.0}, {5210, 0.0}};
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG53 X0 Y0\nM2\n", file),
+                ElementsAre(HasSubstr("part.ngc:3:1: G53 goes to a machine position, and the rotation of G54 "
+                                      "is not known (set the rotation with R of G10 L2")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG53 Z0\nM2\n", file), IsEmpty()); // about Z
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 R0\nG0 X1 Y1 Z5\nG53 X0 Y0\nM2\n", file), IsEmpty());
+    file.parameters.emplace_back(5230, 30.0);
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG53 X0 Y0\nM2\n", file), IsEmpty());
+    file.dialect = Dialect::grbl; // turns nothing
+    file.parameters.pop_back();
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG53 G0 X0 Y0\nM2\n", file), IsEmpty());
+}
+
+TEST(Placement, ARotationSetBehindMovesLeavesThemAsTheyWere) {
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG10 L2 P1 R30\nG0 X5 Y5 Z5\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:4:1: X moves in two systems, and the rotation of G54 is not "
+                                      "known: their positions cannot be related (set the rotation with R")));
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 R30\nG0 X1 Y1\nG10 L2 P1 R40\nG0 X5 Y5\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG10 L2 P1 R30\nG0 Z9\nM2\n"), IsEmpty());
+    const std::string two_fixtures =
+        "G10 L2 P1 X0 Y0\nG10 L2 P2 X100 Y0\nG0 X1 Y1\nG55\nG0 X1\nG54\nG0 X2\nM2\n";
+    EXPECT_THAT(unplaced("G21 G90\n" + two_fixtures),
+                ElementsAre(HasSubstr("X moves in two systems, and the rotation of G55 is not known")));
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 R0\nG10 L2 P2 R0\n" + two_fixtures), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG55\nG54\nG0 X2\nM2\n"), IsEmpty()); // back again
+    EXPECT_THAT(unplaced("G20 G90\nG0 X1 Y1\nG55\nG21\nG54\nG0 X2\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X1 Y1\nG0 X1 Y1\nG10 L2 P1 X2\nG0 X1\nM2\n"),
+                ElementsAre(HasSubstr("the rotation of G54 is not known")));
+}
+
+// Along the system's own axes, whatever its rotation.
+TEST(Placement, TouchingOffKeepsPositionsRelated) {
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG10 L20 P1 X0 Y0\nG0 X5 Y5\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG10 L20 P1 X0 Y0\nG55\nG54\nG0 X5 Y5\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1\nG10 L20 P1 X0\nG10 L2 P1 X5\nG0 X5\nM2\n"), testing::SizeIs(1));
+}
+
+// What the control has stored may be in force until G92.1.
+TEST(Placement, G92ThatIsNotKnownIsNotZero) {
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG92.1\nG0 X1\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:4:1: X moves in two systems, and the offset of G92 is not "
+                                      "known: their positions cannot be related (clear it with G92.1 before "
+                                      "the first move, or say where")));
+    for (const char* const code : {"G92.2", "G92.3\nG92.1", "G52 X0", "G92 X0\nG0 X5\nG92.1"}) {
+        EXPECT_THAT(unplaced(std::string("G21 G90\nG0 X1 Y1 Z5\n") + code + "\nG0 X1\nM2\n"),
+                    ElementsAre(HasSubstr("the offset of G92 is not known")))
+            << code;
+        EXPECT_THAT(unplaced(std::string("G21 G90 G92.1\nG0 X1 Y1 Z5\n") + code + "\nG0 X1\nM2\n"), IsEmpty())
+            << code;
+        EXPECT_THAT(unplaced(std::string("G21 G90\nG0 X1 Y1 Z5\n") + code + "\nG0 X1\nM2\n",
+                             with_origin(Vec3(1, 2, 3))),
+                    IsEmpty())
+            << code;
+    }
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG92 X0\nG0 X5\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG52 X0\nG0 Y5 Z1\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X1 Y1 Z1 R0\nG0 X1 Y1 Z5\nG53 X0\nM2\n"),
+                ElementsAre(HasSubstr("G53 goes to a machine position, and the offset of G92 is not known")));
 }
 
 TEST(Placement, AStoredReferenceIsKnownForEachAxis) {
@@ -247,12 +311,15 @@ TEST(Placement, ARetractToWhereNobodyStoredAPositionDoesNotGoDown) {
 }
 
 TEST(Placement, PositionsOfTwoSystemsNeedBothOffsets) {
-    EXPECT_THAT(unplaced("G21 G90\nG0 X1\nG55\nG0 X1\nM2\n"),
-                ElementsAre(HasSubstr("part.ngc:4:1: the program also moves X in another system than G55")));
+    EXPECT_THAT(
+        unplaced("G21 G90\nG0 X1\nG55\nG0 X1\nM2\n"),
+        ElementsAre(HasSubstr("part.ngc:4:1: X moves in two systems, and the offset of G55 is not known")));
     EXPECT_THAT(unplaced("G21 G90\nG55\nG0 X1\nG55 X2\nM2\n"), IsEmpty());
-    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P2 X9\nG0 X1\nG55\nG0 X1\nM2\n"),
-                ElementsAre(HasSubstr("than G54")));
-    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X0\nG10 L2 P2 X9\nG0 X1\nG55\nG0 X1\nG53 X0\nM2\n"), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90\nG10 L2 P2 X9 R0\nG10 L2 P1 R0\nG0 X1\nG55\nG0 X1\nM2\n"),
+                ElementsAre(HasSubstr("the offset of G54 is not known")));
+    EXPECT_THAT(unplaced("G21 G90 G92.1\nG10 L2 P1 X0 R0\nG10 L2 P2 X9 R0\nG0 X1\nG55\nG0 X1\nG53 X0\n"
+                         "M2\n"),
+                IsEmpty());
 }
 
 TEST(Placement, AFeedFromAnywhereHasASpeedAndNoLength) {

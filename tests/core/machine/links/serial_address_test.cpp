@@ -47,6 +47,29 @@ TEST(SerialAddress, ReadsRateAndFrameAndWritesThemBack) {
     EXPECT_FALSE(is_serial_address("tcp:127.0.0.1:2300"));
 }
 
+// They were taken for a path: "there is no such file".
+TEST(SerialAddress, WhatIsNeitherRateNorFrameIsNoPath) {
+    for (const char* text : {"/dev/ttyUSB0,9600,8X1",
+                             "/dev/ttyUSB0,9600,8N3",
+                             "/dev/ttyUSB0,9600,N81",
+                             "/dev/ttyUSB0,9600,",
+                             "/dev/ttyUSB0,8N1,9600",
+                             "/dev/ttyUSB0, 9600",
+                             "/dev/ttyUSB0,9600baud",
+                             "/dev/ttyUSB0,"}) {
+        EXPECT_THAT(test::reason([&] { (void)make_link(text); }),
+                    HasSubstr("behind the port is neither a rate nor a frame"))
+            << text;
+    }
+    EXPECT_THAT(test::reason([] { (void)make_link("/dev/ttyUSB0,9600,8X1"); }),
+                HasSubstr("'9600,8X1' behind"));
+    for (const char* text : {",9600,8N3", ",9600,8N1", ",9600"}) {
+        EXPECT_THAT(test::reason([&] { (void)make_link(text); }),
+                    HasSubstr("there is no serial port before the comma"))
+            << text;
+    }
+}
+
 TEST(SerialAddress, ALineCarriesABytePerFrame) {
     EXPECT_DOUBLE_EQ(bytes_per_second({.baud = 9600}), 960.0);
     EXPECT_DOUBLE_EQ(bytes_per_second({.baud = 9600, .parity = SerialParity::even, .stop_bits = 2}), 800.0);

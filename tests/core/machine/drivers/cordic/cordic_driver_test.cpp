@@ -84,6 +84,21 @@ TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
     EXPECT_EQ(read_job_log(outcome.log_file).start.driver, "cordic");
 }
 
+TEST(CordicDriver, GoesToMachinePositionsWhereTheOriginIsKnown) {
+    const std::string retracts = "G21 G90 F1200\nG0 X10 Y10 Z-5\nG53 G0 Z0\nM2\n";
+    CordicDriverBench bench;
+    EXPECT_THAT(bench.refusal_of(retracts), HasSubstr("program:3:1: G53 goes to a machine position"));
+    EXPECT_EQ(bench.driver.status().position, AxisPositions::Zero(3));
+    CordicDriverOptions options;
+    options.origin = gcode::WorkOrigin(Vec3(5.0, 0.0, -20.0));
+    CordicDriver placed(AxisPositions::Zero(3), {}, bench.clock, bench.model, options);
+    Dispatcher dispatcher(placed, bench.clock, bench.folder.path() / "logs");
+    const JobOutcome outcome = dispatcher.run(text_job(retracts, "part.ngc"), {});
+    EXPECT_EQ(outcome.end, JobEnd::done) << outcome.sentence;
+    EXPECT_NEAR(outcome.position[bench.model->axis_index('X')], 15.0, 1e-6);
+    EXPECT_NEAR(outcome.position[bench.model->axis_index('Z')], 0.0, 1e-6);
+}
+
 TEST(CordicDriver, TellsOfSetPointsThatCameLate) {
     CordicDriverBench bench;
     (void)bench.dispatcher.run(text_job(straight_and_arc_part, "part.ngc"), {});

@@ -33,7 +33,7 @@ Job job_of(const std::string& text) {
     const test::ScratchFolder folder;
     const auto file = folder / "part.ngc";
     std::ofstream(file) << text;
-    return file_job(file, table_model());
+    return file_job(file, table_model(), {.start = AxisPositions::Zero(3)});
 }
 
 /// A way around with `count` corners that no two neighbours share.
