@@ -1,5 +1,5 @@
 // The program: finds out which command is meant, runs it, and tells how it ended.
-// Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage.
+// Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage, 3 the program gouges the part.
 #include "app/commands/arm_command.h"
 #include "app/commands/cordic_command.h"
 #include "app/commands/cutter_command.h"
@@ -24,9 +24,12 @@
 #include "app/commands/thesis_command.h"
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
+#include "app/gouges.h"
+#include "app/help_format.h"
 #include "app/kept_outputs.h"
 #include "app/output_files.h"
 #include "app/output_streams.h"
+#include "app/suggestion.h"
 #include "app/threads_option.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
@@ -42,6 +45,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <string>
@@ -54,6 +58,7 @@ namespace {
 
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
+constexpr int gouges_part = 3;
 
 /// `exit_code`, or that of a failure where the output did not arrive. Who closes a pipe, as head does, knows.
 int with_output_written(int exit_code) {
@@ -71,6 +76,9 @@ int run(const Command& command) {
     } catch (const UsageError& error) {
         fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
         return wrong_usage;
+    } catch (const GougeError& error) {
+        fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
+        return gouges_part;
     } catch (const Error& error) {
         fmt::print(stderr, "millwright: {}\n", to_text(error.diagnostic()));
     } catch (const Cancelled&) {
@@ -101,6 +109,8 @@ int main(int argc, char** argv) {
         "Designs surfaces, shows where a 5-axis machine would cut them wrong, and makes programs that do "
         "not.\nWithout a command: opens the workbench.",
         "millwright");
+    app.formatter(std::make_shared<HelpFormat>()); // the commands take it from here, and the next, too
+    app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", "millwright " + std::string(project::version()));
     app.require_subcommand(0, 1);
     Command chosen;
@@ -140,8 +150,13 @@ int main(int argc, char** argv) {
                 return exit_code;
             });
         }
-        fmt::print(
-            stderr, "millwright: {}\nRun \"{} --help\" for more.\n", parsed.what(), command_words(app));
+        const std::string meant =
+            suggestion_for(app, std::vector<std::string>(argv + std::min(argc, 1), argv + argc));
+        fmt::print(stderr,
+                   "millwright: {}{}\nRun \"{} --help\" for more.\n",
+                   parsed.what(),
+                   meant.empty() ? meant : fmt::format(" ({})", meant),
+                   command_words(app));
         return wrong_usage;
     }
     return run([&] {

@@ -5,6 +5,8 @@
 #include "core/project/assets.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
+#include "core/project/window_settings.h"
+#include "ui/actions/kept_session.h"
 #include "ui/panels/desktop.h"
 #include "ui/render/window_context.h"
 
@@ -56,6 +58,7 @@ void run_window(render::WindowContext& window, actions::Workshop& workshop, cons
         desktop.frame();
         window.present();
         window.set_title(title_of(workshop.look()));
+        workshop.session().window = window.place();
         if (window.close_requested()) {
             window.keep_open();
             workshop.run("file.quit");
@@ -73,6 +76,7 @@ void run_window(render::WindowContext& window, actions::Workshop& workshop, cons
 
 /// What moves is stopped; motors that may have kept their power are told of where somebody may read it.
 void let_go(actions::Workshop& workshop) {
+    workshop.keep_window_settings();
     workshop.controller().disconnect();
     workshop.controller().wait_idle();
     if (const auto failure = workshop.controller().view().failure) {
@@ -89,11 +93,24 @@ void let_go(actions::Workshop& workshop) {
     std::_Exit(failed);
 }
 
+/// Of the window when it was last closed.
+render::WindowPlace last_place() {
+    actions::Session last;
+    try {
+        (void)actions::restore(
+            last,
+            project::read_window_settings(project::window_settings_place(project::recent_files_place())));
+    } catch (const Error&) { // the workshop says it in the window
+        return {};
+    }
+    return last.window;
+}
+
 } // namespace
 
 void run_workbench(const std::optional<std::filesystem::path>& file) {
     const Interrupt interrupt; // before any thread
-    render::WindowContext window({});
+    render::WindowContext window({.place = last_place()});
     auto workshop = std::make_unique<actions::Workshop>(
         actions::WorkshopOptions{.assets = project::assets_folder(),
                                  .log_folder = project::job_logs_place(),

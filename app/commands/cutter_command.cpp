@@ -1,6 +1,7 @@
 #include "app/commands/cutter_command.h"
 
 #include "app/finite_number.h"
+#include "app/gouges.h"
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/posting.h"
@@ -19,9 +20,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace millwright::app {
 
@@ -33,6 +36,7 @@ struct CutterOptions {
     std::string out;
     std::optional<double> scallop; ///< mm that is wanted; nothing: as the tool says
     PostChoice post;
+    bool allow_gouges = false;
 };
 
 void print_cutter_summary(const project::Plan& plan, const project::Project& project) {
@@ -108,11 +112,18 @@ int cut(const CutterOptions& options) {
     printer.finish();
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
-    write_outputs(options.out,
-                  {{"program." + text.format.extension, text.text.listing.text},
-                   {"cut.json", project::cut_report_text(project, plan)},
-                   {"surface.csv", project::surface_csv(*plan.workpiece, plan.cut->swept)}},
-                  opened.file);
+    const std::string gouges = gouges_of(opened, plan);
+    const bool writes = gouges.empty() || options.allow_gouges;
+    const std::string program = "program." + text.format.extension;
+    std::vector<OutputFile> files = {{"cut.json", project::cut_report_text(project, plan)},
+                                     {"surface.csv", project::surface_csv(*plan.workpiece, plan.cut->swept)}};
+    if (writes) {
+        files.push_back({program, text.text.listing.text});
+    }
+    write_outputs(options.out, files, opened.file);
+    if (!writes) { // an older one would be taken for it
+        remove_output(std::filesystem::path(options.out) / program);
+    }
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
@@ -122,6 +133,7 @@ int cut(const CutterOptions& options) {
         fmt::print(stderr, "warning: {}\n", why);
     }
     print_bites(*plan.cut);
+    answer_for_gouges(opened, gouges, options.allow_gouges, program + " was not written");
     return 0;
 }
 
@@ -140,6 +152,7 @@ void add_cutter_command(CLI::App& app, Command& chosen) {
     command.add_option("--scallop", options->scallop, "Scallop height to find the step-over for, mm")
         ->type_name("MM")
         ->check(above_zero());
+    add_gouges_option(command, options->allow_gouges);
     add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return cut(*options); }; });
 }

@@ -1,5 +1,6 @@
 #include "app/commands/plan_command.h"
 
+#include "app/gouges.h"
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/posting.h"
@@ -21,7 +22,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
@@ -46,6 +46,7 @@ struct PlanOptions {
     std::string sequencing; ///< empty: as the project says
     std::optional<double> largest_step_deg;
     bool any_memory = false;
+    bool allow_gouges = false;
 };
 
 void print_figures(std::string_view name, const project::Evaluation& evaluation) {
@@ -222,16 +223,11 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
     if (const std::string why = project::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }
-    std::vector<std::string> found;
-    if (!cut.bites.empty()) {
-        found.push_back(fmt::format("{} blocks bring the tool into the part", cut.bites.size()));
-    }
     if (!cut.local_gouges.empty()) {
-        found.push_back(
-            fmt::format("the surface is bent more than the tool at {} nodes", cut.local_gouges.size()));
-    }
-    if (!found.empty()) {
-        fmt::print(stderr, "warning: {}; `millwright cutter` names them\n", fmt::join(found, ", and "));
+        fmt::print(stderr,
+                   "warning: the surface is bent more than the tool at {} nodes; `millwright cutter` names "
+                   "them\n",
+                   cut.local_gouges.size());
     }
 }
 
@@ -255,8 +251,13 @@ int plan(const PlanOptions& options) {
     const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
-    std::vector<OutputFile> files = {{"program." + text.format.extension, text.text.listing.text},
-                                     {"report.json", project::report_text(opened.project, plan)}};
+    const std::string gouges = gouges_of(opened, plan);
+    const bool writes = gouges.empty() || options.allow_gouges;
+    const std::string program = "program." + text.format.extension;
+    std::vector<OutputFile> files = {{"report.json", project::report_text(opened.project, plan)}};
+    if (writes) {
+        files.push_back({program, text.text.listing.text});
+    }
     const std::optional<render::Picture> preview = preview_of_plan(opened.project, plan);
     if (preview) {
         files.push_back({"preview.png", render::to_png(*preview)});
@@ -264,6 +265,9 @@ int plan(const PlanOptions& options) {
     write_outputs(options.out, files, opened.file);
     if (!preview) { // an older one would show another path
         remove_output(std::filesystem::path(options.out) / "preview.png");
+    }
+    if (!writes) { // an older one would be taken for it
+        remove_output(std::filesystem::path(options.out) / program);
     }
     print_notes(text);
     print_warnings(plan);
@@ -275,6 +279,7 @@ int plan(const PlanOptions& options) {
     if (plan.cut) {
         print_cut(opened.project, plan);
     }
+    answer_for_gouges(opened, gouges, options.allow_gouges, program + " was not written");
     return 0;
 }
 
@@ -304,6 +309,7 @@ void add_plan_command(CLI::App& app, Command& chosen) {
     command.add_flag("--any-memory",
                      options->any_memory,
                      "Make an elliptic grid even where it takes more than half of the memory that is free");
+    add_gouges_option(command, options->allow_gouges);
     add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return plan(*options); }; });
 }

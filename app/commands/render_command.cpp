@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -98,10 +99,25 @@ std::vector<std::string> view_names() {
     return names;
 }
 
-/// The bodies of its file, as in the window.
+/// The bodies of its file, as in the window: where that file is gone the simple ones are drawn.
 viewport::MachineSolids solids_of(const OpenedProject& opened, const project::Plan& plan) {
     const auto file = project::machine_path(opened.project, opened.folders.project, opened.folders.assets);
-    return kinematics::read_machine_solids(file, plan.workpiece->machine);
+    try {
+        return kinematics::read_machine_solids(file, plan.workpiece->machine);
+    } catch (const Error& error) {
+        const std::filesystem::path& bodies = error.diagnostic().place.file;
+        std::error_code missing;
+        if (bodies == file || std::filesystem::exists(bodies, missing)) {
+            throw;
+        }
+        fmt::print(stderr,
+                   "warning: {}: there is no such file: the machine is drawn with its simple bodies "
+                   "(millwright machine bodies {} --out {} makes it)\n",
+                   printable(bodies.string()),
+                   printable(file.string()),
+                   printable(bodies.string()));
+        return nullptr;
+    }
 }
 
 int render_project(const RenderOptions& options) {

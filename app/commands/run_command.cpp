@@ -1,12 +1,16 @@
 #include "app/commands/run_command.h"
 
 #include "app/controller.h"
+#include "app/driver_options.h"
+#include "app/gouges.h"
 #include "app/interrupt.h"
 #include "app/planned_machine.h"
 #include "app/posting.h"
+#include "app/progress_printer.h"
 #include "app/series.h"
 #include "core/base/error.h"
 #include "core/machine/run_from_line.h"
+#include "core/project/cut_study.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -25,6 +29,7 @@ struct RunOptions {
     PlannedMachineChoice machine; ///< its controller also for grbl
     PostChoice post{.post = ""};  ///< empty: that of the driver
     std::optional<double> clearance;
+    bool allow_gouges = false;
 };
 
 std::string post_of_driver(const std::string& driver, const kinematics::MachineModel& machine) {
@@ -66,6 +71,17 @@ machine::Job begun_at(machine::Job job, int line, const RunOptions& options) {
     return machine::job_from_line(job, line, settings);
 }
 
+/// With what its tool cuts. Throws GougeError.
+project::Plan fit_plan(const OpenedProject& opened, const RunOptions& options, const std::stop_token& stop) {
+    project::Plan plan = planned(opened, project::Scope::program, stop);
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
+    project::add_cut_study(plan, opened.project, progress);
+    printer.finish();
+    answer_for_gouges(opened, gouges_of(opened, plan), options.allow_gouges, "nothing was run");
+    return plan;
+}
+
 int run_plan(const RunOptions& options) {
     check(options.machine);
     const Interrupt interrupt(Suspending::refused);
@@ -77,8 +93,7 @@ int run_plan(const RunOptions& options) {
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         const OpenedProject opened = open_project(file);
-        machine::Job job =
-            job_of(opened, planned(opened, project::Scope::program, interrupt.token()), options);
+        machine::Job job = job_of(opened, fit_plan(opened, options, interrupt.token()), options);
         check_from_line(options.machine, from_line);
         if (from_line > 1) {
             job = begun_at(job, from_line, options);
@@ -112,10 +127,14 @@ void add_run_command(CLI::App& app, Command& chosen) {
         ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic", "records"}));
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
+    add_gouges_option(command, options->allow_gouges);
     add_post_options(command, options->post);
     command.callback([&chosen, &command, options] {
         options->series.options = options_to_go_on(command);
-        chosen = [options] { return run_plan(*options); };
+        chosen = [&command, options] {
+            expect_options_of_driver(command, options->machine.driver);
+            return run_plan(*options);
+        };
     });
 }
 

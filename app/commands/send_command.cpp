@@ -3,6 +3,7 @@
 #include "app/arm_choice.h"
 #include "app/controller.h"
 #include "app/diagnostics.h"
+#include "app/driver_options.h"
 #include "app/interrupt.h"
 #include "app/origin_choice.h"
 #include "app/planned_machine.h"
@@ -231,7 +232,10 @@ void add_send_command(CLI::App& app, Command& chosen) {
     command.callback([&chosen, &command, options] {
         options->series.options = options_to_go_on(command);
         options->machine.controller.driver = options->machine.driver;
-        chosen = [options] { return send(*options); };
+        chosen = [&command, options] {
+            expect_options_of_driver(command, options->machine.driver);
+            return send(*options);
+        };
     });
 }
 

@@ -1,5 +1,7 @@
 #include "app/commands/workbench_command.h"
 
+#include "app/suggestion.h"
+#include "app/usage_error.h"
 #include "app/workbench.h"
 #include "core/base/error.h"
 
@@ -17,8 +19,12 @@ namespace millwright::app {
 namespace {
 
 /// Throws Error if there is nothing to read. The file may be large: it is read once the window is there.
-void expect_readable(const std::filesystem::path& file) {
+/// `suggestion`: the command that may have been meant.
+void expect_readable(const std::filesystem::path& file, const std::string& suggestion) {
     std::error_code failure;
+    if (!suggestion.empty() && !std::filesystem::exists(file, failure)) {
+        throw UsageError("'" + file.string() + "' is neither a command nor a file", {}, suggestion);
+    }
     if (std::filesystem::is_directory(file, failure)) {
         throw Error("is a folder", file);
     }
@@ -28,7 +34,7 @@ void expect_readable(const std::filesystem::path& file) {
     }
 }
 
-int open_workbench(const std::string& file) {
+int open_workbench(const std::string& file, const std::string& suggestion) {
     if (file.empty()) {
         run_workbench(std::nullopt);
         return 0;
@@ -36,7 +42,7 @@ int open_workbench(const std::string& file) {
     if (std::filesystem::path(file).extension() == ".json") {
         (void)open_project(file); // what is wrong with it is told here, before a window opens
     } else {
-        expect_readable(file);
+        expect_readable(file, suggestion);
     }
     run_workbench(file);
     return 0;
@@ -48,7 +54,10 @@ void add_workbench_command(CLI::App& app, Command& chosen) {
     const auto file = std::make_shared<std::string>();
     app.add_option(
         "FILE", *file, "Project (.json), plot, picture, path or G-code file to open in the workbench");
-    chosen = [file] { return open_workbench(*file); };
+    chosen = [file, &app] {
+        const bool is_word = file->find_first_of("./") == std::string::npos;
+        return open_workbench(*file, is_word ? command_suggestion(app, *file) : std::string());
+    };
 }
 
 } // namespace millwright::app

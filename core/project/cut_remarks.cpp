@@ -186,7 +186,7 @@ std::string certainty_remark(const Plan& plan, const Evaluation& path) {
 std::vector<std::string> path_remarks(const Project& project, const Plan& plan) {
     const auto& path = plan.program_path(project);
     const GridMethod method = program_grid(project);
-    const bool weighs = method == GridMethod::elliptic || method == GridMethod::harmonic;
+    const bool weighs = uses_weight(method);
     std::vector<std::string> remarks;
     for (std::string remark : {weighs ? weight_remark(project.grid.elliptic) : std::string(),
                                path ? why_not_kept(project, *path) : std::string(),

@@ -33,6 +33,11 @@ chosen_weight(const GridInput& input, const geometry::BezierPatch& patch, const 
 /// How much of the weight counts where, in solver coordinates; null where all of it counts everywhere.
 [[nodiscard]] grid::WeightPtr region_weight(const GridInput& input, const geometry::BezierPatch& patch);
 
+/// Whether the weight, what is painted of it, and the region count for the grid of `method`.
+[[nodiscard]] constexpr bool uses_weight(GridMethod method) {
+    return method == GridMethod::elliptic || method == GridMethod::harmonic;
+}
+
 /// Whether the chosen weight comes from the measured error, if only in part.
 [[nodiscard]] bool needs_error(const EllipticInput& input);
 

@@ -23,6 +23,7 @@ TEST(CutterCommand, LeavesProgramReportAndMap) {
                              "assets/tools/bull-nose-10.json",
                              "--out",
                              scratch / "out",
+                             "--allow-gouges",
                              "--scallop",
                              "0.02"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -40,12 +41,36 @@ TEST(CutterCommand, ReportsAPathOfItsOwn) {
     auto project = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
     project["toolpath"]["strategy"] = "iso-parametric";
     std::ofstream(scratch / "iso.json") << project.dump();
-    const Ended ended =
-        run({"cutter", scratch / "iso.json", "--tool", "assets/tools/ball-6.json", "--out", scratch / "out"});
+    const Ended ended = run({"cutter",
+                             scratch / "iso.json",
+                             "--tool",
+                             "assets/tools/ball-6.json",
+                             "--out",
+                             scratch / "out",
+                             "--allow-gouges"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const auto report = nlohmann::json::parse(content_of(scratch / "out/cut.json"));
     EXPECT_EQ(report.at("strategy"), "iso-parametric");
     EXPECT_GT(report.at("error_mm").at("max"), 0.0);
+}
+
+// 6 x 6 nodes are so few that a ball goes 2 mm below the dome between them.
+TEST(CutterCommand, WritesNoProgramThatGougesThePart) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const std::vector<std::string> command{
+        "cutter", project, "--tool", "assets/tools/ball-6.json", "--out", scratch / "out"};
+    const Ended refused = run(command);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("program.ngc was not written"));
+    EXPECT_FALSE(fs::exists(scratch / "out/program.ngc"));
+    EXPECT_FALSE(nlohmann::json::parse(content_of(scratch / "out/cut.json")).at("bites").empty());
+    std::vector<std::string> allowed = command;
+    allowed.emplace_back("--allow-gouges");
+    EXPECT_EQ(run(allowed).exit_code, 0);
+    EXPECT_TRUE(fs::exists(scratch / "out/program.ngc"));
+    EXPECT_EQ(run(command).exit_code, 3); // the program of before is no longer there
+    EXPECT_FALSE(fs::exists(scratch / "out/program.ngc"));
 }
 
 TEST(CutterCommand, RefusesWhatIsNoTool) {

@@ -120,11 +120,29 @@ TEST(PlanCommand, ChoosesTheRotaryAxesForTheWholePath) {
     EXPECT_NE(run({"plan", project, "--out", scratch / "out", "--sequencing", "luck"}).exit_code, 0);
 }
 
-TEST(PlanCommand, CutsWithTheToolOfAFile) {
+// It ended with 0 and wrote the program, with a warning somewhere above.
+TEST(PlanCommand, WritesNoProgramThatGougesThePart) {
     const ScratchFolder scratch;
     const fs::path project = small_project(scratch.path(), "dome");
     const Ended ended =
-        run({"plan", project, "--out", scratch / "out", "--tool", "assets/tools/bull-nose-10.json"});
+        run({"plan", project, "--out", scratch / "out", "--tool", "assets/tools/ball-6.json"});
+    EXPECT_EQ(ended.exit_code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("below the surface, where 0.1 mm are allowed"));
+    EXPECT_THAT(ended.err, HasSubstr("program.ngc was not written"));
+    EXPECT_FALSE(fs::exists(scratch / "out/program.ngc"));
+    EXPECT_TRUE(fs::exists(scratch / "out/report.json"));
+}
+
+TEST(PlanCommand, CutsWithTheToolOfAFile) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended ended = run({"plan",
+                             project,
+                             "--out",
+                             scratch / "out",
+                             "--tool",
+                             "assets/tools/bull-nose-10.json",
+                             "--allow-gouges"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("tool: bull-nose, diameter 10 mm"));
     EXPECT_THAT(ended.out, HasSubstr("left on the surface"));

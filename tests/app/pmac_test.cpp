@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <sstream>
 
 namespace millwright::test {
 namespace {
@@ -45,6 +46,9 @@ TEST_F(Pmac, AnswersCommands) {
     EXPECT_EQ(powered.exit_code, 1);
     EXPECT_THAT(powered.err, HasSubstr("would give power to joint 1"));
     EXPECT_THAT(powered.err, HasSubstr("--power"));
+    const Ended stopped = run({"pmac", "A", "--port", port});
+    EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+    EXPECT_THAT(stopped.out, HasSubstr("nothing moves"));
     EXPECT_THAT(run({"pmac", "I130=99999999", "--port", port}).err, HasSubstr("more than 24 bits"));
     EXPECT_THAT(run({"pmac", "I111=0", "--port", port}).err, HasSubstr("not stopped by a following error"));
     const Ended reset = run({"pmac", "$$$", "--port", port});
@@ -82,6 +86,33 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("pmac.ini:1: 'I131=many' is refused"));
     EXPECT_EQ(run({"pmac", "I130", "--port", port}).out, "702\n"); // the others are sent
+}
+
+// Without the offsets and decoding of the arm's drives the first motor ran away.
+TEST_F(Pmac, TheDrivesOfTheArmHaveSettingsOfTheirOwn) {
+    Emulator emulator(port, {"--arm", "--wait-for-host", "0.01"}, "pmac");
+    const Ended moved = run({"pmac",
+                             "--load",
+                             "assets/samples/pmac-l3.ini",
+                             "#1J:120",
+                             "#2J:-222",
+                             "#3J:150",
+                             "#4J:-150",
+                             "#1P",
+                             "#2P",
+                             "#3P",
+                             "#4P",
+                             "--power",
+                             "--port",
+                             port});
+    EXPECT_EQ(moved.exit_code, 0) << moved.err;
+    EXPECT_THAT(moved.err, testing::Not(HasSubstr("protection off")));
+    std::istringstream positions(moved.out);
+    for (const double wanted : {120.0, -222.0, 150.0, -150.0}) {
+        double position = 0.0;
+        positions >> position;
+        EXPECT_NEAR(position, wanted, 1.0);
+    }
 }
 
 TEST_F(Pmac, WaitsForWhatACommandSetsGoingAndTakesNoEndlessJog) {

@@ -281,8 +281,8 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(
         ended.err,
-        HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl-rotary, grbl, heidenhain, linuxcnc-tcp, "
-                  "linuxcnc-xyz, linuxcnc, virtual; or "
+        HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl-inch, grbl-rotary, grbl, heidenhain, "
+                  "linuxcnc-inch, linuxcnc-tcp, linuxcnc-xyz-inch, linuxcnc-xyz, linuxcnc, virtual; or "
                   "the path of one)"));
     write_content(part, "G21 G90\nG0 Y10 A5\nG1 Z0 F600\nM2\n");
     ended = convert("ac-table", "heidenhain");
@@ -300,6 +300,19 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("axis Z would have to go to 500.000, outside -300.000 ... 400.000 mm"));
     EXPECT_FALSE(fs::exists(out));
+}
+
+// No post wrote inches; one's own with three decimals rounded to 0.0254 mm.
+TEST_F(Posts, WriteInches) {
+    write_content(part, "G21 G90\nG0 X25.4 Y0 Z1\nG1 X-12.7003 F254\nM2\n");
+    for (const char* const post : {"linuxcnc-inch", "linuxcnc-xyz-inch", "grbl-inch"}) {
+        const Ended ended = convert("router-xyz", post);
+        ASSERT_EQ(ended.exit_code, 0) << post << ended.err;
+        EXPECT_THAT(ended.out, HasSubstr("G20 G90")) << post;
+        EXPECT_THAT(ended.out, HasSubstr("X1.00000")) << post;
+        EXPECT_THAT(ended.out, HasSubstr("X-0.50001")) << post;
+    }
+    EXPECT_THAT(convert("router-xyz", "linuxcnc-xyz-inch").out, HasSubstr("F10.0000"));
 }
 
 TEST_F(Posts, TakesAPostFileOfOnesOwnAndSaysWhatIsWrongInIt) {

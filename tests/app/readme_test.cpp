@@ -1,18 +1,15 @@
 // Every command that the README shows is run as it stands there.
 #include "tests/app/emulator.h"
 #include "tests/app/program.h"
+#include "tests/app/shell.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,25 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-/// The commands in the ```sh blocks of a document, without their comments.
-std::vector<std::string> commands_of(const std::string& document) {
-    std::vector<std::string> commands;
-    std::istringstream text(document);
-    bool shell = false;
-    for (std::string line; std::getline(text, line);) {
-        if (line.starts_with("```")) {
-            shell = line == "```sh";
-        } else if (shell) {
-            line = line.substr(0, line.find(" #"));
-            line.erase(line.find_last_not_of(' ') + 1);
-            if (!line.empty()) {
-                commands.push_back(line);
-            }
-        }
-    }
-    return commands;
-}
 
 /// Those that install or build: scripts/try-package and .ci/run run them on bare machines.
 const std::set<std::string> for_bare_machines = {
@@ -50,25 +28,6 @@ const std::set<std::string> for_bare_machines = {
     "scripts/run",
     "scripts/test",
 };
-
-struct ShellRun {
-    int exit_code = -1;
-    std::string output; ///< standard output and standard error
-};
-
-ShellRun shell(const fs::path& folder, const std::string& command) {
-    const std::string there = "cd '" + folder.string() + "' && export XDG_STATE_HOME=\"$PWD\" && ";
-    FILE* pipe = popen((there + command + " 2>&1 </dev/null").c_str(), "r");
-    EXPECT_NE(pipe, nullptr);
-    ShellRun run;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-        run.output.append(buffer.data(), count);
-    }
-    const int status = pclose(pipe);
-    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return run;
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     if (const auto at = text.find(from); at != std::string::npos) {

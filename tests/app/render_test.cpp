@@ -37,6 +37,26 @@ TEST(RenderCommand, DrawsEveryViewWithoutADisplay) {
     }
 }
 
+// A machine file that was copied alone could not be drawn.
+TEST(RenderCommand, DrawsAMachineWhoseFileOfBodiesIsMissingByItsSimpleBodies) {
+    const ScratchFolder scratch;
+    write_content(scratch / "own.json", content_of("assets/machines/rotary-tilt-listing.json"));
+    const auto project = small_project(scratch.path(), "dome", "\"rotary-tilt-listing\"", "\"own.json\"");
+    const auto file = scratch / "machine.png";
+    const Ended alone = run({"render", project, "--view", "machine", "--size", "320x200", "--out", file});
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    EXPECT_THAT(alone.err, HasSubstr("rotary-tilt-listing.glb: there is no such file"));
+    const std::string simple = content_of(file);
+    const Ended made =
+        run({"machine", "bodies", scratch / "own.json", "--out", scratch / "rotary-tilt-listing.glb"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Ended whole = run({"render", project, "--view", "machine", "--size", "320x200", "--out", file});
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_NE(content_of(file), simple);
+    write_content(scratch / "rotary-tilt-listing.glb", "no bodies");
+    EXPECT_EQ(run({"render", project, "--view", "machine", "--size", "320x200", "--out", file}).exit_code, 1);
+}
+
 TEST(RenderCommand, DrawsFromOtherSidesInOtherColours) {
     const ScratchFolder scratch;
     const auto project = small_project(scratch.path(), "dome");

@@ -44,6 +44,24 @@ TEST(RunCommand, RunsTheWholeProgramAndLogsIt) {
     EXPECT_EQ(log.back().at("executed_blocks"), log.front().at("blocks"));
 }
 
+TEST(RunCommand, RunsNoProgramThatGougesThePart) {
+    const ScratchFolder scratch;
+    auto json = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
+    json["tool"] = {{"cutter", "ball"}, {"diameter_mm", 6}};
+    const fs::path project = scratch / "ball.json";
+    write_content(project, json.dump());
+    std::vector<std::string> command{
+        "run", project, "--driver", "virtual", "--speed", "1000", "--log", (scratch / "logs").string()};
+    const Ended refused = run(command);
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("nothing was run"));
+    EXPECT_FALSE(fs::exists(scratch / "logs") && !fs::is_empty(scratch / "logs"));
+    command.emplace_back("--allow-gouges");
+    const Ended allowed = run(command);
+    EXPECT_EQ(allowed.exit_code, 0) << allowed.err;
+    EXPECT_THAT(allowed.err, HasSubstr("warning: the cutter goes up to"));
+}
+
 TEST(RunCommand, DispatchesToTheCordicProcessorWhatItCanDo) {
     const ScratchFolder scratch;
     const auto logs = (scratch / "logs").string();

@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
 namespace millwright::test {
 namespace {
 
@@ -127,6 +132,75 @@ TEST(Usage, SeriesOfNumbersLeaveTheFileBehindThemAlone) {
                        "--origin: At Most 3 required but received 4");
     expect_wrong_usage({"send", "absent", "--origin", "1"}, "--origin");
     expect_wrong_usage({"send", "absent", "--origin", "nan,1"}, "no finite number");
+}
+
+/// All commands, with those of their groups: "plan", "plot toolpath".
+std::vector<std::vector<std::string>> all_commands(const std::vector<std::string>& group = {}) {
+    std::vector<std::string> words = group;
+    words.emplace_back("--help");
+    std::istringstream help(run(words).out);
+    std::vector<std::vector<std::string>> found;
+    bool inside = false;
+    for (std::string line; std::getline(help, line);) {
+        if (line == "Subcommands:") {
+            inside = true;
+        } else if (inside && line.starts_with("  ") && line.size() > 2 && line[2] != ' ') {
+            std::vector<std::string> command = group;
+            command.push_back(line.substr(2, line.find(' ', 2) - 2));
+            found.push_back(command);
+            for (const auto& below : all_commands(command)) {
+                found.push_back(below);
+            }
+        }
+    }
+    return found;
+}
+
+// It had FLOAT:FLOAT in [0 - 1], TEXT:{nearest,travel} and GOAL(6x).
+TEST(Usage, HelpSpeaksPlainly) {
+    const auto commands = all_commands();
+    EXPECT_GE(commands.size(), 50U);
+    for (std::vector<std::string> command : commands) {
+        command.emplace_back("--help");
+        const std::string help = run(command).out;
+        static const std::regex leftover(
+            R"(\b(FLOAT|INT|UINT|REQUIRED)\b|TEXT:\{| in \[|\([0-9]+x\)|(Excludes|Needs):)");
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(help, found, leftover))
+            << testing::PrintToString(command) << ": " << found.str();
+    }
+    EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--largest-step NUMBER (0 to 180)"));
+    EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--sequencing nearest|travel|error|time"));
+    EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--post NAME|FILE (default linuxcnc)"));
+    EXPECT_THAT(run({"arm", "ik", "--help"}).out, HasSubstr("arm ik [OPTIONS] X Y Z AX AY AZ"));
+}
+
+// They were taken, and did nothing.
+TEST(Usage, AnOptionThatTheDriverDoesNotHaveIsRefused) {
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--period", "0.5"},
+                                                                                      {"--clock", "1000"},
+                                                                                      {"--port", "/dev/null"},
+                                                                                      {"--one-by-one"},
+                                                                                      {"--home"}}) {
+        std::vector<std::string> command{"run", dome_project, "--driver", "virtual"};
+        command.insert(command.end(), more.begin(), more.end());
+        expect_wrong_usage(command, "the virtual driver has no " + more.front());
+    }
+    expect_wrong_usage({"send", "a.ngc", "--driver", "grbl", "--port", "/dev/null", "--speed", "3"},
+                       "the grbl driver has no --speed: that is of virtual, cordic");
+    expect_wrong_usage({"send", "a.ngc", "--driver", "linuxcnc", "--port", "tcp:localhost:1", "--power"},
+                       "the linuxcnc driver has no --power");
+}
+
+// "plann" was read as a file of that name.
+TEST(Usage, AMistypedCommandOrOptionIsToldWhatWasMeant) {
+    expect_wrong_usage({"plann"}, "'plann' is neither a command nor a file (did you mean 'plan'?)");
+    expect_wrong_usage({"paln", dome_project, "--out", "x"}, "did you mean 'plan'?");
+    expect_wrong_usage({"plot", "toolpaht", "a.plt", "--out", "x"}, "did you mean 'toolpath'?");
+    expect_wrong_usage({"plan", dome_project, "--ot", "x"}, "did you mean '--out'?");
+    const Ended far = run({"nonsense.ngc"});
+    EXPECT_EQ(far.exit_code, 1);
+    EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;
 }
 
 } // namespace

@@ -320,7 +320,7 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.card_settings",
          menu,
          "Load settings of the card",
-         "A file as pmac.ini; protections that it switches off are told.",
+         "Sends a file such as assets/samples/pmac-arm.ini; reports protections that it switches off.",
          "",
          icons::settings},
         can_load_settings,

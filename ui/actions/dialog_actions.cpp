@@ -28,6 +28,10 @@ Permission is_replacing(const Workbench& now) {
     return now.session.replacing ? Permission{} : Permission::refused("No file would be replaced.");
 }
 
+Permission is_gouging(const Workbench& now) {
+    return now.session.gouges_asked ? Permission{} : Permission::refused("No program would be written.");
+}
+
 Permission can_reload(const Workbench& now) {
     const auto& asked = now.session.replacing;
     return asked && asked->what == ReplacedFile::project
@@ -98,6 +102,28 @@ void add_dialog_actions(Actions& actions) {
         {"replace.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
         is_replacing,
         [](Hands& hands) { hands.workshop.keep_file(); });
+    add(actions,
+        {"gouges.write", dialog_menu, "Write anyway", "The program cuts into the part.", "", ""},
+        is_gouging,
+        [](Hands& hands) { hands.workshop.write_gouging_program(); });
+    add(actions,
+        {"gouges.cancel", dialog_menu, "Cancel", "No program is written.", "", ""},
+        is_gouging,
+        [](Hands& hands) { hands.session.gouges_asked = false; });
+    add(actions,
+        {"gouges.show",
+         dialog_menu,
+         "Show the gouges",
+         "Lists the blocks below the view; no program is written.",
+         "",
+         ""},
+        is_gouging,
+        [](Hands& hands) {
+            hands.session.gouges_asked = false;
+            hands.session.workspace = Workspace::toolpath;
+            hands.session.panes.lower_shown = true;
+            hands.session.lower_tab_now() = LowerTab::gouges;
+        });
     add(actions,
         {"running_job.stay", dialog_menu, "Stay", "Everything goes on.", "", ""},
         is_quitting,

@@ -1,3 +1,4 @@
+#include "core/project/grids.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/internal/simple_action.h"
@@ -67,6 +68,14 @@ template <SurfaceToolKind kind> void take_in_hand(Hands& hands) {
     }
     if (kind == SurfaceToolKind::brush) {
         session.layers_now().weight = true;
+    }
+    const project::Project& project = hands.now.project;
+    const bool counts = project::uses_weight(project::program_grid(project));
+    if (kind != SurfaceToolKind::none && !counts && !session.panes.inspector_shown) { // which says it, too
+        tell(session,
+             widgets::Severity::warning,
+             "The program's grid follows neither paint nor outline: they change the elliptic grid and the "
+             "harmonic map alone.");
     }
 }
 

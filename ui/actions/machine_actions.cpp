@@ -201,12 +201,27 @@ Permission suits_machine(const Workbench& now, const machine::QueuedJob& job) {
                                      "makes it anew for this one.");
 }
 
+/// Of the project's program; nothing is known of any other.
+std::string gouges_of(const Workbench& now, const machine::Job& job) {
+    const auto own = now.listing();
+    const bool is_own = own && job.listing && own->text == job.listing->text;
+    return is_own ? now.gouge_warning() : std::string();
+}
+
+void ask_to_start(Hands& hands, machine::Job job, std::optional<machine::QueuedJobId> queued) {
+    const std::string gouges =
+        !queued && !hands.now.in_file() ? hands.now.gouge_warning() : gouges_of(hands.now, job);
+    StartWish wish = start_wish(std::move(job), queued, hands.now.controller);
+    wish.gouges = gouges;
+    hands.workshop.ask_to_start(std::move(wish));
+}
+
 /// From another workspace a key or a command only goes to the machine, so that nothing moves out of sight.
 void run_shown(Hands& hands) {
     if (hands.session.workspace != Workspace::machine) {
         hands.session.workspace = Workspace::machine;
     } else if (moves_a_machine(hands.now)) {
-        hands.workshop.ask_to_start(start_wish(wanted_job(hands.now), {}, hands.now.controller));
+        ask_to_start(hands, wanted_job(hands.now), {});
     } else {
         start_job(hands, wanted_job(hands.now));
     }
@@ -257,7 +272,7 @@ void run_next(Hands& hands) {
     if (!moves_a_machine(hands.now)) {
         begin_queued(hands, id);
     } else if (const auto job = queue.program_of(id)) {
-        hands.workshop.ask_to_start(start_wish(*job, id, hands.now.controller));
+        ask_to_start(hands, *job, id);
     }
 }
 

@@ -10,12 +10,14 @@
 #include "ui/actions/start_question.h"
 #include "ui/render/camera.h"
 #include "ui/render/view_colors.h"
+#include "ui/render/window_place.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/theme.h"
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -183,12 +185,16 @@ struct Session {
                                                      LowerTab::log,
                                                      LowerTab::motors};
     PaneSizes panes;
+    render::WindowPlace window; ///< as it is; the app looks
+    /// Where a file was last opened or saved, by what it was for (panels::use_of).
+    std::map<std::string, std::filesystem::path> folders;
     widgets::Theme theme = widgets::Theme::dark;
     render::LayerColors colors; ///< chosen by a person, in place of the theme's
     bool colors_shown = false;  ///< the dialog that chooses them
     double machine_speed = 1.0; ///< of the virtual machine, times real time
     FileQuestion question = FileQuestion::none;
     std::optional<Replacing> replacing; ///< waits for the person's word
+    bool gouges_asked = false;          ///< is a program written that gouges the part?
     HelpPage help = HelpPage::none;
     std::shared_ptr<const StartWish> start;          ///< a job that waits for a person's word; null: none
     bool search_wanted = false;                      ///< open the palette in the next frame

@@ -23,6 +23,7 @@ struct StartWish {
     std::string machine;                        ///< "grblHAL 1.1f at /dev/ttyACM0"
     machine::SurveySettings survey;             ///< from its present position, with its offsets
     machine::MachineLimits limits;
+    std::string gouges; ///< Workbench::gouge_warning() of its program; empty: none
 };
 
 /// What a check of its whole program found.

@@ -1,6 +1,9 @@
 #include "ui/actions/workbench.h"
 
+#include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/project/cut_study.h"
+#include "core/project/gouges.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
@@ -133,6 +136,16 @@ ProgramOfMachine Workbench::arm_program() const {
 
 std::shared_ptr<const gcode::Listing> Workbench::listing() const {
     return plan ? plan->plan.listing : nullptr;
+}
+
+std::string Workbench::gouge_warning() const {
+    if (project.tool.cutter == toolpath::CutterKind::point || !plan) {
+        return {};
+    }
+    const auto& cut = plan->plan.cut;
+    const std::string text = cut ? project::gouge_text(plan->project.tool, *cut)
+                                 : "the program has not been checked for gouges yet";
+    return text.empty() ? text : as_sentence(text);
 }
 
 std::string Workbench::failure() const {

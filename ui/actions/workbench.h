@@ -96,13 +96,16 @@ struct Workbench {
     [[nodiscard]] ProgramOfMachine arm_program() const;
     /// Of the project's own program.
     [[nodiscard]] std::shared_ptr<const gcode::Listing> listing() const;
+    /// How the project's program gouges the part, or that this is not known yet, as a sentence; empty if it
+    /// does not.
+    [[nodiscard]] std::string gouge_warning() const;
     /// Of the plan: why it stops short of a program; empty if it does not.
     [[nodiscard]] std::string failure() const;
     /// Something is asked or told over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
-        return session.question != FileQuestion::none || session.replacing || session.start ||
-               session.help != HelpPage::none || session.quit_wanted || !leaving_to.empty() ||
-               !left_behind.empty() || !broken_jobs->empty();
+        return session.question != FileQuestion::none || session.replacing || session.gouges_asked ||
+               session.start || session.help != HelpPage::none || session.quit_wanted ||
+               !leaving_to.empty() || !left_behind.empty() || !broken_jobs->empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.

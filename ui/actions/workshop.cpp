@@ -66,6 +66,7 @@ Workshop::Workshop(WorkshopOptions options)
     documents_.push_back({{}, history_.current()});
     guarded([this] { recent_ = project::read_recent(options_.settings); });
     guarded([this] { read_colors(); });
+    guarded([this] { read_window_settings(); });
     guarded([this] { start_autosave(); });
     const auto wake = options_.wake ? options_.wake : [] {};
     pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/project/autosave.h"
+#include "core/project/window_settings.h"
 #include "ui/actions/action.h"
 #include "ui/actions/machine_solids.h"
 #include "ui/actions/stored_queue.h"
@@ -24,7 +25,7 @@ enum class ProcessorSource : std::uint8_t; // processor_bench.h
 struct WorkshopOptions {
     std::filesystem::path assets;     ///< what ships with the program
     std::filesystem::path log_folder; ///< of jobs
-    std::filesystem::path settings;   ///< file of the recent files, beside those of colours; empty: keep none
+    std::filesystem::path settings;   ///< of the recent files; colours and window beside it; empty: keep none
     std::filesystem::path recovery;   ///< folder of the copies of unsaved work; empty: keep none
     std::function<void()> wake;       ///< from any thread: draw a frame
     std::optional<project::Project> start = {}; ///< the project to begin with; empty: the sample
@@ -65,8 +66,11 @@ public:
     /// Session::replacing, if the project's file is not what was read or saved there last.
     void save(const std::filesystem::path& file);
     /// Writes the project's program where it was written last, and asks for a file the first time. Asks, as
-    /// save() does, if something else is there now. Throws Error.
+    /// save() does, if something else is there now; and before, by Session::gouges_asked, if it gouges the
+    /// part. Throws Error.
     void write_program();
+    /// The answer to Session::gouges_asked: it is written. Throws Error.
+    void write_gouging_program();
     /// To a file that a person named. Throws Error.
     void write_program(const std::filesystem::path& file);
     /// The answers to Session::replacing: replaces the file; gives up what is unsaved for what is there now
@@ -128,8 +132,10 @@ public:
     void open_queued(machine::QueuedJobId id);
     [[nodiscard]] JobRecovery& job_recovery() { return *job_recovery_; }
 
-    /// The good end: no copy of unsaved work stays.
+    /// The good end: no copy of unsaved work stays, and the next start begins with what the window kept.
     void close();
+    /// Writes what the next start of the window begins with.
+    void keep_window_settings();
 
     void edit(const std::string& title,
               const std::function<void(project::Project&)>& change,
@@ -229,6 +235,7 @@ private:
     void remember(const std::filesystem::path& file);
     [[nodiscard]] std::filesystem::path colors_file() const;
     void read_colors();
+    void read_window_settings();
     void start_autosave();
     void follow_autosave();
     void follow_project();
@@ -248,6 +255,7 @@ private:
     Session session_;
     std::vector<Document> documents_; ///< by project number of the history
     project::RecentFiles recent_;
+    project::WindowSettings kept_settings_; ///< as they are in their file
     std::optional<Leaving> leaving_;
     std::optional<std::filesystem::path> received_; ///< waits until nothing is asked
     std::vector<project::LeftBehind> left_behind_;

@@ -12,6 +12,7 @@
 #include "core/project/strategy_path.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/import_bench.h"
+#include "ui/actions/kept_session.h"
 #include "ui/actions/processor_texts.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/actions/surface_export.h"
@@ -241,6 +242,39 @@ void Workshop::read_colors() {
     }
 }
 
+void Workshop::read_window_settings() {
+    const fs::path file = project::window_settings_place(options_.settings);
+    kept_settings_ = project::read_window_settings(file);
+    for (const std::string& refused : restore(session_, kept_settings_)) {
+        tell(session_, widgets::Severity::warning, as_sentence(refused), file.string());
+    }
+}
+
+/// Another window may have kept its own meanwhile: what was not changed here stays as that left it.
+void Workshop::keep_window_settings() {
+    const fs::path file = project::window_settings_place(options_.settings);
+    const project::WindowSettings now = kept_of(session_, kept_settings_);
+    if (file.empty() || now == kept_settings_) {
+        return;
+    }
+    guarded([&] {
+        project::WindowSettings on_disk;
+        try {
+            on_disk = project::read_window_settings(file);
+        } catch (const Error&) { // broken, which was said at the start
+            on_disk = {};
+        }
+        for (const auto& [name, value] : now) {
+            const auto before = kept_settings_.find(name);
+            if (before == kept_settings_.end() || before->second != value) {
+                on_disk[name] = value;
+            }
+        }
+        project::write_window_settings(on_disk, file);
+        kept_settings_ = now;
+    });
+}
+
 void Workshop::choose_color(render::LayerColor which, const std::optional<glm::vec3>& color) {
     session_.colors.set(which, color);
     if (colors_file().empty()) {
@@ -355,6 +389,7 @@ void Workshop::continue_broken_job() {
 }
 
 void Workshop::close() {
+    keep_window_settings();
     if (autosave_) {
         autosave_->drop();
         autosave_.reset();

@@ -67,6 +67,14 @@ void Workshop::put_project(const fs::path& whole) {
 }
 
 void Workshop::write_program() {
+    session_.gouges_asked = !look().gouge_warning().empty();
+    if (!session_.gouges_asked) {
+        write_gouging_program();
+    }
+}
+
+void Workshop::write_gouging_program() {
+    session_.gouges_asked = false;
     const auto& last = document().program;
     if (!last) {
         session_.question = FileQuestion::write_program;

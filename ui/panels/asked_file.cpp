@@ -185,6 +185,37 @@ const AskedFile& about(FileQuestion question) {
     return *found;
 }
 
+std::string_view use_of(FileQuestion question) {
+    switch (question) {
+    case FileQuestion::open:
+        return "open";
+    case FileQuestion::import_surface:
+    case FileQuestion::export_surface:
+        return "surface";
+    case FileQuestion::write_program:
+        return "program";
+    case FileQuestion::open_arm:
+    case FileQuestion::open_points:
+    case FileQuestion::save_points:
+    case FileQuestion::open_motion_program:
+    case FileQuestion::save_motion_program:
+    case FileQuestion::play_motion_file:
+    case FileQuestion::open_motion_file:
+    case FileQuestion::save_motion_file:
+    case FileQuestion::save_motion_result:
+    case FileQuestion::load_card_settings:
+        return "arm";
+    case FileQuestion::open_assembler:
+    case FileQuestion::save_assembler:
+    case FileQuestion::save_image:
+    case FileQuestion::open_microprogram:
+    case FileQuestion::save_microprogram:
+        return "processor";
+    default:
+        return "project";
+    }
+}
+
 bool is_gcode(const fs::path& file) {
     return project::is_gcode_file(file);
 }

@@ -26,6 +26,9 @@ struct AskedFile {
 /// Throws Defect for FileQuestion::none.
 [[nodiscard]] const AskedFile& about(actions::FileQuestion question);
 
+/// By Session::folders: questions of one use share the folder where they begin.
+[[nodiscard]] std::string_view use_of(actions::FileQuestion question);
+
 [[nodiscard]] bool is_gcode(const std::filesystem::path& file);
 
 /// Whether a file has a place in the list.

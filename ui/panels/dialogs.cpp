@@ -49,6 +49,8 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_running_job(ui, now, ask);
     } else if (now.session.replacing) {
         draw_replacing(ui, now, ask);
+    } else if (now.session.gouges_asked) {
+        draw_gouges(ui, now, ask);
     } else if (file) {
         files_.draw(ui, now, ask);
     } else if (!now.leaving_to.empty()) {
@@ -91,6 +93,24 @@ void Dialogs::draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) con
     action_button(ui, now, ask, catalogue_, "replace.overwrite", Rank::danger);
     if (ui.escape_pressed()) {
         ask.run("replace.cancel");
+    }
+}
+
+void Dialogs::draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto dialog = ui.dialog("gouges", "Write a program that gouges the part?", ui.px(wide));
+    if (!dialog) {
+        return;
+    }
+    const std::string warning = now.gouge_warning();
+    ui.text(warning.empty() ? "The program no longer gouges the part." : warning);
+    ui.note("Another or a smaller cutter, more nodes along a track, or another place of the part helps.");
+    ui.gap();
+    const auto row = ui.row(3);
+    action_button(ui, now, ask, catalogue_, "gouges.write", Rank::danger);
+    action_button(ui, now, ask, catalogue_, "gouges.show");
+    action_button(ui, now, ask, catalogue_, "gouges.cancel", Rank::primary);
+    if (ui.escape_pressed()) {
+        ask.run("gouges.cancel");
     }
 }
 

@@ -18,6 +18,7 @@ public:
 private:
     void draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;

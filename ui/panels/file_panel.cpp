@@ -6,13 +6,14 @@
 #include "ui/actions/processor_texts.h"
 #include "ui/actions/workshop.h"
 #include "ui/panels/asked_file.h"
+#include "ui/panels/numbers_text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
 #include "ui/widgets/typed_text.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <iterator>
 #include <utility>
 
 namespace millwright::panels {
@@ -27,61 +28,6 @@ using widgets::Permission;
 using widgets::Rank;
 
 constexpr std::size_t longest_folder = 62; // letters that fit beside the buttons
-
-struct Listed {
-    std::vector<fs::path> folders, files;
-    std::string fault;
-};
-
-/// Folders and the files of `question` by name; hidden ones left out.
-Listed listed(const fs::path& folder, FileQuestion question) {
-    Listed result;
-    std::error_code failure;
-    for (const auto& entry : fs::directory_iterator(folder, failure)) {
-        std::error_code unreadable;
-        if (entry.path().filename().string().starts_with('.')) {
-            continue;
-        }
-        if (entry.is_directory(unreadable)) {
-            result.folders.push_back(entry.path());
-        } else if (is_listed(about(question), entry.path())) {
-            result.files.push_back(entry.path());
-        }
-    }
-    result.fault = failure ? "This folder cannot be read: " + failure.message() : std::string();
-    std::sort(result.folders.begin(), result.folders.end());
-    std::sort(result.files.begin(), result.files.end());
-    return result;
-}
-
-/// Of a file; empty for a project.
-std::string file_kind(const fs::path& file) {
-    return is_gcode(file)                     ? "G-code"
-           : project::is_importable(file)     ? "surface"
-           : project::is_picture_file(file)   ? "picture"
-           : project::is_path_file(file)      ? "path file"
-           : project::is_point_file(file)     ? "point file"
-           : project::is_plot_file(file)      ? "plot"
-           : actions::is_processor_file(file) ? "for the processor"
-                                              : "";
-}
-
-/// The project's; for a surface that of the last one, which mostly comes from elsewhere.
-fs::path starting_folder(const Workbench& now, FileQuestion question) {
-    if (question == FileQuestion::import_surface) {
-        const auto last = std::ranges::find_if(now.recent, project::is_importable);
-        std::error_code gone;
-        if (last != now.recent.end() && fs::is_directory(last->parent_path(), gone)) {
-            return last->parent_path();
-        }
-    }
-    return now.document.file.empty() ? fs::current_path() : fs::absolute(now.document.file).parent_path();
-}
-
-fs::path home() {
-    const char* named = std::getenv("HOME");
-    return named != nullptr && *named != '\0' ? fs::path(named) : fs::path("/");
-}
 
 /// The end of a long path, which tells more than its beginning.
 std::string shortened_folder(const fs::path& folder) {
@@ -118,27 +64,28 @@ std::string first_name(const Workbench& now, const AskedFile& asked) {
 void FilePanel::begin(const Workbench& now) {
     asked_ = now.session.question;
     source_ = Source::folder;
+    filter_ = 0;
     named_.clear();
     answered_ = false;
-    enter(starting_folder(now, asked_));
+    enter(starting_folder(now, about(asked_)));
     name_ = first_name(now, about(asked_));
 }
 
 void FilePanel::enter(const fs::path& folder) {
-    Listed found = listed(folder, asked_);
+    FolderListing found = listed(folder, about(asked_), filters_of(asked_)[filter_]);
     folder_ = folder;
-    folders_ = found.folders.size();
-    entries_ = std::move(found.folders);
-    entries_.insert(entries_.end(), found.files.begin(), found.files.end());
+    entries_ = std::move(found.entries);
     fault_ = std::move(found.fault);
     chosen_.clear();
+    to_top_ = true;
 }
 
 void FilePanel::show_recent(const Workbench& now) {
-    folders_ = 0;
-    entries_ = now.recent;
+    entries_.clear();
+    std::ranges::transform(now.recent, std::back_inserter(entries_), entry_of);
     fault_.clear();
     chosen_.clear();
+    to_top_ = true;
 }
 
 void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -170,7 +117,6 @@ void FilePanel::go_to(const fs::path& typed, ActionQueue& ask) {
         open(ask, place);
     } else {
         entries_.clear();
-        folders_ = 0;
         chosen_.clear();
         fault_ = "There is no " + place.string() + ".";
     }
@@ -194,52 +140,105 @@ void FilePanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
         enter(folder_.parent_path());
     }
     ui.beside();
-    if (ui.icon_button("home", icons::home, "Your home folder")) {
-        enter(home());
-    }
+    draw_places(ui, now);
     ui.beside();
     if (const auto typed = ui.text_field("path", "", folder_.string(), "A folder to look into, or a file")) {
         go_to(*typed, ask);
     }
 }
 
+/// A folder is chosen and entered at once: of two clicks on a row the second one would enter what has taken
+/// its place.
+void FilePanel::draw_places(Ui& ui, const Workbench& now) {
+    const std::vector<FilePlace> places = places_of(now);
+    std::vector<std::string> ids;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        ids.push_back("place" + std::to_string(n));
+    }
+    std::vector<widgets::Option> options{{"none", "Go to ...", icons::home}};
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        options.push_back({ids[n], places[n].label, icons::folder});
+    }
+    const auto width = ui.width(ui.px(130.0F));
+    if (const auto chosen =
+            ui.choice("places", "", 0, options, "Home, project, samples, recent folders, drives");
+        chosen && *chosen > 0) {
+        enter(places[static_cast<std::size_t>(*chosen) - 1].folder);
+    }
+}
+
+void FilePanel::draw_filter(Ui& ui) {
+    std::vector<widgets::Option> options;
+    for (const FileFilter& filter : filters_of(asked_)) {
+        options.push_back({filter.id, filter.label});
+    }
+    const auto labels = ui.label_share(0.12F);
+    if (const auto chosen = ui.choice("filter", "Show", static_cast<int>(filter_), options)) {
+        filter_ = static_cast<std::size_t>(*chosen);
+        enter(folder_);
+    }
+}
+
+std::string FilePanel::cell(const FolderEntry& entry, int column) const {
+    enum Column { name, kind, size, changed };
+    switch (column) {
+    case name:
+        return entry.path.filename().string();
+    case kind:
+        return source_ == Source::recent ? shortened_folder(entry.path.parent_path())
+               : entry.is_folder         ? std::string("folder")
+                                         : file_kind(entry.path);
+    case size:
+        return entry.is_folder || entry.changed_s < 0 ? std::string() : size_text(entry.bytes);
+    default:
+        return date_time_text(entry.changed_s);
+    }
+}
+
 void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask) {
-    constexpr std::array<widgets::Column, 2> columns{{{"Name", "", 2.0F, false}, {"", "", 3.0F, false}}};
+    constexpr std::array<widgets::Column, 4> columns{{{"Name", "", 3.0F, false},
+                                                      {"Kind", "", 1.4F, false},
+                                                      {"Size", "", 1.0F, true},
+                                                      {"Changed", "", 1.6F, true}}};
+    constexpr std::array<widgets::Column, 4> of_recent{{{"Name", "", 2.0F, false},
+                                                        {"Folder", "", 3.0F, false},
+                                                        {"Size", "", 1.0F, true},
+                                                        {"Changed", "", 1.6F, true}}};
     widgets::TableView view;
-    view.columns = columns;
+    view.columns = source_ == Source::recent ? of_recent : columns;
     view.rows = std::ssize(entries_);
     view.cell = [this](std::ptrdiff_t row, int column) {
-        const fs::path& entry = entries_[static_cast<std::size_t>(row)];
-        if (column == 0) {
-            return entry.filename().string();
-        }
-        const bool is_folder = static_cast<std::size_t>(row) < folders_;
-        return source_ == Source::recent ? shortened_folder(entry.parent_path())
-               : is_folder               ? std::string("folder")
-                                         : file_kind(entry);
+        return cell(entries_[static_cast<std::size_t>(row)], column);
     };
     view.row_id = [this](std::ptrdiff_t row) {
-        const fs::path& entry = entries_[static_cast<std::size_t>(row)];
+        const fs::path& entry = entries_[static_cast<std::size_t>(row)].path;
         return source_ == Source::recent ? std::to_string(row) : entry.filename().string();
     };
-    const auto chosen = std::find(entries_.begin(), entries_.end(), chosen_);
+    const auto chosen = std::ranges::find(entries_, chosen_, &FolderEntry::path);
     view.chosen = chosen == entries_.end() ? -1 : chosen - entries_.begin();
-    view.height = ui.px(212.0F);
+    view.wanted = std::exchange(to_top_, false) && !entries_.empty() ? 0 : -1;
+    view.height = ui.px(232.0F);
     const std::string_view none =
         source_ == Source::recent ? "Nothing was opened or saved before." : about(asked_).none;
     view.when_empty = fault_.empty() ? none : std::string_view(fault_);
-    const auto row = widgets::table(ui, "entries", view);
-    if (!row) {
-        return;
+    if (const auto row = widgets::table(ui, "entries", view)) {
+        take(entries_[static_cast<std::size_t>(*row)], ask);
     }
-    const fs::path entry = entries_[static_cast<std::size_t>(*row)];
-    if (static_cast<std::size_t>(*row) < folders_) {
-        enter(entry);
-    } else if (about(asked_).opens && entry == chosen_) { // the second click of two
-        open(ask, entry);
-    } else {
-        chosen_ = entry;
-        name_ = entry.filename().string();
+    if (source_ == Source::folder) {
+        draw_filter(ui);
+    }
+}
+
+/// A click chooses, the second of two enters a folder or opens a file.
+void FilePanel::take(const FolderEntry& clicked, ActionQueue& ask) {
+    const FolderEntry entry = clicked; // entering replaces the entries
+    if (entry.path != chosen_) {
+        chosen_ = entry.path;
+        name_ = entry.is_folder ? name_ : entry.path.filename().string();
+    } else if (entry.is_folder) {
+        enter(entry.path);
+    } else if (about(asked_).opens) {
+        open(ask, entry.path);
     }
 }
 
@@ -247,6 +246,8 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
     if (asked_ != FileQuestion::open) {
         ui.note(chosen_.empty() ? " " : chosen_.filename().string());
+    } else if (entry_of(chosen_).is_folder) {
+        ProjectPreview::draw_words(ui, "A folder: click it again, or press Enter, to look into it.");
     } else if (project::is_importable(chosen_)) {
         ProjectPreview::draw_words(
             ui, "A surface of another program: it is shown first, in the Design workspace.");
@@ -270,11 +271,24 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto allowed = chosen_.empty() ? Permission::refused("Choose a file first.") : Permission{};
     const bool entered = ui.enter_pressed() && allowed.allowed;
     if (ui.button("open", "Open", allowed, {icons::folder, Rank::primary, -1.0F, "Enter"}) || entered) {
-        open(ask, chosen_);
+        const FolderEntry entry = entry_of(chosen_);
+        if (entry.is_folder) {
+            enter(entry.path);
+        } else {
+            open(ask, chosen_);
+        }
     }
 }
 
+/// The next question of this use begins there.
+void FilePanel::remember_folder(ActionQueue& ask, const fs::path& file) const {
+    ask.show([use = std::string(use_of(asked_)), folder = file.parent_path()](actions::Session& session) {
+        session.folders[use] = folder;
+    });
+}
+
 void FilePanel::open(ActionQueue& ask, const fs::path& file) const {
+    remember_folder(ask, file);
     if (const auto answer = about(asked_).answer) {
         ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
     } else {
@@ -318,6 +332,7 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (clicked || entered) {
         answered_ = true;
         ui.change_in(0.0);
+        remember_folder(ask, file);
         if (const auto answer = about(asked_).answer) {
             ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
         } else {

@@ -2,6 +2,7 @@
 // dialog.
 #pragma once
 
+#include "ui/panels/folder_view.h"
 #include "ui/panels/panel.h"
 #include "ui/panels/project_preview.h"
 
@@ -27,7 +28,12 @@ private:
     void show_recent(const Workbench& now);
     void go_to(const std::filesystem::path& typed, ActionQueue& ask);
     void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_places(Ui& ui, const Workbench& now);
+    void draw_filter(Ui& ui);
     void draw_entries(Ui& ui, const Workbench& now, ActionQueue& ask);
+    [[nodiscard]] std::string cell(const FolderEntry& entry, int column) const;
+    void take(const FolderEntry& clicked, ActionQueue& ask);
+    void remember_folder(ActionQueue& ask, const std::filesystem::path& file) const;
     void open(ActionQueue& ask, const std::filesystem::path& file) const;
     void draw_open(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_save(Ui& ui, const Workbench& now, ActionQueue& ask);
@@ -39,13 +45,14 @@ private:
     actions::FileQuestion asked_ = actions::FileQuestion::none;
     Source source_ = Source::folder;
     std::filesystem::path folder_;
-    std::vector<std::filesystem::path> entries_; ///< folders first
-    std::size_t folders_ = 0;                    ///< that many of them
-    std::string fault_;                          ///< why the folder cannot be read
-    std::filesystem::path chosen_;               ///< of the entries; empty: none
-    std::string name_;                           ///< typed for saving
-    std::filesystem::path named_;                ///< by the button as one that it replaces; empty: none
-    bool answered_ = false; ///< a name, in the last frame: still being asked, it was refused
+    std::vector<FolderEntry> entries_;
+    std::size_t filter_ = 0;       ///< of filters_of()
+    bool to_top_ = false;          ///< the list shows its beginning in the next frame
+    std::string fault_;            ///< why the folder cannot be read
+    std::filesystem::path chosen_; ///< of the entries; empty: none
+    std::string name_;             ///< typed for saving
+    std::filesystem::path named_;  ///< by the button as one that it replaces; empty: none
+    bool answered_ = false;        ///< a name, in the last frame: still being asked, it was refused
     ProjectPreview preview_;
 };
 

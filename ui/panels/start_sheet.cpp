@@ -148,6 +148,9 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
             ui, "doubt", {widgets::Severity::warning, machine::doubt_sentence(status.position_doubt), {}});
         action_button(ui, now, ask, catalogue_, "machine.trust_position");
     }
+    if (!wish.gouges.empty()) {
+        (void)widgets::banner(ui, "gouges", {widgets::Severity::danger, wish.gouges, {}});
+    }
     if (now.start_check && now.start_check->wish == now.session.start) {
         draw_check_result(ui, "faults", widgets::Severity::danger, now.start_check->faults);
         draw_check_result(ui, "warnings", widgets::Severity::warning, now.start_check->warnings);

@@ -1,6 +1,8 @@
 #include "ui/panels/surface_tool.h"
 
 #include "core/project/grids.h"
+#include "core/project/settings.h"
+#include "core/project/strategy_path.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 
@@ -34,6 +36,46 @@ bool has_corner(const grid::Region& region, int corner) {
 }
 
 constexpr double largest_share = 1e3; // project::elliptic_numbers() allow no more
+
+/// Paint and outline count for the elliptic grid and the harmonic map alone.
+void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const project::StrategyInput strategy = now.project.toolpath.strategy;
+    const project::GridMethod method = now.project.grid.method;
+    if (!project::follows_nodes(strategy)) {
+        (void)widgets::banner(
+            ui,
+            "own_points",
+            {widgets::Severity::warning,
+             fmt::format(
+                 "The program's path ({}) chooses its own points and follows no grid: what you paint or "
+                 "outline does not change it.",
+                 project::strategy_text(now.project)),
+             {}});
+        if (ui.button("use_zigzag", "Use a zigzag over the grid")) {
+            ask.edit("Use a zigzag over the grid",
+                     [](Project& p) { p.toolpath.strategy = project::StrategyInput::zigzag; });
+        }
+        return;
+    }
+    if (project::uses_weight(method)) {
+        return;
+    }
+    (void)widgets::banner(
+        ui,
+        "no_weight",
+        {widgets::Severity::warning,
+         fmt::format("The program uses {}, which follows neither paint nor outline: they change the elliptic "
+                     "grid and the harmonic map alone.",
+                     project::row_of(project::grid_methods(), method).label),
+         {}});
+    const auto row = ui.row(2);
+    if (ui.button("use_elliptic", "Use elliptic grid")) {
+        ask.run("grid.use_elliptic");
+    }
+    if (ui.button("use_harmonic", "Use harmonic map")) {
+        ask.run("grid.use_harmonic");
+    }
+}
 
 /// A stroke of the full share would be lost in the colours, and hardly move a node.
 void faint_paint(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -145,6 +187,9 @@ void surface_tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto chosen = ui.segmented("tool", "In hand", static_cast<int>(kind), tools)) {
         constexpr std::array<const char*, 3> ids{"grid.no_tool", "grid.brush", "grid.outline"};
         ask.run(ids[static_cast<std::size_t>(*chosen)]);
+    }
+    if (kind != SurfaceToolKind::none) {
+        without_effect(ui, now, ask);
     }
     if (kind == SurfaceToolKind::brush) {
         brush_fields(ui, now, ask);

@@ -3,6 +3,7 @@
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/actions/shortcut.h"
+#include "ui/actions/synonyms.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/hand_fields.h"
 #include "ui/panels/processor_diagram.h"
@@ -95,6 +96,11 @@ bool pressed(const actions::Shortcut& keys, bool typing) {
            render::key_pressed(keys.key);
 }
 
+/// By its key whatever else has the keyboard.
+bool stops_machine(std::string_view action) {
+    return action == "machine.hold" || action == "machine.stop" || action == "machine.emergency_stop";
+}
+
 } // namespace
 
 Window::Window(actions::Workshop& workshop)
@@ -110,9 +116,12 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     const float s = ui.px(seam);
     const float top = ui.px(menu_height);
     const float bottom = height - ui.px(status_height);
-    const float left = sizes.outline_shown ? ui.px(sizes.*left_size(session)) : 0.0F;
-    const float right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
-    const float lower = sizes.lower_shown ? ui.px(sizes.*lower_size(session)) : 0.0F;
+    // Sizes may be those of a larger window: the view keeps its room.
+    const float wide = std::max(0.0F, width - ui.px(smallest_view));
+    const float high = std::max(0.0F, height - ui.px(smallest_view + timeline_height + menu_height));
+    const float right = sizes.inspector_shown ? std::min(ui.px(sizes.inspector), wide) : 0.0F;
+    const float left = sizes.outline_shown ? std::min(ui.px(sizes.*left_size(session)), wide - right) : 0.0F;
+    const float lower = sizes.lower_shown ? std::min(ui.px(sizes.*lower_size(session)), high) : 0.0F;
     const float emergency = ui.px(emergency_width);
     const float middle_top = top + s;
     const float middle_bottom = bottom - s - lower;
@@ -148,6 +157,9 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
                                           search_.is_open() || now.asks() || no_jog(now),
                                           now.session.workspace,
                                           std::chrono::steady_clock::now());
+    if (search_.is_open() || now.session.search_wanted) {
+        ui.claim_keys();
+    }
     const Layout place = layout(ui, now.session, width, height);
     draw_panes(ui, now, place);
     draw_splitters(ui, now, place, width, height);
@@ -365,7 +377,13 @@ void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) 
             continue;
         }
         ids.emplace_back(info.id);
-        items.push_back({info.id, info.title, info.menu, info.shortcut, action->permission(now)});
+        items.push_back({info.id,
+                         info.title,
+                         info.menu,
+                         info.shortcut,
+                         action->permission(now),
+                         actions::synonyms_of(info.id),
+                         info.tip});
     }
     if (const auto chosen = search_.draw(ui, "search", items)) {
         ask_.run(ids[static_cast<std::size_t>(*chosen)]);
@@ -376,7 +394,9 @@ void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) 
 void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {
     for (const auto& action : workshop_.catalogue().all()) {
         const actions::ActionInfo& info = action->info();
-        if (now.asks() && info.menu != "Machine") {
+        const bool kept_from =
+            ui.keys_claimed() ? !stops_machine(info.id) : now.asks() && info.menu != "Machine";
+        if (kept_from) {
             continue;
         }
         for (const std::string_view text : {info.shortcut, info.second_shortcut}) {

@@ -10,7 +10,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -64,15 +66,35 @@ void set_hints(const WindowOptions& options) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_MAXIMIZED, options.place.maximized ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "millwright");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "millwright");
 }
 
+/// `wanted`, as far as it fits the screen. Both are at scale 1: GLFW makes the window larger by the scale.
+PixelSize on_screen(const PixelSize& wanted) {
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) {
+        return wanted;
+    }
+    int x = 0, y = 0;
+    PixelSize area;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &area.width, &area.height);
+    float scale_x = 1.0F, scale_y = 1.0F;
+    glfwGetMonitorContentScale(monitor, &scale_x, &scale_y);
+    const auto fitted = [](int length, int most, float scale) {
+        const int room = static_cast<int>(static_cast<float>(most) / std::max(scale, 0.1F));
+        return room > 0 ? std::min(length, room) : length;
+    };
+    return {fitted(wanted.width, area.width, scale_x), fitted(wanted.height, area.height, scale_y)};
+}
+
 GLFWwindow* opened_window(const WindowOptions& options) {
-    expects(options.size.width > 0 && options.size.height > 0, "a window has an area");
+    const PixelSize& wanted = options.place.size;
+    expects(wanted.width > 0 && wanted.height > 0, "a window has an area");
     set_hints(options);
-    const auto [width, height] = options.size;
+    const auto [width, height] = on_screen(wanted);
     GLFWwindow* window = glfwCreateWindow(width, height, options.title.c_str(), nullptr, nullptr);
     if (window == nullptr) {
         no_window(glfw_reason(), gl_hint());
@@ -167,7 +189,7 @@ void display_lost() {
 }
 
 struct WindowContext::Parts {
-    explicit Parts(const WindowOptions& options) : window(opened_window(options)) {
+    explicit Parts(const WindowOptions& options) : window(opened_window(options)), place(options.place) {
         listen(window, happened);
     }
     Parts(const Parts&) = delete;
@@ -181,6 +203,7 @@ struct WindowContext::Parts {
     GLFWwindow* window;
     PendingEvents happened;
     DropListener on_drop;
+    WindowPlace place; ///< when it was last asked for
 };
 
 WindowContext::WindowContext(const WindowOptions& options) : parts_(std::make_unique<Parts>(options)) {
@@ -256,6 +279,20 @@ bool WindowContext::close_requested() const {
 // NOLINTNEXTLINE(readability-make-member-function-const): it changes the window
 void WindowContext::keep_open() {
     glfwSetWindowShouldClose(handle(), GLFW_FALSE);
+}
+
+WindowPlace WindowContext::place() const {
+    WindowPlace& last = parts_->place;
+    last.maximized = glfwGetWindowAttrib(handle(), GLFW_MAXIMIZED) != GLFW_FALSE;
+    PixelSize size;
+    glfwGetWindowSize(handle(), &size.width, &size.height);
+    const bool is_own = !last.maximized && glfwGetWindowAttrib(handle(), GLFW_ICONIFIED) == GLFW_FALSE;
+    if (is_own && size.width > 0 && size.height > 0) {
+        const double scale = std::max(content_scale(), 0.1);
+        last.size = {static_cast<int>(std::lround(size.width / scale)),
+                     static_cast<int>(std::lround(size.height / scale))};
+    }
+    return last;
 }
 
 bool WindowContext::focused() const {

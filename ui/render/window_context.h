@@ -4,6 +4,7 @@
 #include "ui/render/context.h"
 #include "ui/render/gamepad.h"
 #include "ui/render/typing.h"
+#include "ui/render/window_place.h"
 
 #include <filesystem>
 #include <functional>
@@ -18,7 +19,7 @@ namespace millwright::render {
 
 struct WindowOptions {
     std::string title = "Millwright";
-    PixelSize size = {1280, 800};
+    WindowPlace place = {}; ///< no larger than the screen in any case
     PixelSize smallest = {800, 500};
     bool visible = true;
     Picture icon = {}; ///< empty for the system's own
@@ -55,6 +56,9 @@ public:
     void keep_open();
 
     [[nodiscard]] bool focused() const;
+
+    /// As WindowOptions::place takes it.
+    [[nodiscard]] WindowPlace place() const;
 
     /// Of the first that is connected, as it is now; nothing without one. No event comes from it.
     [[nodiscard]] std::optional<Gamepad> gamepad() const;

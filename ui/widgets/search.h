@@ -18,6 +18,8 @@ struct SearchItem {
     std::string_view detail = {};   ///< where it belongs, such as "Grid"
     std::string_view shortcut = {}; ///< as people read it: Ctrl+S
     Permission permission = {};
+    std::string_view synonyms = {}; ///< other names for it, separated by commas: "zoom, whole view"
+    std::string_view tip = {};      ///< what it does; its whole words find it, too
 };
 
 /// View state of the palette; kept by the panel.
@@ -39,13 +41,16 @@ private:
 
     bool is_open_ = false;
     bool takes_keyboard_ = false;
+    int keyboard_asked_at_ = 0; ///< frame
     bool entered_ = false;
     std::string letters_;
     std::ptrdiff_t row_ = 0;
     std::ptrdiff_t top_ = 0;
 };
 
-/// The items that fit, best first; equal ones in the order given.
+/// The items that fit, best first: those that are allowed before those that are not, then by how each typed
+/// word fits (a whole word, the start of one, a part of one), then in the order given. Letters scattered over
+/// a title fit only where nothing else does.
 [[nodiscard]] std::vector<std::ptrdiff_t> find_items(std::string_view letters,
                                                      std::span<const SearchItem> items);
 

@@ -136,6 +136,7 @@ void Ui::begin_frame() {
     state_->under_mouse_before = std::exchange(state_->under_mouse, {});
     state_->hints.clear();
     state_->kept_clear.clear();
+    state_->keys_claimed = false;
     state_->typing_at_begin = text_field_active();
     keep_early_text(state_->early);
     state_->cut_texts.clear();
@@ -179,8 +180,16 @@ bool Ui::is_typing() const {
 }
 
 bool Ui::was_typing() const {
-    return state_->typing_at_begin || text_field_active() ||
+    return state_->keys_claimed || state_->typing_at_begin || text_field_active() ||
            ImGui::GetFrameCount() <= state_->edit.kept_until;
+}
+
+void Ui::claim_keys() {
+    state_->keys_claimed = true;
+}
+
+bool Ui::keys_claimed() const {
+    return state_->keys_claimed;
 }
 
 void Ui::keep_clear(std::string_view path) {

@@ -114,9 +114,12 @@ public:
     // ---- the keyboard
     /// A text field has it: letters are not shortcuts now.
     [[nodiscard]] bool is_typing() const;
-    /// A text field had the keyboard when the frame began, or has it now: a key that went down in this frame
-    /// was meant for it.
+    /// A text field had the keyboard when the frame began, or has it now, or all keys are claimed: a key that
+    /// went down in this frame was meant for it.
     [[nodiscard]] bool was_typing() const;
+    /// In this frame every key is meant for what lies over the window: a list of commands to choose from.
+    void claim_keys();
+    [[nodiscard]] bool keys_claimed() const;
     [[nodiscard]] bool escape_pressed() const;
     [[nodiscard]] bool enter_pressed() const;
     /// In the next frame arrows and page keys walk through no widgets, and the space bar presses none:

@@ -311,6 +311,12 @@ PostFormat post_of(const JsonValue& root) {
     post.line_numbers = line_numbers(root.at("line_numbers"));
     post.comment = comment_format(root.at("comment"));
     post.numbers = number_formats(root.at("numbers"));
+    if (constexpr int least = 4; post.inches && post.numbers.length.decimals < least) {
+        root.at("numbers")
+            .at("length")
+            .at("decimals")
+            .fail("a length in inches needs 4 decimals at least: 0.001 inch is 0.0254 mm");
+    }
     post.blocks = block_lines(root.at("blocks"));
     post.moves = move_formats(root.at("moves"));
     post.feed = feed_format(root.at("feed"));

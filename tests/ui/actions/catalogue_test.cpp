@@ -1,6 +1,7 @@
 #include "core/base/error.h"
 #include "ui/actions/action.h"
 #include "ui/actions/shortcut.h"
+#include "ui/actions/synonyms.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +30,17 @@ TEST(Catalogue, FindsByIdOrSaysSo) {
     EXPECT_EQ(catalogue.find("edit.undo").info().shortcut, "Ctrl+Z");
     EXPECT_EQ(catalogue.find_or_null("edit.und"), nullptr);
     EXPECT_THROW((void)catalogue.find("edit.und"), Defect);
+}
+
+TEST(Synonyms, AreOfActionsThatThereAre) {
+    const Catalogue catalogue;
+    std::set<std::string_view> seen;
+    for (const std::string_view id : actions_with_synonyms()) {
+        EXPECT_NE(catalogue.find_or_null(id), nullptr) << id;
+        EXPECT_FALSE(synonyms_of(id).empty()) << id;
+        EXPECT_TRUE(seen.insert(id).second) << id;
+    }
+    EXPECT_EQ(synonyms_of("no.action"), "");
 }
 
 } // namespace

@@ -282,5 +282,58 @@ TEST(RecoveryDialog, UnsavedWorkSurvivesAProgramThatEndsBadly) {
     EXPECT_EQ(next.project().grid.nv, 12);
 }
 
+/// 6 x 6 nodes are so few that a ball goes 2 mm below the dome between them.
+void cut_with_a_ball(Person& person) {
+    person.workshop().edit("Choose a tool",
+                           [](project::Project& p) {
+                               p.tool.cutter = toolpath::CutterKind::ball;
+                               p.tool.diameter_mm = 6.0;
+                           },
+                           {});
+    person.wait_idle();
+}
+
+// Ctrl+E wrote it without a word.
+TEST(Gouges, AreAskedAboutBeforeTheProgramIsWritten) {
+    Person person;
+    cut_with_a_ball(person);
+    ASSERT_FALSE(person.workshop().look().gouge_warning().empty());
+    person.press_key(render::Key::e, true);
+    person.frames(3);
+    ASSERT_TRUE(person.sees("dialogs/gouges/gouges_write"));
+    EXPECT_FALSE(person.sees("dialogs/files/name"));
+    person.keep("gouges-asked");
+    person.press_key(render::Key::escape);
+    EXPECT_FALSE(person.workshop().look().asks());
+    person.press_key(render::Key::e, true);
+    person.frames(3);
+    person.click("dialogs/gouges/gouges_write");
+    ASSERT_TRUE(person.sees("dialogs/files/name"));
+    const fs::path file = person.folder() / "gouging.ngc";
+    person.fill_in("dialogs/files/name", file.string());
+    person.frames(2);
+    EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(Gouges, AreShownInPlaceOfWriting) {
+    Person person;
+    cut_with_a_ball(person);
+    person.press_key(render::Key::e, true);
+    person.frames(3);
+    person.click("dialogs/gouges/gouges_show");
+    person.frames(3);
+    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::toolpath);
+    EXPECT_EQ(person.workshop().session().lower_tab_now(), actions::LowerTab::gouges);
+}
+
+TEST(Gouges, OfAPointAreNone) {
+    Person person;
+    person.press_key(render::Key::e, true);
+    person.frames(3);
+    EXPECT_FALSE(person.sees("dialogs/gouges/gouges_write"));
+    EXPECT_TRUE(person.sees("dialogs/files/name"));
+}
+
 } // namespace
 } // namespace millwright::panels

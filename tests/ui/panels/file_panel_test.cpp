@@ -5,10 +5,13 @@
 #include "core/project/project_file.h"
 #include "tests/ui/panels/person.h"
 #include "ui/panels/asked_file.h"
+#include "ui/panels/folder_view.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -81,6 +84,90 @@ TEST_F(FileDialog, KeepsItsRowsInPlaceWhateverIsClicked) {
     EXPECT_FALSE(person_.sees("dialogs/files/entries"));
     ASSERT_TRUE(person_.workshop().look().opened);
     EXPECT_EQ(person_.workshop().look().opened->file.filename(), "square.ngc");
+}
+
+// The second click of a double click entered the folder that had come under the mouse: one too deep.
+TEST_F(FileDialog, ADoubleClickEntersOneFolder) {
+    fs::create_directories(person_.folder() / "deep" / "deeper" / "deepest");
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    const widgets::Point at = person_.place("dialogs/files/entries/deep").centre();
+    person_.click_at(at);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/mine.json")) << "a single click chooses";
+    press();
+    person_.frames(2);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/deeper"));
+    press(); // chooses, as the first of two
+    person_.frames(2);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/deeper"));
+    person_.press_key(render::Key::enter); // enters what is chosen
+    person_.frames(2);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/deepest"));
+}
+
+TEST_F(FileDialog, BeginsWhereAFileWasLastOpened) {
+    fs::create_directories(person_.folder() / "nc");
+    write("nc/square.ngc", "G21 G90\nG1 F600 X10\nM2\n");
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    person_.fill_in("dialogs/files/path", (person_.folder() / "nc").string());
+    person_.click("dialogs/files/entries/square.ngc");
+    person_.click("dialogs/files/open");
+    person_.frames(3);
+    EXPECT_FALSE(person_.sees("dialogs/files/entries"));
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/square.ngc"));
+    person_.press_key(render::Key::escape);
+    person_.press_key(render::Key::s, true, true); // a project is saved where it lies
+    person_.frames(2);
+    EXPECT_TRUE(person_.sees("dialogs/files/entries/mine.json"));
+}
+
+TEST_F(FileDialog, GoesToPlacesAndShowsOneKindOfFile) {
+    write("square.ngc", "G21 G90\nG1 F600 X10\nM2\n");
+    write("notes.odt", "no file of ours");
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    const std::string entries = "dialogs/files/entries/";
+    EXPECT_TRUE(person_.sees(entries + "mine.json"));
+    EXPECT_TRUE(person_.sees(entries + "square.ngc"));
+    EXPECT_FALSE(person_.sees(entries + "notes.odt"));
+    person_.choose("dialogs/files/filter", "gcode");
+    EXPECT_FALSE(person_.sees(entries + "mine.json"));
+    EXPECT_TRUE(person_.sees(entries + "square.ngc"));
+    person_.choose("dialogs/files/filter", "all");
+    EXPECT_TRUE(person_.sees(entries + "notes.odt"));
+    person_.keep("file-dialog-places");
+    const std::vector<FilePlace> places = places_of(person_.workshop().look());
+    const auto samples = std::ranges::find(places, "Samples: projects", &FilePlace::label);
+    ASSERT_NE(samples, places.end());
+    person_.choose("dialogs/files/filter", "known");
+    person_.choose("dialogs/files/places", "place" + std::to_string(samples - places.begin()));
+    EXPECT_TRUE(person_.sees(entries + "dome.json"));
+}
+
+TEST(FolderView, SizesAreShort) {
+    EXPECT_EQ(size_text(0), "0 bytes");
+    EXPECT_EQ(size_text(999), "999 bytes");
+    EXPECT_EQ(size_text(1000), "1.0 kB");
+    EXPECT_EQ(size_text(14'300), "14 kB");
+    EXPECT_EQ(size_text(2'340'000), "2.3 MB");
+    EXPECT_EQ(size_text(5'000'000'000), "5.0 GB");
+    EXPECT_EQ(size_text(5'000'000'000'000), "5000 GB");
+}
+
+TEST(FolderView, EntriesHaveKindSizeAndDate) {
+    const FolderEntry dome = entry_of("assets/projects/dome.json");
+    EXPECT_FALSE(dome.is_folder);
+    EXPECT_EQ(dome.bytes, fs::file_size("assets/projects/dome.json"));
+    EXPECT_GT(dome.changed_s, 0);
+    EXPECT_EQ(file_kind(dome.path), "project");
+    EXPECT_TRUE(entry_of("assets").is_folder);
+    EXPECT_EQ(entry_of("nowhere/at/all").changed_s, -1);
+    const FolderListing none = listed(
+        "nowhere/at/all", about(actions::FileQuestion::open), filters_of(actions::FileQuestion::open)[0]);
+    EXPECT_NE(none.fault, "");
 }
 
 TEST_F(FileDialog, TakesAPlaceThatIsTyped) {

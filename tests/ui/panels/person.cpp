@@ -35,11 +35,12 @@ project::Project small_sample() {
 
 Person::Person(const render::PixelSize& screen,
                const std::filesystem::path& recovery,
-               const std::filesystem::path& jobs)
+               const std::filesystem::path& jobs,
+               const std::filesystem::path& settings)
     : folder_(fresh_folder()), context_(screen),
       workshop_({.assets = "assets",
                  .log_folder = jobs.empty() ? folder_ / "jobs" : jobs,
-                 .settings = folder_ / "recent.json",
+                 .settings = (settings.empty() ? folder_ : settings) / "recent.json",
                  .recovery = recovery,
                  .wake = [] {},
                  .start = small_sample()}) {

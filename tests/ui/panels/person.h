@@ -24,10 +24,11 @@ inline constexpr const char* dome_project = "assets/projects/dome.json";
 class Person {
 public:
     /// `recovery`: folder of the copies of unsaved work; none are kept if it is empty. `jobs`: folder of the
-    /// job logs; one of their own if it is empty.
+    /// job logs, and `settings`: of what the window keeps; each one of their own if it is empty.
     explicit Person(const render::PixelSize& screen = {1280, 800},
                     const std::filesystem::path& recovery = {},
-                    const std::filesystem::path& jobs = {});
+                    const std::filesystem::path& jobs = {},
+                    const std::filesystem::path& settings = {});
     Person(const Person&) = delete;
     Person& operator=(const Person&) = delete;
     ~Person();

@@ -180,6 +180,7 @@ std::vector<std::string> seen_dialogs(Person& person) {
     for (const char* const dialog : {"files/cancel",
                                      "unsaved/unsaved_cancel",
                                      "replace/replace_cancel",
+                                     "gouges/gouges_cancel",
                                      "running_job/running_job_stay",
                                      "help/close"}) {
         if (person.sees("dialogs/" + std::string(dialog))) {

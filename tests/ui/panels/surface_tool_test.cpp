@@ -129,6 +129,37 @@ TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     EXPECT_FALSE(painted());
 }
 
+// A stroke changed nothing where the program used the track optimiser, as it does at first.
+TEST_F(SurfaceTools, SayThatTheProgramsGridFollowsNoPaintAndHelp) {
+    ASSERT_EQ(person_.project().grid.method, project::GridMethod::tracks);
+    for (const char* const tool : {"brush", "outline"}) {
+        person_.click("inspector/surface_tool/tool/" + std::string(tool));
+        EXPECT_TRUE(person_.sees("inspector/surface_tool/no_weight")) << tool;
+    }
+    person_.click("inspector/surface_tool/tool/brush");
+    person_.keep("grid-brush-no-effect");
+    person_.click("inspector/surface_tool/use_elliptic");
+    person_.wait_idle();
+    EXPECT_EQ(person_.project().grid.method, project::GridMethod::elliptic);
+    EXPECT_FALSE(person_.sees("inspector/surface_tool/no_weight"));
+    person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
+    person_.wait_idle();
+    EXPECT_NE(person_.workshop().look().plan->plan.weight, nullptr);
+    person_.workshop().edit("Choose the path",
+                            [](project::Project& p) {
+                                p.toolpath.strategy = project::StrategyInput::constant_scallop;
+                                p.tool.cutter = toolpath::CutterKind::ball;
+                            },
+                            {});
+    person_.wait_idle();
+    EXPECT_TRUE(person_.sees("inspector/surface_tool/own_points"));
+    person_.click("inspector/surface_tool/use_zigzag");
+    EXPECT_EQ(person_.project().toolpath.strategy, project::StrategyInput::zigzag);
+    person_.workshop().run("grid.use_harmonic");
+    person_.wait_idle();
+    EXPECT_FALSE(person_.sees("inspector/surface_tool/no_weight"));
+}
+
 TEST_F(SurfaceTools, AnOutlineIsClickedClosedAndDragged) {
     person_.click("inspector/surface_tool/tool/outline");
     for (const auto& [x, y] : {std::pair{0.42F, 0.42F}, {0.58F, 0.42F}, {0.58F, 0.58F}, {0.42F, 0.58F}}) {

@@ -323,6 +323,73 @@ TEST(Workbench, FindsAnActionByAFewLetters) {
     EXPECT_TRUE(person.workshop().session().four_views);
 }
 
+/// What the list of commands shows first for these letters.
+std::string first_command(Person& person, std::string_view letters) {
+    person.press_key(render::Key::k, true);
+    person.frames(4);
+    person.type(letters);
+    person.frames(2);
+    std::string first;
+    float top = 1e9F;
+    for (const auto& action : person.workshop().catalogue().all()) {
+        const std::string path = "search/" + std::string(action->info().id);
+        if (person.sees(path) && person.place(path).y < top) {
+            top = person.place(path).y;
+            first = action->info().id;
+        }
+    }
+    person.press_key(render::Key::escape);
+    return first;
+}
+
+TEST(Workbench, FindsActionsByTheWordsThatPeopleUse) {
+    Person person;
+    EXPECT_EQ(first_command(person, "zoom"), "view.fit");
+    EXPECT_EQ(first_command(person, "degree"), "view.design");
+    EXPECT_EQ(first_command(person, "ball"), "view.toolpath");
+    EXPECT_EQ(first_command(person, "dark"), "view.theme");
+    EXPECT_EQ(first_command(person, "zero"), "view.machine"); // to home, nothing is connected
+    EXPECT_EQ(first_command(person, "save"), "file.save");
+    EXPECT_EQ(first_command(person, "exit"), "file.quit");
+}
+
+// Ctrl+T taught a point behind the open list, F9 went to the machine, Esc dropped the selection.
+TEST(Workbench, NoKeyActsBehindTheListOfCommandsButThoseThatStop) {
+    Person person;
+    person.workshop().session().workspace = actions::Workspace::arm;
+    person.frames(3);
+    const auto taught = person.project().arm.points.size();
+    person.workshop().session().selected = {{geometry::PatchId{0}, 1, 1}};
+    person.press_key(render::Key::k, true);
+    ASSERT_TRUE(person.sees("search/letters"));
+    person.press_key(render::Key::t, true);
+    person.press_key(render::Key::f3);
+    person.press_key(render::Key::f9);
+    EXPECT_EQ(person.project().arm.points.size(), taught);
+    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::arm);
+    EXPECT_TRUE(person.sees("search/letters"));
+    person.press_key(render::Key::escape);
+    EXPECT_FALSE(person.sees("search/letters"));
+    EXPECT_EQ(person.workshop().session().selected.size(), 1U);
+    person.press_key(render::Key::f3);
+    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::grid);
+}
+
+TEST(Workbench, AMachineStopsByItsKeyBehindTheListOfCommands) {
+    Person person;
+    person.open(dome_project);
+    person.workshop().session().workspace = actions::Workspace::machine;
+    person.workshop().session().machine_speed = 1.0;
+    person.wait_idle();
+    person.workshop().run("machine.run");
+    person.frames(3);
+    ASSERT_TRUE(person.workshop().look().job.running);
+    person.press_key(render::Key::k, true);
+    ASSERT_TRUE(person.sees("search/letters"));
+    person.press_key(render::Key::f8);
+    EXPECT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
+}
+
 TEST(Workbench, SavesOpensAndTellsAboutABrokenFile) {
     Person person;
     person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});

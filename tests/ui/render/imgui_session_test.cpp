@@ -123,7 +123,7 @@ TEST(ImGuiSession, DrawsTheSameInAWindow) {
     if (std::getenv("DISPLAY") == nullptr) {
         GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
     }
-    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    WindowContext window({.place = {.size = {200, 150}}, .smallest = {100, 100}});
     ImGuiSession session(window);
     static_cast<void>(window.wait(0.0));
     window.begin();
@@ -159,7 +159,7 @@ TEST(ImGuiSession, TakesAKeyWithTheModifiersOfItsPressInAWindow) {
     if (std::getenv("DISPLAY") == nullptr) {
         GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
     }
-    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    WindowContext window({.place = {.size = {200, 150}}, .smallest = {100, 100}});
     ImGuiSession session(window);
     const Keyboard keyboard(window.handle());
     const auto frame_has_ctrl_k = [&session] {
@@ -187,7 +187,7 @@ TEST(ImGuiSession, SeesWhatWentDownAndUpBetweenTwoFramesInAWindow) {
     if (std::getenv("DISPLAY") == nullptr) {
         GTEST_SKIP() << "NOT TESTED: there is no DISPLAY; run the tests under xvfb-run";
     }
-    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    WindowContext window({.place = {.size = {200, 150}}, .smallest = {100, 100}});
     ImGuiSession session(window);
     const Keyboard keyboard(window.handle());
     const GLFWmousebuttonfun button_changed = glfwSetMouseButtonCallback(window.handle(), nullptr);

@@ -109,7 +109,7 @@ void settle(WindowContext& window) {
 
 TEST_F(WithDisplay, DrawsTheSamePixelsAsWithoutAWindow) {
     const Drawn in_window = [] {
-        WindowContext window({.size = {320, 240}, .smallest = {100, 100}});
+        WindowContext window({.place = {.size = {320, 240}}, .smallest = {100, 100}});
         return scene_in(window);
     }();
     OffscreenContext memory(in_window.by_context.size);
@@ -120,7 +120,7 @@ TEST_F(WithDisplay, DrawsTheSamePixelsAsWithoutAWindow) {
 }
 
 TEST_F(WithDisplay, IsDrawnOnceWhenItOpensAndThenOnRequestOnly) {
-    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    WindowContext window({.place = {.size = {200, 150}}, .smallest = {100, 100}});
     EXPECT_TRUE(window.wait(0.0));
     settle(window);
     EXPECT_FALSE(window.wait(0.05));
@@ -130,7 +130,7 @@ TEST_F(WithDisplay, IsDrawnOnceWhenItOpensAndThenOnRequestOnly) {
 }
 
 TEST_F(WithDisplay, IsWokenByARequestFromAnotherThread) {
-    WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+    WindowContext window({.place = {.size = {200, 150}}, .smallest = {100, 100}});
     settle(window);
     const std::jthread other([&window] { window.request_redraw(); });
     EXPECT_TRUE(window.wait(-1.0));
@@ -138,7 +138,7 @@ TEST_F(WithDisplay, IsWokenByARequestFromAnotherThread) {
 
 TEST_F(WithDisplay, OpensAgainAfterItWasClosed) {
     for (int i = 0; i < 2; ++i) {
-        WindowContext window({.size = {200, 150}, .smallest = {100, 100}});
+        WindowContext window({.place = {.size = {200, 150}}, .smallest = {100, 100}});
         EXPECT_EQ(window.framebuffer_size(), (PixelSize{200, 150}));
         EXPECT_FALSE(window.close_requested());
         EXPECT_GE(window.content_scale(), 0.5);
@@ -146,7 +146,8 @@ TEST_F(WithDisplay, OpensAgainAfterItWasClosed) {
 }
 
 TEST_F(WithDisplay, FilesOfAnotherProgramAreDroppedOnIt) {
-    WindowContext window({.title = "where files fall", .size = {200, 150}, .smallest = {100, 100}});
+    WindowContext window(
+        {.title = "where files fall", .place = {.size = {200, 150}}, .smallest = {100, 100}});
     std::vector<std::filesystem::path> dropped;
     window.on_drop([&dropped](const std::vector<std::filesystem::path>& files) { dropped = files; });
     settle(window);

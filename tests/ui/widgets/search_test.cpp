@@ -40,6 +40,38 @@ TEST(FindItems, ATitleThatBeginsWithTheVeryWordComesFirst) {
     EXPECT_EQ(find_items("joint", layers).front(), 0);
 }
 
+TEST(FindItems, WholeWordsComeBeforePartsAndPartsBeforeScatteredLetters) {
+    const std::array<SearchItem, 5> all{SearchItem{"a", "Adaptive fitting", "Grid"},
+                                        SearchItem{"b", "Outfits", "Grid"},
+                                        SearchItem{"c", "Fit the view", "View"},
+                                        SearchItem{"d", "Follow it", "View"},
+                                        SearchItem{"e", "Zoom", "View", "", {}, "fit, whole view"}};
+    EXPECT_EQ(find_items("fit", all), (std::vector<std::ptrdiff_t>{2, 4, 0, 1}));
+    EXPECT_EQ(find_items("view fit", all), (std::vector<std::ptrdiff_t>{2, 4}));
+    EXPECT_EQ(find_items("flwt", all), (std::vector<std::ptrdiff_t>{3}));
+}
+
+// All that was refused stood first when the list was opened.
+TEST(FindItems, WhatIsRefusedComesLast) {
+    std::array<SearchItem, 3> all{SearchItem{"undo", "Undo", "Edit"},
+                                  SearchItem{"keep", "Keep the undo steps", "Edit"},
+                                  SearchItem{"redundo", "Redundo", "Edit"}};
+    all[0].permission = Permission::refused("Nothing to undo.");
+    EXPECT_EQ(find_items("", all), (std::vector<std::ptrdiff_t>{1, 2, 0}));
+    EXPECT_EQ(find_items("undo", all), (std::vector<std::ptrdiff_t>{1, 2, 0}));
+}
+
+TEST(FindItems, OtherNamesAndWordsOfTheTipFindToo) {
+    const std::array<SearchItem, 3> all{
+        SearchItem{"fit", "Fit the view", "View", "", {}, "zoom, whole view", "Shows everything."},
+        SearchItem{"home", "Home", "Machine", "", {}, "", "Finds the machine's zero by its switches."},
+        SearchItem{"theme", "Light theme", "View", "", {}, "dark, night", "Changes the colours."}};
+    EXPECT_EQ(find_items("zoom", all), (std::vector<std::ptrdiff_t>{0}));
+    EXPECT_EQ(find_items("zero", all), (std::vector<std::ptrdiff_t>{1}));
+    EXPECT_EQ(find_items("dark", all), (std::vector<std::ptrdiff_t>{2}));
+    EXPECT_TRUE(find_items("zeroes", all).empty());
+}
+
 constexpr std::array items{SearchItem{"grid.adapt", "Adapt the grid", "Grid", "Ctrl+G"},
                            SearchItem{"file.save", "Save", "File", "Ctrl+S"},
                            SearchItem{"file.save_as", "Save as ...", "File"}};
@@ -93,6 +125,15 @@ TEST_F(SearchPalette, WhatIsNotAllowedIsNotRunAndSaysWhy) {
     EXPECT_TRUE(chosen.empty());
     EXPECT_EQ(stage.reason("main/palette/job.run"), "No machine is connected.");
     EXPECT_TRUE(search.is_open());
+}
+
+// A click on what is refused took the keyboard away: the next letters went to what lies behind.
+TEST_F(SearchPalette, KeepsTheKeyboardAfterAClickOnWhatIsRefused) {
+    stage.click("main/palette/job.run");
+    stage.frames(6);
+    stage.type("savas");
+    stage.key(Key::enter);
+    EXPECT_EQ(chosen, (std::vector<std::ptrdiff_t>{2}));
 }
 
 TEST_F(SearchPalette, EscAndAClickElsewhereCloseIt) {

@@ -85,12 +85,12 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
         widgets::canvas(frame.ui, id_, {place.x, place.y, place.w, place.h}, target_.texture());
     const widgets::Pointer& pointer = canvas.pointer;
     in_use_ = pointer.hovered || pointer.held || pointer.released;
-    take_keys(pointer);
+    take_keys(frame.ui, pointer);
     fit_if_needed(frame, place);
     cameras_[at_].camera = navigated(camera(), pointer, size);
 
     const Pane pane = {.rect = place, .view = view_of(frame, size), .colors = frame.colors};
-    const bool esc = in_use_ && render::key_pressed(Key::escape);
+    const bool esc = in_use_ && !frame.ui.keys_claimed() && render::key_pressed(Key::escape);
     std::vector<ViewEvent> events = hand_.follow({.scene = frame.scene,
                                                   .view = pane.view,
                                                   .picker = frame.picker,
@@ -145,8 +145,8 @@ void ViewPane::fit_into(const Frame3D& frame, const widgets::Rect& place, const 
     sight.fitted_pose = sight.camera.pose();
 }
 
-void ViewPane::take_keys(const widgets::Pointer& pointer) {
-    if (!pointer.hovered || pointer.held || ImGui::GetIO().WantTextInput || pointer.ctrl || pointer.alt) {
+void ViewPane::take_keys(const widgets::Ui& ui, const widgets::Pointer& pointer) {
+    if (!pointer.hovered || pointer.held || ui.was_typing() || pointer.ctrl || pointer.alt) {
         return;
     }
     if (render::key_pressed(Key::f) || render::key_pressed(Key::home)) {

@@ -68,7 +68,7 @@ private:
 
     void fit_if_needed(const Frame3D& frame, const widgets::Rect& place);
     void fit_into(const Frame3D& frame, const widgets::Rect& place, const widgets::Rect& free);
-    void take_keys(const widgets::Pointer& pointer);
+    void take_keys(const widgets::Ui& ui, const widgets::Pointer& pointer);
     [[nodiscard]] render::View view_of(const Frame3D& frame, const render::PixelSize& size) const;
     void draw_picture(const Frame3D& frame, const render::View& view, const widgets::Pointer& pointer);
     void paint(const Frame3D& frame, const render::View& view, render::Edges edges);

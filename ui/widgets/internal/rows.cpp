@@ -14,12 +14,12 @@ double& scroll_of(Ui& ui, const std::string& path) {
     return ui.state().memory[path + "@top"];
 }
 
-void take_wheel_and_keys(const Rect& box, double& top, double in_sight) {
+void take_wheel_and_keys(const Ui& ui, const Rect& box, double& top, double in_sight) {
     if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(upper_left(box), lower_right(box))) {
         return;
     }
     top -= rows_a_notch * static_cast<double>(ImGui::GetIO().MouseWheel);
-    if (ImGui::GetIO().WantTextInput) {
+    if (ui.was_typing()) {
         return;
     }
     top += key_pressed(ImGuiKey_PageDown) ? in_sight : 0.0;
@@ -60,7 +60,7 @@ Rows::Rows(Ui& ui, const std::string& path, const Rect& box, std::ptrdiff_t coun
     if (scrolls_) {
         const float width = ui.px(bar_width);
         inside_.w -= width;
-        take_wheel_and_keys(box, top, in_sight);
+        take_wheel_and_keys(ui, box, top, in_sight);
         scroll_bar(ui, path, {inside_.right(), box.y, width, box.h}, top, in_sight, rows);
     }
     top = std::clamp(top, 0.0, std::max(0.0, rows - in_sight));

@@ -79,6 +79,7 @@ struct Ui::State {
     std::vector<float> label_shares;
     std::vector<Permission> permissions;
     bool typing_at_begin = false;        ///< of the frame
+    bool keys_claimed = false;           ///< in this frame
     std::vector<std::string> kept_clear; ///< of this frame
     int open_menu_frame = -2;            ///< last frame in which a menu of the bar was open
     std::optional<double> change_at;     ///< ImGui time

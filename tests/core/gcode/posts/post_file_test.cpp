@@ -28,7 +28,7 @@ TEST(PostFile, EveryShippedOneIsReadAndNamedInTheReference) {
         EXPECT_THAT(page, HasSubstr("| `" + entry.path().stem().string() + "` |"));
         ++count;
     }
-    EXPECT_EQ(count, 8);
+    EXPECT_EQ(count, 11);
 }
 
 /// One thing wrong in a shipped file: `from` becomes `to`, and the message holds `says` with its place.
@@ -63,6 +63,10 @@ const std::vector<Fault>& faults() {
         {"linuxcnc", "\"LinuxCNC\"", "7", "bad.json:4:13: name:"},
         {"linuxcnc", "\"LinuxCNC\"", "\"Caf\xC3\xA9\"", "name: a text of a program is of printable ASCII"},
         {"linuxcnc", "\"extension\"", "\"ending\"", "ending"},
+        {"grbl-inch",
+         "\"length\": { \"decimals\": 5 }",
+         "\"length\": { \"decimals\": 3 }",
+         "numbers/length/decimals: a length in inches needs 4 decimals at least"},
         {"linuxcnc", "\"ngc\"", "\".ngc\"", "bad.json:6:18: extension: an extension is a word without a dot"},
         {"linuxcnc", "\"ngc\"", "\"\"", "extension: an extension is a word"},
         {"linuxcnc",

@@ -27,6 +27,11 @@ bool only_stops(std::string_view line) {
     return is(line, stops);
 }
 
+bool only_aborts(std::string_view line) {
+    static const std::regex aborts(R"( *(([#&][0-9]+ *)?[AHQS\\/] *)+)", std::regex::icase);
+    return is(line, aborts);
+}
+
 bool only_kills(std::string_view line) {
     static const std::regex kills(" *(([#&][0-9]+ *)?K *)+", std::regex::icase);
     return is(line, kills);

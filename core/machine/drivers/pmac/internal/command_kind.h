@@ -14,6 +14,9 @@ namespace millwright::machine::pmac {
 /// Whether `line` is nothing but stops, as `#1J/ #2J/`, `&1A`, `H`.
 [[nodiscard]] bool only_stops(std::string_view line);
 
+/// The same without J/, which somebody types to close a loop.
+[[nodiscard]] bool only_aborts(std::string_view line);
+
 /// Whether `line` takes power away and does nothing else: `#1K`, `K`.
 [[nodiscard]] bool only_kills(std::string_view line);
 

@@ -139,14 +139,21 @@ std::optional<std::size_t> PmacSession::given_power(const std::vector<std::strin
     return std::nullopt;
 }
 
-/// Stops that were typed would give power to motors without: those that have it brake, and that is all.
-/// Throws Error where nothing is to be stopped, and for lines that do more.
+/// Stops that were typed would give power to motors without: those that have it brake, and that is all. Where
+/// nothing moves nothing is sent. Throws Error for lines that do more, and for a J/ where nothing moves,
+/// which is meant to give power.
 bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
     const auto to = given_power(lines);
     if (!to || lines_may_power_ || stage_ == Stage::alarm) { // which takes none of them anyway
         return false;
     }
     const bool moves = stage_ == Stage::astir || stage_ == Stage::commanding || (rests() && !standing());
+    if (!moves && std::all_of(lines.begin(), lines.end(), only_aborts)) {
+        answer_ = {answer_.number + 1,
+                   CommandAnswer::State::done,
+                   fmt::format("nothing moves; {} has no power and was given none", name_of(*to))};
+        return true;
+    }
     if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
         throw Error(
             fmt::format("'{}' would give power to {}, which has none", fmt::join(lines, " "), name_of(*to)),

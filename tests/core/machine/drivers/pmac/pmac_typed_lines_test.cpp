@@ -159,15 +159,8 @@ TEST(PmacTypedLines, SetsVariablesAloneInAnAlarm) {
 
 TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
     PmacWire wire({}, false);
-    for (const std::vector<std::string>& lines :
-         std::vector<std::vector<std::string>>{{"A"},
-                                               {"&1A"},
-                                               {"#2J/"},
-                                               {"#1J:12"},
-                                               {"#3", "J=5"},
-                                               {"#1HM"},
-                                               {"#4J^0"},
-                                               {"OPEN PROG 2", "X1", "CLOSE", "a"}}) {
+    for (const std::vector<std::string>& lines : std::vector<std::vector<std::string>>{
+             {"#2J/"}, {"#1J:12"}, {"#3", "J=5"}, {"#1HM"}, {"#4J^0"}, {"OPEN PROG 2", "X1", "CLOSE", "a"}}) {
         EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
                     HasSubstr("would give power to"))
             << lines.front();
@@ -180,6 +173,21 @@ TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
     (void)wire.session.command({"#1J/"}, false);
     wire.pass(0.5);
     EXPECT_TRUE(wire.card.enabled(1));
+}
+
+// A stop was refused, with the advice to give the motors power.
+TEST(PmacTypedLinesF2, AStopOfWhatStandsIsDoneAndGivesNoPower) {
+    PmacWire wire({}, false);
+    for (const std::string line : {"A", "&1A", "H", "Q"}) {
+        (void)wire.session.command({line}, false);
+        ASSERT_TRUE(line_is_answered(wire)) << line;
+        EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::done) << line;
+    }
+    wire.pass(0.5);
+    EXPECT_FALSE(wire.powered());
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    (void)wire.session.command({"A"}, false);
+    EXPECT_THAT(wire.session.status().answer.text, HasSubstr("nothing moves"));
 }
 
 TEST(PmacTypedLinesF2, ThatGivePowerAreNotHeldUpByWhatAMotorToldBeforeTheyCame) {

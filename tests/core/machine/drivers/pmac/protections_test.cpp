@@ -71,6 +71,7 @@ TEST(PmacProtectionsF1, TheFilesThatShipSwitchEveryOneOn) {
     }
     EXPECT_THAT(told_off(off), testing::SizeIs(6));
     EXPECT_THAT(told_off(off + lines_of("pmac-arm.ini")), IsEmpty());
+    EXPECT_THAT(told_off(off + lines_of("pmac-l3.ini")), IsEmpty());
     EXPECT_THAT(told_off(off + lines_of("pmac-arm.ini") + lines_of("pmac-axis-5.ini"), "XYZAB"), IsEmpty());
 }
 

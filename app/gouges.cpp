@@ -1,0 +1,40 @@
+#include "app/gouges.h"
+
+#include "core/project/cut_study.h"
+#include "core/project/gouges.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace millwright::app {
+
+void add_gouges_option(CLI::App& command, bool& allowed) {
+    command.add_flag("--allow-gouges",
+                     allowed,
+                     "Accept a program that cuts deeper into the part than the tool's gouge limit");
+}
+
+std::string gouges_of(const OpenedProject& opened, const project::Plan& plan) {
+    return plan.cut ? project::gouge_text(opened.project.tool, *plan.cut) : std::string();
+}
+
+void answer_for_gouges(const OpenedProject& opened,
+                       const std::string& gouges,
+                       bool allowed,
+                       const std::string& not_done) {
+    if (gouges.empty()) {
+        return;
+    }
+    if (!allowed) {
+        throw GougeError(fmt::format("{}; {}", gouges, not_done),
+                         opened.file,
+                         "--allow-gouges accepts it; millwright cutter lists the lines");
+    }
+    fmt::print(stderr, "warning: {}\n", gouges);
+}
+
+} // namespace millwright::app

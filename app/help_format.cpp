@@ -1,0 +1,96 @@
+#include "app/help_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+std::string plain_name(const std::string& type) {
+    return type == "FLOAT" ? "NUMBER" : type == "INT" || type == "UINT" ? "N" : type;
+}
+
+/// A default that says something: no empty text, no empty list.
+bool is_told(const std::string& value) {
+    return !value.empty() && value != "[]" && value != "\"\"";
+}
+
+std::string names_of(const std::set<CLI::Option*>& options) {
+    std::vector<std::string> names;
+    for (const CLI::Option* const option : options) {
+        names.push_back(option->get_name());
+    }
+    std::sort(names.begin(), names.end());
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+}
+
+} // namespace
+
+ValueText value_text(const std::string& type) {
+    static const std::regex ranged(R"(([^:]*):\w+ in \[(\S+) - ([^\]]+)\])");
+    static const std::regex listed(R"([^:]*:\{(.*)\})");
+    std::smatch found;
+    if (std::regex_match(type, found, ranged)) {
+        return {plain_name(found[1]), fmt::format("{} to {}", found[2].str(), found[3].str())};
+    }
+    if (std::regex_match(type, found, listed)) {
+        std::string names = found[1];
+        std::replace(names.begin(), names.end(), ',', '|');
+        return {names, {}};
+    }
+    return {plain_name(type), {}};
+}
+
+std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+    if (option->get_type_size() == 0) { // a flag
+        return {};
+    }
+    const ValueText value = value_text(option->get_type_name());
+    std::string text = value.name.empty() ? std::string() : " " + value.name;
+    if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
+        text += " ...";
+    }
+    std::vector<std::string> remarks;
+    if (!value.range.empty()) {
+        remarks.push_back(value.range);
+    }
+    if (option->get_required()) {
+        remarks.emplace_back("required");
+    } else if (is_told(option->get_default_str())) {
+        remarks.push_back("default " + option->get_default_str());
+    }
+    if (!option->get_envname().empty()) {
+        remarks.push_back("else $" + option->get_envname());
+    }
+    if (!option->get_needs().empty()) {
+        remarks.push_back("with " + names_of(option->get_needs()));
+    }
+    if (!option->get_excludes().empty()) {
+        remarks.push_back("not with " + names_of(option->get_excludes()));
+    }
+    std::string all;
+    for (const std::string& remark : remarks) {
+        all += (all.empty() ? "" : "; ") + remark;
+    }
+    return all.empty() ? text : fmt::format("{} ({})", text, all);
+}
+
+std::string HelpFormat::make_option_usage(const CLI::Option* option) const {
+    const bool many = option->get_expected_max() >= CLI::detail::expected_max_vector_size;
+    const bool several = !many && option->get_items_expected_max() > 1;
+    const std::string name = several && option->get_type_name().find(' ') != std::string::npos
+                                 ? option->get_type_name()
+                                 : make_option_name(option, true) + (many ? "..." : "");
+    return option->get_required() ? name : "[" + name + "]";
+}
+
+} // namespace millwright::app

@@ -1,0 +1,53 @@
+#include "core/project/gouges.h"
+
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+namespace millwright::project {
+
+namespace {
+
+struct DeepestBite {
+    const BlockBite* bite = nullptr; ///< null: none
+    int blocks = 0;
+};
+
+DeepestBite deepest_of(const CutStudy& cut, bool by_holder) {
+    DeepestBite found;
+    for (const BlockBite& bite : cut.bites) {
+        if (bite.by_holder == by_holder) {
+            ++found.blocks;
+            found.bite =
+                found.bite == nullptr || bite.bite.depth > found.bite->bite.depth ? &bite : found.bite;
+        }
+    }
+    return found;
+}
+
+std::string blocks_text(const DeepestBite& found) {
+    const std::string blocks = found.blocks == 1 ? "1 block" : fmt::format("{} blocks", found.blocks);
+    return found.bite->line > 0 ? fmt::format("{}, the deepest in line {}", blocks, found.bite->line)
+                                : blocks;
+}
+
+} // namespace
+
+std::string gouge_text(const ToolInput& tool, const CutStudy& cut) {
+    std::string text;
+    if (const DeepestBite cutter = deepest_of(cut, false); cutter.bite != nullptr) {
+        text = fmt::format("the cutter goes up to {} mm below the surface, where {} mm are allowed ({})",
+                           fixed(cutter.bite->bite.depth, 4),
+                           shortest(tool.gouge_limit_mm),
+                           blocks_text(cutter));
+    }
+    if (const DeepestBite holder = deepest_of(cut, true); holder.bite != nullptr) {
+        text += fmt::format("{}the holder goes up to {} mm into the part ({})",
+                            text.empty() ? "" : "; ",
+                            fixed(holder.bite->bite.depth, 4),
+                            blocks_text(holder));
+    }
+    return text;
+}
+
+} // namespace millwright::project

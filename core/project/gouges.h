@@ -1,0 +1,15 @@
+// What makes a program unfit to be run: cutter or holder in the part beyond what the tool allows.
+#pragma once
+
+#include "core/project/cut_study.h"
+#include "core/project/tool_input.h"
+
+#include <string>
+
+namespace millwright::project {
+
+/// "the cutter goes up to 10.2421 mm below the surface, where 0.1 mm are allowed (163 blocks, the deepest in
+/// line 47)", and the same of the holder; empty if no block of the program gouges the part.
+[[nodiscard]] std::string gouge_text(const ToolInput& tool, const CutStudy& cut);
+
+} // namespace millwright::project

@@ -1,0 +1,39 @@
+#include "core/project/gouges.h"
+
+#include <gtest/gtest.h>
+
+namespace millwright::project {
+namespace {
+
+BlockBite bite(int line, double depth, bool by_holder = false) {
+    BlockBite made;
+    made.block = line - 1;
+    made.line = line;
+    made.by_holder = by_holder;
+    made.bite.depth = depth;
+    return made;
+}
+
+TEST(GougeText, IsEmptyWhereNoBlockGouges) {
+    CutStudy cut;
+    cut.deepest = 0.05; // within the limit
+    EXPECT_EQ(gouge_text(ToolInput{}, cut), "");
+}
+
+TEST(GougeText, NamesTheDeepestLineOfCutterAndHolder) {
+    ToolInput tool;
+    tool.gouge_limit_mm = 0.25;
+    CutStudy cut;
+    cut.bites = {bite(20, 0.5), bite(31, 10.2421), bite(40, 0.75)};
+    EXPECT_EQ(gouge_text(tool, cut),
+              "the cutter goes up to 10.2421 mm below the surface, where 0.25 mm are allowed (3 blocks, the "
+              "deepest in line 31)");
+    cut.bites.push_back(bite(52, 1.5, true));
+    EXPECT_EQ(gouge_text(tool, cut),
+              "the cutter goes up to 10.2421 mm below the surface, where 0.25 mm are allowed (3 blocks, the "
+              "deepest in line 31); the holder goes up to 1.5000 mm into the part (1 block, the deepest in "
+              "line 52)");
+}
+
+} // namespace
+} // namespace millwright::project

@@ -1,0 +1,269 @@
+#include "ui/actions/kept_session.h"
+
+#include "core/base/error.h"
+#include "core/base/numbers.h"
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+using machine::DriverKind;
+using project::WindowSettings;
+
+/// One value: how it is written, and how it is read. False if the text cannot be right.
+struct KeptValue {
+    std::string name;
+    std::function<std::string(const Session&)> text;
+    std::function<bool(Session&, const std::string&)> take;
+};
+
+std::optional<double> number_of(std::string_view text, double least, double most) {
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = failure == std::errc{} && end == text.data() + text.size();
+    return whole && lies_between(value, least, most) ? std::optional(value) : std::nullopt;
+}
+
+std::optional<bool> flag_of(std::string_view text) {
+    return text == "on" ? std::optional(true) : text == "off" ? std::optional(false) : std::nullopt;
+}
+
+std::string flag_text(bool on) {
+    return on ? "on" : "off";
+}
+
+/// Found by `member`, which gives a reference into a session that is const or not.
+template <typename Member>
+KeptValue kept_number(std::string name, double least, double most, const Member& member) {
+    return {std::move(name),
+            [member](const Session& session) { return shortest(static_cast<double>(member(session))); },
+            [member, least, most](Session& session, const std::string& text) {
+                const auto value = number_of(text, least, most);
+                if (value) {
+                    auto& kept = member(session);
+                    kept = static_cast<std::remove_reference_t<decltype(kept)>>(*value);
+                }
+                return value.has_value();
+            }};
+}
+
+template <typename Member> KeptValue kept_flag(std::string name, const Member& member) {
+    return {std::move(name),
+            [member](const Session& session) { return flag_text(member(session)); },
+            [member](Session& session, const std::string& text) {
+                const auto on = flag_of(text);
+                if (on) {
+                    member(session) = *on;
+                }
+                return on.has_value();
+            }};
+}
+
+template <typename Member> KeptValue kept_text(std::string name, const Member& member) {
+    return {std::move(name),
+            [member](const Session& session) { return std::string(member(session)); },
+            [member](Session& session, const std::string& text) {
+                member(session) = text;
+                return true;
+            }};
+}
+
+constexpr std::array<std::pair<std::string_view, float PaneSizes::*>, 10> pane_sizes{
+    {{"outline", &PaneSizes::outline},
+     {"inspector", &PaneSizes::inspector},
+     {"lower", &PaneSizes::lower},
+     {"processor", &PaneSizes::processor},
+     {"code", &PaneSizes::code},
+     {"layers", &PaneSizes::layers},
+     {"bench", &PaneSizes::bench},
+     {"arm_jog", &PaneSizes::arm_jog},
+     {"arm_lower", &PaneSizes::arm_lower},
+     {"listing", &PaneSizes::listing}}};
+
+constexpr std::array<std::pair<std::string_view, bool PaneSizes::*>, 3> panes_shown{
+    {{"outline_shown", &PaneSizes::outline_shown},
+     {"inspector_shown", &PaneSizes::inspector_shown},
+     {"lower_shown", &PaneSizes::lower_shown}}};
+
+void add_panes(std::vector<KeptValue>& values) {
+    constexpr double smallest = 60.0, largest = 4000.0; // px at scale 1
+    for (const auto& [name, size] : pane_sizes) {
+        values.push_back(kept_number(
+            fmt::format("panes.{}", name), smallest, largest, [size = size](auto& session) -> auto& {
+                return session.panes.*size;
+            }));
+    }
+    for (const auto& [name, shown] : panes_shown) {
+        values.push_back(kept_flag(
+            fmt::format("panes.{}", name), [shown = shown](auto& session) -> auto& {
+                return session.panes.*shown;
+            }));
+    }
+}
+
+void add_window(std::vector<KeptValue>& values) {
+    constexpr double least = 100.0, most = 32768.0; // px at scale 1
+    values.push_back(kept_number(
+        "window.width", least, most, [](auto& session) -> auto& { return session.window.size.width; }));
+    values.push_back(kept_number(
+        "window.height", least, most, [](auto& session) -> auto& { return session.window.size.height; }));
+    values.push_back(kept_flag(
+        "window.maximized", [](auto& session) -> auto& { return session.window.maximized; }));
+    values.push_back({"theme",
+                      [](const Session& session) {
+                          return std::string(session.theme == widgets::Theme::dark ? "dark" : "light");
+                      },
+                      [](Session& session, const std::string& text) {
+                          session.theme = text == "light" ? widgets::Theme::light : widgets::Theme::dark;
+                          return text == "light" || text == "dark";
+                      }});
+}
+
+/// Of kind `n`: that of the chosen one is in the choice itself.
+KeptValue kept_address(int n) {
+    const auto kind = static_cast<DriverKind>(n);
+    const auto index = static_cast<std::size_t>(n);
+    return {fmt::format("address.{}", machine::to_text(kind)),
+            [kind, index](const Session& session) {
+                return session.hand.choice.kind == kind ? session.hand.choice.address
+                                                        : session.hand.addresses[index];
+            },
+            [kind, index](Session& session, const std::string& text) {
+                session.hand.addresses[index] = text;
+                if (session.hand.choice.kind == kind) {
+                    session.hand.choice.address = text;
+                }
+                return true;
+            }};
+}
+
+/// A text of a person's own records; where there are none (record.own), it has nowhere to go.
+KeptValue kept_record(std::string_view name, std::string machine::RecordFormat::*member) {
+    return {fmt::format("record.{}", name),
+            [member](const Session& session) {
+                return session.hand.choice.record.value_or(machine::RecordFormat()).*member;
+            },
+            [member](Session& session, const std::string& text) {
+                if (auto& record = session.hand.choice.record) {
+                    (*record).*member = text;
+                }
+                return true;
+            }};
+}
+
+void add_records(std::vector<KeptValue>& values) {
+    using machine::RecordFormat;
+    values.push_back(
+        {"record.own",
+         [](const Session& session) { return flag_text(session.hand.choice.record.has_value()); },
+         [](Session& session, const std::string& text) {
+             session.hand.choice.record =
+                 flag_of(text).value_or(false) ? std::optional(RecordFormat()) : std::nullopt;
+             return flag_of(text).has_value();
+         }});
+    values.push_back(kept_record("pattern", &RecordFormat::pattern));
+    values.push_back(kept_record("ending", &RecordFormat::ending));
+    values.push_back(kept_record("answer", &RecordFormat::answer));
+    values.push_back({"record.relative",
+                      [](const Session& session) {
+                          return flag_text(session.hand.choice.record.value_or(RecordFormat()).relative);
+                      },
+                      [](Session& session, const std::string& text) {
+                          if (auto& record = session.hand.choice.record) {
+                              record->relative = flag_of(text).value_or(record->relative);
+                          }
+                          return flag_of(text).has_value();
+                      }});
+}
+
+void add_machine(std::vector<KeptValue>& values) {
+    values.push_back(
+        {"driver",
+         [](const Session& session) { return std::string(machine::to_text(session.hand.choice.kind)); },
+         [](Session& session, const std::string& text) {
+             try {
+                 session.hand.choice.kind = machine::driver_kind(text);
+                 return true;
+             } catch (const Error&) {
+                 return false;
+             }
+         }});
+    for (int n = 0; n < std::ssize(HandSettings().addresses); ++n) {
+        values.push_back(kept_address(n));
+    }
+    values.push_back(kept_text(
+        "machine.axes", [](auto& session) -> auto& { return session.hand.choice.axes; }));
+    values.push_back(kept_flag(
+        "machine.one_by_one", [](auto& session) -> auto& { return session.hand.choice.one_by_one; }));
+    values.push_back(kept_number(
+        "machine.period", 1e-4, 10.0, [](auto& session) -> auto& { return session.hand.choice.period; }));
+}
+
+void add_hand(std::vector<KeptValue>& values) {
+    constexpr double most = 1e6;
+    values.push_back(kept_number(
+        "jog.step", 0.0, most, [](auto& session) -> auto& { return session.hand.step; }));
+    values.push_back(kept_number(
+        "jog.speed", 0.0, most, [](auto& session) -> auto& { return session.hand.speed_mm_per_min; }));
+    values.push_back(kept_number(
+        "jog.rotary_speed", 0.0, most, [](auto& session) -> auto& { return session.hand.turn_deg_per_min; }));
+    values.push_back(kept_number(
+        "probe.travel", 0.0, most, [](auto& session) -> auto& { return session.hand.probe_way_mm; }));
+    values.push_back(kept_number(
+        "probe.speed", 0.0, most, [](auto& session) -> auto& { return session.hand.probe_mm_per_min; }));
+}
+
+/// The driver before its address, which is that of the chosen one.
+std::vector<KeptValue> kept_values() {
+    std::vector<KeptValue> values;
+    add_window(values);
+    add_panes(values);
+    add_machine(values);
+    add_records(values);
+    add_hand(values);
+    return values;
+}
+
+constexpr std::string_view folder_prefix = "folder.";
+
+} // namespace
+
+WindowSettings kept_of(const Session& session, WindowSettings before) {
+    for (const KeptValue& value : kept_values()) {
+        before[value.name] = value.text(session);
+    }
+    for (const auto& [use, folder] : session.folders) {
+        before[std::string(folder_prefix) + use] = folder.string();
+    }
+    return before;
+}
+
+std::vector<std::string> restore(Session& session, const WindowSettings& kept) {
+    std::vector<std::string> refused;
+    for (const KeptValue& value : kept_values()) {
+        const auto found = kept.find(value.name);
+        if (found != kept.end() && !value.take(session, found->second)) {
+            refused.push_back(
+                fmt::format("{} cannot be \u201c{}\u201d", value.name, printable(found->second)));
+        }
+    }
+    for (const auto& [name, folder] : kept) {
+        if (name.starts_with(folder_prefix)) {
+            session.folders[name.substr(folder_prefix.size())] = folder;
+        }
+    }
+    return refused;
+}
+
+} // namespace millwright::actions
