@@ -25,6 +25,7 @@
 #include "app/commands/workbench_command.h"
 #include "app/finite_number.h"
 #include "app/kept_outputs.h"
+#include "app/list_options.h"
 #include "app/output_files.h"
 #include "app/output_streams.h"
 #include "app/threads_option.h"
@@ -145,7 +146,9 @@ int main(int argc, char** argv) {
         return wrong_usage;
     }
     return run([&] {
+        expect_full_lists(app, {argv, static_cast<std::size_t>(argc)});
         expect_outputs_apart(app);
+        expect_outputs_writable(app);
         const KeptOutputs kept(named_outputs(app));
         return chosen();
     });

@@ -3,6 +3,7 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/posting.h"
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
@@ -153,8 +154,8 @@ void print_plan_summary(const project::Plan& plan, const project::Project& proje
     }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
-    fmt::print("{} points, path {} mm, estimated time {}\n",
-               chosen.toolpath.points.size(),
+    fmt::print("{}, path {} mm, estimated time {}\n",
+               counted(chosen.toolpath.points.size(), "point"),
                fixed(chosen.path_length, 1),
                clock_time(plan.trajectory->duration()));
 }
@@ -224,11 +225,12 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
     }
     std::vector<std::string> found;
     if (!cut.bites.empty()) {
-        found.push_back(fmt::format("{} blocks bring the tool into the part", cut.bites.size()));
+        found.push_back(counted(cut.bites.size(), "block brings", "blocks bring") +
+                        " the tool into the part");
     }
     if (!cut.local_gouges.empty()) {
-        found.push_back(
-            fmt::format("the surface is bent more than the tool at {} nodes", cut.local_gouges.size()));
+        found.push_back(fmt::format("the surface is bent more than the tool at {}",
+                                    counted(cut.local_gouges.size(), "node")));
     }
     if (!found.empty()) {
         fmt::print(stderr, "warning: {}; `millwright cutter` names them\n", fmt::join(found, ", and "));
