@@ -1,5 +1,6 @@
 #include "app/arm_choice.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
@@ -42,8 +43,10 @@ double from_joint(const ArmModel& arm, int joint, double position) {
 
 JointPositions given_joints(const ArmModel& arm, const std::vector<double>& shown) {
     if (static_cast<int>(shown.size()) != arm.joint_count()) {
-        throw Error(fmt::format(
-            "{} has {} joints, {} positions were given", arm.name(), arm.joint_count(), shown.size()));
+        throw Error(fmt::format("{} has {}, {} positions were given",
+                                arm.name(),
+                                counted(arm.joint_count(), "joint"),
+                                shown.size()));
     }
     JointPositions q(arm.joint_count());
     for (int n = 0; n < arm.joint_count(); ++n) {

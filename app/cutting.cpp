@@ -2,6 +2,7 @@
 
 #include "app/finite_number.h"
 #include "app/origin_choice.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode/plot_program.h"
@@ -179,12 +180,12 @@ void write_program(const plot::CutPath& path,
     }
     const plot::PathLengths lengths = plot::lengths(placed(path, origin_of(options)));
     constexpr double m = 1e-3;
-    fmt::print("{} points: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
-               path.size(),
+    fmt::print("{}: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
+               counted(path.size(), "point"),
                m * lengths.cut,
                m * lengths.travel);
-    fmt::print("{} lines, {} on {}\n",
-               text.text.listing.line_count(),
+    fmt::print("{}, {} on {}\n",
+               counted(text.text.listing.line_count(), "line"),
                plot::time_for_people(*seconds),
                machine.name());
 }

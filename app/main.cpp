@@ -27,6 +27,7 @@
 #include "app/gouges.h"
 #include "app/help_format.h"
 #include "app/kept_outputs.h"
+#include "app/list_options.h"
 #include "app/output_files.h"
 #include "app/output_streams.h"
 #include "app/suggestion.h"
@@ -160,7 +161,9 @@ int main(int argc, char** argv) {
         return wrong_usage;
     }
     return run([&] {
+        expect_full_lists(app, {argv, static_cast<std::size_t>(argc)});
         expect_outputs_apart(app);
+        expect_outputs_writable(app);
         const KeptOutputs kept(named_outputs(app));
         return chosen();
     });

@@ -1,5 +1,6 @@
 #include "app/output_files.h"
 
+#include "core/base/draft.h"
 #include "core/base/error.h"
 
 #include <CLI/Config.hpp>
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Options of all commands that name a file to be written.
-constexpr std::array<std::string_view, 12> outputs{"--deviation",
+constexpr std::array<std::string_view, 13> outputs{"--accept",
+                                                   "--deviation",
                                                    "--norms",
                                                    "--out",
                                                    "--path",
@@ -37,6 +39,7 @@ constexpr std::array<std::string_view, 12> outputs{"--deviation",
 struct Named {
     std::string option; ///< as it is called on the command line
     std::string value;
+    bool is_folder = false; ///< of those that are written
 };
 
 struct Files {
@@ -46,10 +49,12 @@ struct Files {
 
 void collect(const CLI::App& command, Files& files) {
     for (const CLI::Option* const option : command.get_options()) {
-        auto& list =
-            std::ranges::find(outputs, option->get_name()) != outputs.end() ? files.written : files.others;
+        const bool is_flag = option->get_expected_max() == 0;
+        auto& list = !is_flag && std::ranges::find(outputs, option->get_name()) != outputs.end()
+                         ? files.written
+                         : files.others;
         for (const std::string& value : option->results()) {
-            list.push_back({option->get_name(), value});
+            list.push_back({option->get_name(), value, option->get_type_name() == "DIR"});
         }
     }
     for (const CLI::App* const chosen : command.get_subcommands()) {
@@ -66,6 +71,34 @@ bool same_file(const std::string& a, const std::string& b) {
     const fs::path first = fs::weakly_canonical(a, failure);
     const fs::path second = fs::weakly_canonical(b, failure);
     return !fs::exists(a, failure) && !first.empty() && first == second;
+}
+
+/// What is no file, such as a device or a pipe, is written through.
+void expect_writable_file(const Named& out) {
+    std::error_code missing;
+    if (fs::is_directory(out.value, missing)) {
+        throw Error(
+            fmt::format("{} names a folder, and writes a file", out.option), out.value, "add a file name");
+    }
+    if (!fs::exists(out.value, missing) || fs::is_regular_file(out.value, missing)) {
+        const Draft draft(out.value); // begins as the writing will
+    }
+}
+
+/// One that is missing is made before the work.
+void expect_writable_folder(const Named& out) {
+    std::error_code missing;
+    if (!fs::exists(out.value, missing)) {
+        return;
+    }
+    if (!fs::is_directory(out.value, missing)) {
+        throw Error(fmt::format("{} names a file, and needs a folder", out.option), out.value);
+    }
+    try {
+        const Draft draft(fs::path(out.value) / "millwright");
+    } catch (const Error& fault) {
+        throw Error(fault.diagnostic().message, out.value);
+    }
 }
 
 } // namespace
@@ -89,6 +122,16 @@ void expect_outputs_apart(const CLI::App& app) {
                             out.value,
                             "give one of them another name");
             }
+        }
+    }
+}
+
+void expect_outputs_writable(const CLI::App& app) {
+    Files files;
+    collect(app, files);
+    for (const Named& out : files.written) {
+        if (!out.value.empty()) {
+            out.is_folder ? expect_writable_folder(out) : expect_writable_file(out);
         }
     }
 }

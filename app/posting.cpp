@@ -1,5 +1,6 @@
 #include "app/posting.h"
 
+#include "core/base/counted.h"
 #include "core/gcode/posts/post_file.h"
 #include "core/project/assets.h"
 
@@ -83,7 +84,7 @@ void print_notes(const PostedText& posted) {
         fmt::print(stderr, "the path mode (G61, G64) changes along the program; the first one is written\n");
     }
     if (posted.text.arcs > 0) {
-        fmt::print(stderr, "{} arcs\n", posted.text.arcs);
+        fmt::print(stderr, "{}\n", counted(posted.text.arcs, "arc"));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "app/given_options.h"
 #include "app/held_story.h"
 #include "app/question.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/machine/job_queue.h"
 
@@ -133,14 +134,12 @@ private:
 
     void refuse_leftovers() const {
         if (!left().empty()) {
-            throw Error(fmt::format("{} of an earlier command are left", counted(left().size())),
+            throw Error(fmt::format("{} of an earlier command {} left",
+                                    counted(left().size(), "job"),
+                                    left().size() == 1 ? "is" : "are"),
                         file_,
                         "go on with them by --continue, or take the file away");
         }
-    }
-
-    static std::string counted(std::size_t jobs) {
-        return fmt::format("{} job{}", jobs, jobs == 1 ? "" : "s");
     }
 
     void take_up() {
@@ -180,10 +179,10 @@ private:
             return Decision::begin;
         }
         const std::string answer =
-            question(fmt::format("Next: {}, {} blocks. Look at the machine.\n"
+            question(fmt::format("Next: {}, {}. Look at the machine.\n"
                                  "y: start it, s: leave it out, anything else: not now > ",
                                  job.project,
-                                 job.blocks),
+                                 counted(job.blocks, "block")),
                      stop_);
         return answer == "y" ? Decision::begin : answer == "s" ? Decision::leave_out : Decision::not_now;
     }
@@ -234,8 +233,9 @@ private:
 
     void say_what_is_left() const {
         if (on_disk_ && !left().empty()) {
-            fmt::print(
-                "{} left in {}: --continue goes on with them.\n", counted(left().size()), file_.string());
+            fmt::print("{} left in {}: --continue goes on with them.\n",
+                       counted(left().size(), "job"),
+                       file_.string());
         }
     }
 };

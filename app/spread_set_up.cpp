@@ -2,6 +2,7 @@
 
 #include "app/cost_message.h"
 #include "app/gather.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -183,11 +184,10 @@ private:
         }
         return own.empty()
                    ? fmt::format("none of the {} places was its own", places_.size())
-                   : fmt::format(
-                         "it had measured all of its {} places, which are lost with rank 0, as is what that "
-                         "does alone after them: {}",
-                         own.size(),
-                         range_of(places_, own));
+                   : fmt::format("it had measured all of its {}, which are lost with rank 0, as is what that "
+                                 "does alone after them: {}",
+                                 counted(own.size(), "place"),
+                                 range_of(places_, own));
     }
 
     const Ranks& ranks_;

@@ -1,5 +1,6 @@
 #include "app/study_pictures.h"
 
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "ui/render/picture.h"
@@ -38,7 +39,8 @@ constexpr std::array figures{
 viewport::Chart chart_of(std::span<const StudyRow> rows, const Figure& figure) {
     const project::StudyCase& of = rows.front().of;
     viewport::Chart chart;
-    chart.title = fmt::format("{} on {}, {} tracks: {}", of.surface, of.machine, of.tracks, figure.title);
+    chart.title =
+        fmt::format("{} on {}, {}: {}", of.surface, of.machine, counted(of.tracks, "track"), figure.title);
     chart.y_label = figure.axis;
     chart.y_unit = figure.unit;
     return chart;
@@ -72,7 +74,7 @@ viewport::Chart curves_of(std::span<const StudyRow> rows, const Figure& figure) 
 viewport::Chart bars_of(std::span<const StudyRow> rows, const Figure& figure) {
     constexpr double half_width = 0.4;
     viewport::Chart chart = chart_of(rows, figure);
-    chart.title += fmt::format(", {} points a track", rows.front().of.points);
+    chart.title += fmt::format(", {} a track", counted(rows.front().of.points, "point"));
     chart.has_key = false;
     for (std::size_t n = 0; n < rows.size(); ++n) {
         const double x = static_cast<double>(n) + 1.0;

@@ -1,6 +1,7 @@
 #include "app/unfinished_study.h"
 
 #include "app/study_pictures.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ std::optional<fs::file_time_type> written_at(const fs::path& file) {
 } // namespace
 
 std::string name_of(const StudyCase& of) {
-    return fmt::format("{} on {} with {} points", of.surface, of.machine, of.points);
+    return fmt::format("{} on {} with {}", of.surface, of.machine, counted(of.points, "point"));
 }
 
 std::vector<StudyRow> joined(const std::vector<std::vector<StudyRow>>& rows) {

@@ -8,6 +8,7 @@
 #include "app/commands/arm_reach.h"
 #include "app/commands/arm_service.h"
 #include "app/commands/arm_stream.h"
+#include "core/base/counted.h"
 #include "core/base/files.h"
 #include "core/kinematics/arm_motion_file.h"
 #include "core/kinematics/arm_motion_ways.h"
@@ -57,9 +58,9 @@ int simulate(const ArmSimulationOptions& options) {
     const double seconds = planned_motion_time(
         arm, kinematics::ways_of(arm, blocks, kinematics::arm_home(), options.file), options.file);
     write_file(options.out, kinematics::arm_result_text(records));
-    fmt::print("{} blocks, {} points in {}\nplanned for the arm: {:.2f} s\n",
-               blocks.size(),
-               records.size(),
+    fmt::print("{}, {} in {}\nplanned for the arm: {:.2f} s\n",
+               counted(blocks.size(), "block"),
+               counted(records.size(), "point"),
                options.out,
                seconds);
     return 0;

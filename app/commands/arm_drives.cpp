@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/kinematics/arm_drive_readings.h"
+#include "core/kinematics/arm_zone.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -121,13 +123,12 @@ int actuators(const ArmDrivesOptions& options) {
     if (!file.actuators) {
         throw Error(file.arm.name() + " has no actuators: its file describes none, each joint is a drive");
     }
-    const ArmDriveReadings found =
+    ArmDriveReadings found =
         options.counts ? kinematics::drive_readings(*file.actuators, given_counts(options.numbers))
                        : kinematics::drive_readings(*file.actuators, given_joints(file.arm, options.numbers));
+    const std::vector<std::string> others = kinematics::broken_limits(file.arm, std::nullopt, found.joints);
+    found.reasons.insert(found.reasons.begin(), others.begin(), others.end());
     options.json ? print_json(file.arm, found) : print_table(file.arm, found);
-    if (const int outside = file.arm.joint_outside(found.joints); outside >= 0) {
-        fmt::print(stderr, "millwright: joint {} is outside of its limits\n", file.arm.joint(outside).name);
-    }
     return 0;
 }
 

@@ -63,15 +63,15 @@ void print_rotation(const Mat3& rotation) {
 }
 
 int forward(const ArmPoseOptions& options) {
-    const ArmModel arm = arm_of(options.arm);
+    const kinematics::ArmFile file = arm_file_of(options.arm);
+    const ArmModel& arm = file.arm;
     const JointPositions q = given_joints(arm, options.numbers);
     const Frame tool = kinematics::base_T_tool(arm, q);
     const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
     const double roll = to_degrees(kinematics::roll_of(tool.linear()));
     const double measure =
         kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
-    const int outside = arm.joint_outside(q);
-    const auto breaches = kinematics::zone_breaches(arm, q);
+    const std::vector<std::string> reasons = kinematics::broken_limits(arm, file.actuators, q);
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["x"] = rounded(tip.x());
@@ -81,7 +81,8 @@ int forward(const ArmPoseOptions& options) {
         answer["roll"] = rounded(roll);
         answer["rotation"] = rows_of(tool.linear());
         answer["manipulability"] = measure;
-        answer["inside_limits"] = outside < 0 && breaches.empty();
+        answer["inside_limits"] = reasons.empty();
+        answer["reasons"] = reasons;
         fmt::print("{}\n", answer.dump(2));
     } else {
         fmt::print("x {} y {} z {} mm\ntool axis {} {} {}\nroll {} deg\n",
@@ -95,11 +96,8 @@ int forward(const ArmPoseOptions& options) {
         print_rotation(tool.linear());
         fmt::print("manipulability {:.6f}\n", measure);
     }
-    if (outside >= 0) {
-        fmt::print(stderr, "millwright: joint {} is outside of its limits\n", arm.joint(outside).name);
-    }
-    for (const kinematics::ZoneBreach& breach : breaches) {
-        fmt::print(stderr, "millwright: {}\n", breach.why);
+    for (const std::string& reason : reasons) {
+        fmt::print(stderr, "millwright: {}\n", reason);
     }
     return 0;
 }

@@ -1,5 +1,6 @@
 #include "app/commands/arm_service.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/numbers.h"
@@ -51,13 +52,13 @@ int calibrate(const ArmServiceOptions& options) {
                             {"readings", fit.readings}});
             continue;
         }
-        fmt::print("motor {}: {:.4f} counts a degree (+- {:.4f}), {:.1f} counts at 0 deg; {} readings, "
+        fmt::print("motor {}: {:.4f} counts a degree (+- {:.4f}), {:.1f} counts at 0 deg; {}, "
                    "{:.3f} deg rms, at most {:+.3f} deg in line {}\n",
                    fit.motor,
                    fit.counts_per_degree,
                    fit.counts_per_degree_error,
                    fit.counts_at_zero,
-                   fit.readings,
+                   counted(fit.readings, "reading"),
                    fit.rms,
                    fit.worst,
                    fit.worst_line);

@@ -1,9 +1,11 @@
 #include "app/commands/arm_stream.h"
 
 #include "app/arm_choice.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/kinematics/arm_motion_file.h"
+#include "core/kinematics/arm_motion_ways.h"
 #include "core/kinematics/arm_simulation.h"
 #include "core/machine/emulators/pmac/shared_memory_stream.h"
 
@@ -15,6 +17,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::app {
@@ -31,11 +34,17 @@ struct StreamOptions {
     double deg_per_s = 10.0;
 };
 
-std::vector<SharedMemoryStream::Point> points_of(const StreamOptions& options) {
+struct StreamedFile {
+    std::vector<SharedMemoryStream::Point> points;
+    bool sets_feed = false;
+};
+
+StreamedFile streamed_file(const StreamOptions& options) {
     const kinematics::ArmModel arm = arm_of(options.arm);
     const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
-    return kinematics::first_turns_deg(
-        kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file));
+    return {kinematics::first_turns_deg(
+                kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file)),
+            kinematics::sets_feed(blocks)};
 }
 
 std::string row_of(const SharedMemoryBuffer& now) {
@@ -55,7 +64,8 @@ std::string row_of(const SharedMemoryBuffer& now) {
 
 int stream(const StreamOptions& options) {
     constexpr double glance = 1.0; // s of the card, unless the buffer changes before
-    SharedMemoryStream stream(points_of(options), options.deg_per_s);
+    StreamedFile streamed = streamed_file(options);
+    SharedMemoryStream stream(std::move(streamed.points), options.deg_per_s);
     std::string rows =
         "time_s,m151,m152,m153,m154,m155,sent,equ1,x_deg,y_deg,z_deg\n" + row_of(stream.buffer());
     while (!stream.finished()) {
@@ -71,10 +81,17 @@ int stream(const StreamOptions& options) {
         constexpr double words_per_degree = 1000.0;
         farthest = std::max(farthest, std::abs(end.position[axis] - end.words[axis] / words_per_degree));
     }
-    fmt::print("{} points, {} interrupts of EQU1, {:.0f} ms per move, {:.2f} s\n"
-               "the motors stand at X{:.3f} Y{:.3f} Z{:.3f} degrees, {:.3f} from the last point\n",
-               stream.count(),
-               end.taken,
+    if (streamed.sets_feed) {
+        fmt::print(stderr,
+                   "note: F is not used: each move takes {:.0f} ms, in which no motor turns faster than "
+                   "--speed {}\n",
+                   1e3 * stream.move_time(),
+                   options.deg_per_s);
+    }
+    fmt::print("{}, {} of EQU1, {:.0f} ms per move, {:.2f} s\n"
+               "the motors are at X{:.3f} Y{:.3f} Z{:.3f} degrees, {:.3f} from the last point\n",
+               counted(stream.count(), "point"),
+               counted(end.taken, "interrupt"),
                1e3 * stream.move_time(),
                end.time,
                end.position[0],

@@ -1,5 +1,6 @@
 #include "app/commands/cordic_motion.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode/reader/cordic_motion.h"
@@ -231,13 +232,13 @@ void print(const CordicMotionReport& report) {
                report.max_speed,
                report.max_acceleration);
     for (const AxisPulses& axis : report.axes) {
-        fmt::print("{}: {} pulses up to {:.6g} Hz, given with up to {:.6g} Hz, {} reversals, jitter {:.3g} "
+        fmt::print("{}: {} up to {:.6g} Hz, given with up to {:.6g} Hz, {}, jitter {:.3g} "
                    "us at most, {:.3g} us RMS, {} late\n",
                    axis.letter,
-                   axis.pulses,
+                   counted(axis.pulses, "pulse"),
                    axis.max_frequency,
                    axis.given_frequency,
-                   axis.reversals,
+                   counted(axis.reversals, "reversal"),
                    1e6 * axis.max_jitter,
                    1e6 * axis.rms_jitter,
                    axis.late);

@@ -1,6 +1,7 @@
 #include "app/commands/cordic_programs.h"
 
 #include "app/commands/cordic_source.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/cordic/disassembler.h"
@@ -39,7 +40,9 @@ int assemble(const CordicProgramsOptions& options) {
     const gcode::CordicProgram program = cordic_program(options.source, options.arithmetic);
     const auto bytes = cordic::to_bytes(program.image);
     write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    fmt::print("{} bytes of code, {}\n", program.image.code.size(), cordic::to_text(program.image.format));
+    fmt::print("{} of code, {}\n",
+               counted(program.image.code.size(), "byte"),
+               cordic::to_text(program.image.format));
     return 0;
 }
 

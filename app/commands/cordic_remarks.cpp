@@ -1,5 +1,6 @@
 #include "app/commands/cordic_remarks.h"
 
+#include "core/base/counted.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
 
@@ -76,8 +77,8 @@ std::string cause_of_speed_error(const cordic::Processor& processor,
     const int last = sequence.shifts[static_cast<std::size_t>(sequence.step_count - 1)];
     const double left = 2.0 * std::atan(std::ldexp(1.0, -last));
     if (left >= 0.5 * report.speed_error) {
-        return fmt::format("{} iterations turn its direction by up to {:.2g} degrees beside",
-                           sequence.step_count,
+        return fmt::format("{} turn its direction by up to {:.2g} degrees beside",
+                           counted(sequence.step_count, "iteration"),
                            to_degrees(left));
     }
     return fmt::format("{} has too few bits for it", cordic::to_text(processor.format()));

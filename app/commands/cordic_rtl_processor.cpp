@@ -78,12 +78,11 @@ void add_cordic_rtl_processor(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<ProcessorRtlOptions>();
     CLI::App& command =
         *group.add_subcommand("rtl-processor", "Write the whole processor as Verilog, with a test bench");
-    command
-        .add_option("FILE",
-                    options->source.file,
-                    "Program that the bench executes: G-code, assembler text (.asm) or image (.bin); "
-                    "without it, random instructions and every way to stop")
-        ->check(CLI::ExistingFile);
+    CLI::Option& file =
+        *command.add_option("FILE",
+                            options->source.file,
+                            "Program that the bench executes: G-code, assembler text (.asm) or image (.bin); "
+                            "without it, random instructions and every way to stop");
     command.add_option("--format", options->source.format, "Fixed point as in q12.20; of an image its own")
         ->check(number_format_text());
     add_cordic_arithmetic(command, options->choice.arithmetic);
@@ -93,8 +92,11 @@ void add_cordic_rtl_processor(CLI::App& group, Command& chosen) {
         ->type_name("DIR");
     command.add_option("--instructions", options->instructions, "Random instructions, about so many")
         ->check(CLI::Range(std::int64_t{1}, most_instructions))
-        ->capture_default_str();
-    command.add_option("--seed", options->seed, "Of the random instructions")->capture_default_str();
+        ->capture_default_str()
+        ->excludes(&file);
+    command.add_option("--seed", options->seed, "Of the random instructions")
+        ->capture_default_str()
+        ->excludes(&file);
     command.callback([&chosen, options] { chosen = [options] { return rtl_processor(*options); }; });
 }
 

@@ -5,6 +5,7 @@
 #include "app/commands/cordic_remarks.h"
 #include "app/commands/cordic_source.h"
 #include "app/json_members.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
@@ -165,9 +166,9 @@ void print_run_json(JsonMembers& answer,
 }
 
 void print_run_report(const cordic::RunReport& report, const cordic::Processor& processor, bool has_exact) {
-    fmt::print("{} set-points, {} commands, {}\n",
-               report.published,
-               processor.commanded().size(),
+    fmt::print("{}, {}, {}\n",
+               counted(report.published, "set-point"),
+               counted(processor.commanded().size(), "command"),
                cordic::to_text(report.stop));
     fmt::print(
         "{} clocks, {:.6g} ms: {} CORDIC, {} fetch, {} immediates, {} publishing, {} data, {} control\n",
@@ -185,8 +186,8 @@ void print_run_report(const cordic::RunReport& report, const cordic::Processor& 
                    report.speed_error);
     }
     if (report.fastest) {
-        fmt::print("{} set-points late; none would be up to {:.6g} mm/min\n",
-                   report.late.size(),
+        fmt::print("{} late; none would be up to {:.6g} mm/min\n",
+                   counted(report.late.size(), "set-point"),
                    to_mm_per_min(*report.fastest));
     }
 }

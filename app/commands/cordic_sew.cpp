@@ -1,6 +1,7 @@
 #include "app/commands/cordic_sew.h"
 
 #include "app/commands/cordic_source.h"
+#include "core/base/counted.h"
 #include "core/cordic/sewing.h"
 
 #include <CLI/Config.hpp>
@@ -58,8 +59,8 @@ int sew(const CordicSewOptions& options) {
         fmt::print("{}\n", answer.dump(2));
         return 0;
     }
-    fmt::print("{} stitches of {:.6g} ms, in {:.6g} ms of which the needle is up and the feed may move\n",
-               sewn.stitches,
+    fmt::print("{} of {:.6g} ms, in {:.6g} ms of which the needle is up and the feed may move\n",
+               counted(sewn.stitches, "stitch", "stitches"),
                1e3 * one.period,
                1e3 * one.window);
     fmt::print("longest stitch {:.6g} mm, slowest computation {:.6g} ms\n",

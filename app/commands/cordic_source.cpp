@@ -3,6 +3,7 @@
 #include "app/diagnostics.h"
 #include "app/origin_choice.h"
 #include "app/text_validator.h"
+#include "core/base/counted.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -100,7 +101,7 @@ void expect_format(const CordicSource& source, const cordic::NumberFormat& found
 }
 
 std::string name_of_iterations(int iterations) {
-    return iterations == 0 ? "the thesis's 29 steps" : fmt::format("{} iterations", iterations);
+    return iterations == 0 ? "the thesis's 29 steps" : counted(iterations, "iteration");
 }
 
 /// A program that is executed with other arithmetic than it was made for leads elsewhere.
@@ -242,7 +243,7 @@ void refuse(const std::vector<Diagnostic>& errors) {
     }
     print_first(errors);
     if (!errors.empty()) {
-        throw Error(fmt::format("{} errors", errors.size()), errors.front().place.file);
+        throw Error(counted(errors.size(), "error"), errors.front().place.file);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "app/outputs.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -79,13 +80,14 @@ void print_bites(const project::CutStudy& study) {
                    fixed(bite.bite.position.z(), 3));
     }
     if (study.bites.size() > named) {
-        fmt::print(stderr, "warning: {} more such lines, all in cut.json\n", study.bites.size() - named);
+        fmt::print(
+            stderr, "warning: {}, all in cut.json\n", counted(study.bites.size() - named, "more such line"));
     }
     if (!study.local_gouges.empty()) {
         const project::LocalGouge& first = study.local_gouges.front();
         fmt::print(stderr,
-                   "warning: the cutter does not fit into the surface at {} nodes, the first of them {},{}\n",
-                   study.local_gouges.size(),
+                   "warning: the cutter does not fit into the surface at {}, the first of them {},{}\n",
+                   counted(study.local_gouges.size(), "node"),
                    first.origin.i,
                    first.origin.j);
     }

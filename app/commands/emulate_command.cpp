@@ -3,6 +3,7 @@
 #include "app/commands/emulate_table.h"
 #include "app/emulation.h"
 #include "app/usage_error.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/grbl/grbl_emulator.h"
@@ -95,7 +96,7 @@ int emulate_linuxcnc(const EmulateOptions& options) {
 
 void tell_samples(const machine::StreamEmulator& stream) {
     const machine::StreamTruth& truth = stream.truth();
-    fmt::print("{} samples\n", truth.samples);
+    fmt::print("{}\n", counted(truth.samples, "sample"));
     for (std::size_t n = 0; n < stream.position().size(); ++n) {
         fmt::print("{} {:.4f}, at most {:.2f} a second\n",
                    stream.axes()[n],
@@ -103,7 +104,9 @@ void tell_samples(const machine::StreamEmulator& stream) {
                    truth.greatest_speed[n]);
     }
     if (truth.bad_lines > 0) {
-        fmt::print("{} lines were no samples; the first: {}\n", truth.bad_lines, truth.first_fault);
+        fmt::print("{}; the first: {}\n",
+                   counted(truth.bad_lines, "line was no sample", "lines were no samples"),
+                   truth.first_fault);
     }
 }
 

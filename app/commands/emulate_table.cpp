@@ -3,6 +3,7 @@
 #include "app/emulation.h"
 #include "app/record_choice.h"
 #include "app/usage_error.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_file.h"
 #include "core/machine/emulators/table/table_emulator.h"
@@ -32,7 +33,9 @@ struct TableChoice {
 void tell_records(const machine::TableEmulator& table,
                   const kinematics::MachineModel& model,
                   const std::string& pattern) {
-    fmt::print("{} records obeyed, {} lines that were none, at", table.records(), table.bad_lines());
+    fmt::print("{} obeyed, {}, at",
+               counted(table.records(), "record"),
+               counted(table.bad_lines(), "line that was none", "lines that were none"));
     for (int n = 0; n < model.axis_count(); ++n) {
         fmt::print(" {} {:.4f}", model.axis(n).letter, table.position()[static_cast<std::size_t>(n)]);
     }

@@ -5,6 +5,7 @@
 #include "app/diagnostics.h"
 #include "app/origin_choice.h"
 #include "app/posting.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -128,11 +129,11 @@ int check_klartext(const GcodeOptions& options, std::string_view text) {
         for (const Diagnostic& error : errors) {
             fmt::print(stderr, "millwright: {}\n", to_text(error));
         }
-        fmt::print("{} lines of {}, {} moves, {} errors\n",
-                   lines,
+        fmt::print("{} of {}, {}, {}\n",
+                   counted(lines, "line"),
                    name_of(gcode::Language::klartext),
-                   moves,
-                   errors.size());
+                   counted(moves, "move"),
+                   counted(errors.size(), "error"));
     }
     return errors.empty() ? 0 : 1;
 }
@@ -155,14 +156,14 @@ int check(const GcodeOptions& options) {
         }
         if (program.further_errors() > 0) {
             fmt::print(stderr,
-                       "millwright: {}: {} more errors are not listed\n",
+                       "millwright: {}: {} not listed\n",
                        options.file,
-                       program.further_errors());
+                       counted(program.further_errors(), "more error is", "more errors are"));
         }
-        fmt::print("{} lines, {} moves, {} errors\n",
-                   program.line_count(),
-                   moves.count(),
-                   std::ssize(program.errors()) + program.further_errors());
+        fmt::print("{}, {}, {}\n",
+                   counted(program.line_count(), "line"),
+                   counted(moves.count(), "move"),
+                   counted(std::ssize(program.errors()) + program.further_errors(), "error"));
     }
     return program.errors().empty() ? 0 : 1;
 }
@@ -373,11 +374,11 @@ int time(const GcodeOptions& options) {
         answer["warnings"] = diagnostics_json(found.warnings);
         fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
-        fmt::print("{} ({:.3f} s), {:.1f} mm, {} blocks\n",
+        fmt::print("{} ({:.3f} s), {:.1f} mm, {}\n",
                    clock_time(found.seconds),
                    found.seconds,
                    found.length,
-                   found.blocks);
+                   counted(found.blocks, "block"));
     }
     return 0;
 }

@@ -7,12 +7,25 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <filesystem>
+#include <string>
+#include <system_error>
+
 namespace millwright::app {
 
 namespace {
 
 constexpr double grbl_junction_deviation = 0.01; ///< mm: $11 as Grbl ships
 constexpr int grbl_look_ahead = 15;              ///< moves
+
+std::string fault_of_folder(const std::string& text) {
+    std::error_code missing;
+    if (std::filesystem::is_directory(text, missing)) {
+        return {};
+    }
+    return std::filesystem::exists(text, missing) ? "\"" + text + "\" is a file, and a folder is needed"
+                                                  : "there is no folder \"" + text + "\"";
+}
 
 } // namespace
 
@@ -87,7 +100,7 @@ CLI::App& add_reader_options(CLI::App& group,
                     options->subroutines,
                     "Folder of subroutine files, searched after the program's own")
         ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory)
+        ->check(CLI::Validator(fault_of_folder, ""))
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");

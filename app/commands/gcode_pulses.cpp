@@ -1,5 +1,6 @@
 #include "app/commands/gcode_pulses.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -128,10 +129,10 @@ void print_sentences(const std::vector<AxisSteps>& axes,
     for (std::size_t n = 0; n < axes.size(); ++n) {
         const char letter = axes[n].letter;
         if (options.jitter_limit_us > 0.0) {
-            fmt::print("{}: {} of {} pulses are off by more than {:g} us\n",
+            fmt::print("{}: {} of {} off by more than {:g} us\n",
                        letter,
                        found[n].over_limit,
-                       found[n].pulses,
+                       counted(found[n].pulses, "pulse"),
                        options.jitter_limit_us);
         }
         if (found[n].overrun_block >= 0) {

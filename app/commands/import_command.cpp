@@ -3,6 +3,7 @@
 #include "app/names.h"
 #include "app/usage_error.h"
 #include "app/watched_work.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -162,9 +163,9 @@ ordered_json mesh_json(const exchange::MeshFile& read, double mm_per_unit) {
 
 void print_mesh(const ordered_json& mesh) {
     const auto size = [&](int axis) { return fixed(mesh["size_mm"][axis].get<double>(), 3); };
-    fmt::print("{} points, {} triangles, {} without area\n{} x {} x {} mm\n",
-               mesh["points"].get<std::size_t>(),
-               mesh["triangles"].get<std::size_t>(),
+    fmt::print("{}, {}, {} without area\n{} x {} x {} mm\n",
+               counted(mesh["points"].get<std::size_t>(), "point"),
+               counted(mesh["triangles"].get<std::size_t>(), "triangle"),
                mesh["without_area"].get<int>(),
                size(0),
                size(1),

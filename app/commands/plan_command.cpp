@@ -4,6 +4,7 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/posting.h"
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/cut_remarks.h"
@@ -154,8 +155,8 @@ void print_plan_summary(const project::Plan& plan, const project::Project& proje
     }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
-    fmt::print("{} points, path {} mm, estimated time {}\n",
-               chosen.toolpath.points.size(),
+    fmt::print("{}, path {} mm, estimated time {}\n",
+               counted(chosen.toolpath.points.size(), "point"),
                fixed(chosen.path_length, 1),
                clock_time(plan.trajectory->duration()));
 }
@@ -225,9 +226,8 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
     }
     if (!cut.local_gouges.empty()) {
         fmt::print(stderr,
-                   "warning: the surface is bent more than the tool at {} nodes; `millwright cutter` names "
-                   "them\n",
-                   cut.local_gouges.size());
+                   "warning: the surface is bent more than the tool at {}; `millwright cutter` names them\n",
+                   counted(cut.local_gouges.size(), "node"));
     }
 }
 

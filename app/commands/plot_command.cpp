@@ -7,6 +7,7 @@
 #include "app/names.h"
 #include "app/origin_choice.h"
 #include "app/stroke_cutting.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -190,13 +191,9 @@ Plot read_plot_to_use(const PlotOptions& options) {
     return plot;
 }
 
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 std::string strokes_of_pens(const Plot& plot) {
-    return counted(plot.strokes.size(), "stroke", "strokes") + " of " +
-           counted(plot::levels_for(plot.strokes).size(), "pen", "pens");
+    return counted(plot.strokes.size(), "stroke") + " of " +
+           counted(plot::levels_for(plot.strokes).size(), "pen");
 }
 
 bool is_program(const PlotOptions& options) {
@@ -229,9 +226,8 @@ int info(const PlotOptions& options) {
     }
     const Plot plot = read_plot_to_use(options);
     const plot::WorkTime time = plot::work_time(plot.strokes, {}, Vec2::Zero(), plot.end);
-    fmt::print("{}, {}\n",
-               counted(static_cast<std::size_t>(plot.commands), "command", "commands"),
-               strokes_of_pens(plot));
+    fmt::print(
+        "{}, {}\n", counted(static_cast<std::size_t>(plot.commands), "command"), strokes_of_pens(plot));
     if (const auto box = plot::extents(plot.strokes)) {
         fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm\n",
                    box->lower.x(),
@@ -267,7 +263,7 @@ int decode(const PlotOptions& options) {
     }
     write_file(options.out, plot::point_file_text(points, options.decimals));
     fmt::print("{}, {:.3f} s\n",
-               counted(points.size(), "point", "points"),
+               counted(points.size(), "point"),
                static_cast<double>(points.size() - 1) * options.decode.period);
     return 0;
 }

@@ -8,6 +8,7 @@
 #include "app/progress_printer.h"
 #include "app/record_choice.h"
 #include "app/series.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
@@ -142,9 +143,9 @@ void say_where_it_starts(const Vec3& first) {
 }
 
 void print_played(const PlayStatus& end, std::size_t points, const machine::JobOutcome& outcome) {
-    fmt::print("{} of {} points in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
+    fmt::print("{} of {} in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
                end.points,
-               points,
+               counted(points, "point"),
                end.time,
                end.position.x(),
                end.position.y(),

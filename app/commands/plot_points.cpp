@@ -1,6 +1,7 @@
 #include "app/commands/plot_points.h"
 
 #include "app/other_than_plot.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
@@ -71,7 +72,7 @@ int points_info(const std::string& file, bool json) {
         fmt::print("{}\n", answer.dump(2));
         return 0;
     }
-    fmt::print("{} points of a table, {} strokes\n", points.size(), strokes.size());
+    fmt::print("{} of a table, {}\n", counted(points.size(), "point"), counted(strokes.size(), "stroke"));
     fmt::print("x {:.3f} to {:.3f} mm, y {:.3f} to {:.3f} mm, z {:.3f} to {:.3f} mm\n",
                x[0],
                x[1],
@@ -90,7 +91,7 @@ int points_view(const std::string& file, plot::AirInSvg air, const std::string& 
         throw Error("the points cut nothing that could be drawn", file);
     }
     write_file(out, plot::svg_text(strokes, air));
-    fmt::print("{} points, {} strokes\n", points.size(), strokes.size());
+    fmt::print("{}, {}\n", counted(points.size(), "point"), counted(strokes.size(), "stroke"));
     return 0;
 }
 

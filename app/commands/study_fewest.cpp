@@ -3,6 +3,7 @@
 #include "app/interrupt.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
@@ -56,7 +57,7 @@ int fewest_points(const StudyFewestOptions& options) {
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     const auto rows = project::fewest_points(options.of, options.tolerances, folders, progress);
     printer.finish();
-    fmt::print("{} on {}, {} tracks\n", options.of.surface, options.of.machine, options.of.tracks);
+    fmt::print("{} on {}, {}\n", options.of.surface, options.of.machine, counted(options.of.tracks, "track"));
     fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12} {:>9}\n",
                "tolerance mm",
                "uniform",

@@ -4,6 +4,7 @@
 #include "app/outputs.h"
 #include "app/progress_printer.h"
 #include "app/usage_error.h"
+#include "core/base/counted.h"
 #include "core/base/parallel.h"
 #include "core/base/text.h"
 #include "core/grid/run_time_study.h"
@@ -11,10 +12,12 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,14 +31,33 @@ using grid::RunTime;
 using grid::RunTimeProfile;
 using grid::RunTimeStudy;
 
-constexpr double pays_from = 1.1;     // a speed-up below is lost in the noise
-constexpr double undisturbed = 0.95;  // of the wall time, which one thread computes on a quiet machine
+constexpr double pays_from = 1.1;    // a speed-up below is lost in the noise
+constexpr double undisturbed = 0.95; // of the wall time, which one thread computes on a quiet machine
+constexpr double quiet_cores = 0.1;  // that other programs may use on a quiet machine
+constexpr double warm_up_seconds = 0.3;
 constexpr int thesis_iterations = 10; // of its table 7-2
 
 struct RunTimeOptions {
     grid::RunTimeSettings settings;
     std::string out; ///< empty: no file
 };
+
+/// Of Linux: everything but idle in the first line of /proc/stat, which has hundredths of a second of all
+/// cores (user, nice, system, idle, iowait, irq, softirq, steal).
+std::optional<double> machine_seconds() {
+    constexpr int columns = 8, idle = 3, waiting = 4;
+    std::ifstream file("/proc/stat");
+    std::string name;
+    file >> name;
+    double ticks = 0.0;
+    for (int n = 0; n < columns; ++n) {
+        double column = 0.0;
+        file >> column;
+        ticks += n == idle || n == waiting ? 0.0 : column;
+    }
+    const auto per_second = static_cast<double>(::sysconf(_SC_CLK_TCK));
+    return file && name == "cpu" && per_second > 0.0 ? std::optional(ticks / per_second) : std::nullopt;
+}
 
 grid::StudyClocks system_clocks() {
     const auto wall = [] {
@@ -46,7 +68,7 @@ grid::StudyClocks system_clocks() {
         clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
         return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     };
-    return {wall, processor};
+    return {wall, processor, machine_seconds};
 }
 
 std::string in_milliseconds(double seconds) {
@@ -55,12 +77,10 @@ std::string in_milliseconds(double seconds) {
 
 /// Table 7-1: one row of ours per size, with the thesis's time for as many iterations.
 void print_sizes(const RunTimeStudy& study, int iterations) {
-    fmt::print("\nTable 7-1: {} iterations on {} thread{}. Thesis: Convex SPP-1600, one thread, weight W4, "
-               "scaled to "
-               "as many iterations\n",
-               iterations,
-               study.runs.front().threads,
-               study.runs.front().threads == 1 ? "" : "s");
+    fmt::print("\nTable 7-1: {} on {}. Thesis: Convex SPP-1600, one thread, weight W4, scaled to as many "
+               "iterations\n",
+               counted(iterations, "iteration"),
+               counted(study.runs.front().threads, "thread"));
     fmt::print("{:>7} {:>13} {:>11} {:>14} {:>18} {:>14} {:>8}\n",
                "nodes",
                "processor ms",
@@ -151,16 +171,16 @@ void print_profiles(const RunTimeStudy& study) {
                "none");
 }
 
-/// What one thread got of a core in its fastest runs; less than all: other programs ran.
-std::optional<double> lost_share(const RunTimeStudy& study) {
-    double processor = 0.0, wall = 0.0;
-    for (const RunTime& run : study.runs) {
-        if (run.threads == 1) {
-            processor += run.processor;
-            wall += run.wall;
-        }
+/// What other programs took meanwhile; empty on a quiet machine.
+std::string disturbance(const RunTimeStudy& study) {
+    if (study.other_cores && *study.other_cores > quiet_cores) {
+        return fmt::format("other programs used {} of {}",
+                           fixed(*study.other_cores, 1),
+                           counted(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)), "core"));
     }
-    return wall > 0.0 && processor < undisturbed * wall ? std::optional(processor / wall) : std::nullopt;
+    return study.one_thread_share < undisturbed
+               ? fmt::format("one thread got {} of a core", in_percent(study.one_thread_share))
+               : std::string();
 }
 
 std::string run_time_csv(const RunTimeStudy& study, int iterations) {
@@ -195,6 +215,7 @@ std::string run_time_profile_csv(const RunTimeStudy& study) {
 int run_time(const RunTimeOptions& options) {
     const Interrupt interrupt;
     grid::RunTimeSettings settings = options.settings;
+    settings.warm_up = warm_up_seconds;
     if (settings.threads.empty()) {
         for (int n = 1; n <= thread_count(); ++n) {
             settings.threads.push_back(n);
@@ -209,18 +230,17 @@ int run_time(const RunTimeOptions& options) {
     const RunTimeStudy study = grid::run_time_study(settings, system_clocks(), progress);
     printer.finish();
     fmt::print(
-        "The thesis's iteration: W1 as wide as on 25 x 25 nodes, LV 1, WW 0.81; {} iterations, fastest of {} "
-        "runs\n",
-        settings.iterations,
-        settings.repeats);
+        "The thesis's iteration: W1 as wide as on 25 x 25 nodes, LV 1, WW 0.81; {}, fastest of {} after a "
+        "warm-up\n",
+        counted(settings.iterations, "iteration"),
+        counted(settings.repeats, "run"));
     print_sizes(study, settings.iterations);
     print_threads(study);
     print_profiles(study);
-    if (const auto share = lost_share(study)) {
+    if (const std::string busy = disturbance(study); !busy.empty()) {
         fmt::print(
-            "\nThe machine was busy: one thread got {} of a core. Speed-ups say little; run this again when "
-            "nothing else runs.\n",
-            in_percent(*share));
+            "\nThe machine was busy: {}. Speed-ups say little; run this again when nothing else runs.\n",
+            busy);
     }
     if (!options.out.empty()) {
         write_outputs(options.out,

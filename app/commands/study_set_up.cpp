@@ -6,6 +6,7 @@
 #include "app/progress_printer.h"
 #include "app/ranks.h"
 #include "app/spread_set_up.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -78,7 +79,7 @@ void print_out_of_reach(const SetUpStudy& study,
     const auto holes =
         std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
     if (holes > 0) {
-        fmt::print("out of reach: {} of {} places of the map\n", holes, study.map.costs.size());
+        fmt::print("out of reach: {} of {} of the map\n", holes, counted(study.map.costs.size(), "place"));
     }
 }
 

@@ -8,7 +8,7 @@
 
 namespace millwright::app {
 
-enum class GridForm { pairs, blocks };
+using GridForm = grid::FileForm;
 inline const std::map<std::string, GridForm> grid_forms{{"pairs", GridForm::pairs},
                                                         {"blocks", GridForm::blocks}};
 

@@ -5,8 +5,10 @@
 #include "app/names.h"
 #include "app/progress_printer.h"
 #include "app/usage_error.h"
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/error_weight.h"
 #include "core/project/grids.h"
@@ -40,7 +42,8 @@ const std::map<std::string, GridUnits> grid_units{{"parameters", GridUnits::zero
 struct GridOptions {
     std::string project, out, start, residuals, norms;
     std::optional<GridMethod> method; ///< nothing: what the program uses
-    GridForm form = GridForm::blocks, start_form = GridForm::pairs;
+    GridForm form = GridForm::blocks;
+    std::optional<GridForm> start_form; ///< nothing: that of the file
     GridUnits units = GridUnits::zero_to_one;
 };
 
@@ -69,35 +72,17 @@ int write_program_grid(const GridOptions& options) {
     return 0;
 }
 
-/// Throws Error where a node is outside of the surface.
+/// Throws Error for what is no such grid.
 grid::Grid start_grid(const GridOptions& options, const project::GridInput& input) {
-    const std::string text = read_file(options.start);
-    grid::NodeArray nodes = options.start_form == GridForm::pairs
-                                ? grid::parse_pairs(text, options.start, input.nu, input.nv)
-                                : grid::parse_blocks(text, options.start);
-    if (nodes.rows != input.nu || nodes.columns != input.nv) {
-        throw Error(fmt::format("{} x {} nodes, and the grid of the project has {} x {}",
-                                nodes.rows,
-                                nodes.columns,
-                                input.nu,
-                                input.nv),
-                    options.start);
+    const bool counted = options.units == GridUnits::node_numbers;
+    grid::WantedNodes wanted{.rows = input.nu, .columns = input.nv, .form = options.start_form};
+    if (counted) {
+        wanted.most = Vec2(input.nu - 1, input.nv - 1);
+    } else {
+        wanted.hint = "--units nodes reads node numbers, from 0 to n - 1";
     }
-    if (options.units == GridUnits::node_numbers) {
-        nodes = grid::to_parameters(nodes);
-    }
-    for (int i = 0; i < nodes.rows; ++i) {
-        for (int j = 0; j < nodes.columns; ++j) {
-            const Vec2& node = nodes.at(i, j);
-            if (node.minCoeff() < 0.0 || node.maxCoeff() > 1.0) {
-                throw Error(fmt::format("node ({}, {}) is outside of the surface", i, j),
-                            options.start,
-                            options.units == GridUnits::node_numbers
-                                ? "with --units nodes x goes from 0 to n_u - 1, y from 0 to n_v - 1"
-                                : "u and v go from 0 to 1; --units nodes reads 0 to n - 1");
-            }
-        }
-    }
+    grid::NodeArray nodes = grid::parse_nodes(read_file(options.start), options.start, wanted);
+    nodes = counted ? grid::to_parameters(nodes) : std::move(nodes);
     if (!(grid::min_corner_jacobian(nodes) > 0.0)) {
         throw Error("a cell is folded at one of its corners", options.start);
     }
@@ -108,7 +93,10 @@ std::string norms_csv(const std::vector<grid::IterationNorm>& norms) {
     std::string text = "iteration,round,lv,norm\n";
     int iteration = 0;
     for (const grid::IterationNorm& at : norms) {
-        text += fmt::format("{},{},{},", ++iteration, at.round, shortest(at.adaptation));
+        text += fmt::format("{},{},{},",
+                            ++iteration,
+                            at.round,
+                            std::isfinite(at.adaptation) ? shortest(at.adaptation) : std::string());
         text += std::isfinite(at.norm) ? fmt::format("{:.9e}\n", at.norm) : "\n";
     }
     return text;
@@ -118,24 +106,38 @@ std::string mean_text(const grid::ErrorSummary& error) {
     return std::isfinite(error.mean) ? fixed(error.mean, 5) + " mm" : std::string("out of reach");
 }
 
-void print_ending(const grid::ImproverState& state, const project::GridInput& input, GridMethod method) {
+/// Which grid the method takes for its best, beside the one that is written.
+std::string kept_text(const grid::ImproverState& state, const grid::Grid& start) {
+    return state.best.array() == state.reached ? "this grid"
+           : state.best == start               ? "the start grid"
+                                               : "another grid";
+}
+
+/// `start` and `written` are measured alike, whatever the method has measured on its way.
+void print_ending(const grid::ImproverState& state,
+                  const project::GridInput& input,
+                  GridMethod method,
+                  const grid::Grid& start,
+                  const toolpath::KinematicError& error) {
     const bool solves = !state.norms.empty();
     if (state.iteration > 0) { // else it is done in one go
-        fmt::print("{}: {} iteration{} in {} round{}, norm {:.9e}{}\n",
+        fmt::print("{}: {} in {}, norm {:.9e}{}\n",
                    project::row_of(project::grid_methods(), method).label,
-                   state.iteration,
-                   state.iteration == 1 ? "" : "s",
-                   state.round,
-                   state.round == 1 ? "" : "s",
+                   counted(state.iteration, "iteration"),
+                   counted(state.round, "round"),
                    state.norm,
                    solves ? fmt::format(", tolerance {}", shortest(input.elliptic.tolerance))
                           : std::string());
     }
     fmt::print("Smallest cell area {:.6f}, where a cell of the uniform grid has 1\n",
                grid::min_cell_area(grid::to_solver_coordinates(state.reached)));
-    fmt::print(
-        "Mean distance to the curve: start {}, kept {}\n", mean_text(state.start), mean_text(state.of_best));
-    fmt::print("{}.\n", state.note);
+    const auto mean_of = [&](const grid::Grid& grid) {
+        return mean_text(grid::summary(grid::measure(error, grid, input.direction, grid::fine)));
+    };
+    fmt::print("Mean distance to the curve: start {}, this grid {}\n",
+               mean_of(start),
+               mean_of(grid::Grid(state.reached)));
+    fmt::print("The method keeps {}: {}\n", kept_text(state, start), with_full_stop(state.note));
     if (!state.warning.empty()) {
         fmt::print(stderr, "warning: {}\n", state.warning);
     }
@@ -188,7 +190,7 @@ int write_adapted_grid(const GridOptions& options, GridMethod method) {
         write_file(options.norms, norms_csv(state.norms));
     }
     write_nodes(options, state.reached);
-    print_ending(state, input, method);
+    print_ending(state, input, method, start.value_or(grid::Grid::uniform(input.nu, input.nv)), error);
     return 0;
 }
 
@@ -229,8 +231,12 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
         *command.add_option("--start", options->start, "Grid to start from, as the thesis's file source")
              ->type_name("FILE")
              ->needs(&method);
-    command.add_option("--start-form", options->start_form, "Form of that file (default: pairs)")
-        ->transform(one_of(grid_forms))
+    command
+        .add_option_function<std::string>(
+            "--start-form",
+            [options](const std::string& name) { options->start_form = grid_forms.at(name); },
+            "Form of that file (default: the one in which it has the nodes of the project)")
+        ->check(CLI::IsMember(grid_forms).description(""))
         ->type_name(listed(grid_forms))
         ->needs(&start);
     command.add_option("--residuals", options->residuals, "Write R_X and R_Y of the last grid, as orx.dat")

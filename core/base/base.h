@@ -2,6 +2,7 @@
 // same result on any number of threads, numbers as text, whole files. It knows nothing of machining.
 #pragma once
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/json.h"

@@ -1,5 +1,6 @@
 #include "core/cordic/calculator.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/cordic/angles.h"
@@ -108,11 +109,12 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
             throw Error(fmt::format("({}, {}) has no direction in {}", x, y, to_text(format)));
         }
         if (reach == Reach::outside) {
-            throw Error(
-                fmt::format(
-                    "({}, {}) lies beyond what {} steps turn to the x axis", x, y, sequence.step_count),
-                {},
-                "take more iterations");
+            throw Error(fmt::format("({}, {}) lies beyond what {} turn to the x axis",
+                                    x,
+                                    y,
+                                    counted(sequence.step_count, "step")),
+                        {},
+                        "take more iterations");
         }
         const int shift = normalising_shift(arithmetic, folded.x, folded.y);
         const auto found = kernel.vectored(

@@ -1,5 +1,6 @@
 #include "core/cordic/single_pass.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/cordic/fold.h"
@@ -47,10 +48,10 @@ void refuse_vectoring(const Sequence& sequence, const PassInput& input) {
     if (sequence.m == CoordinateSystem::circular) {
         throw Error(
             fmt::format("the direction of {} is outside the convergence range: {:.5f} degrees to both "
-                        "sides of the x axis with {} steps",
+                        "sides of the x axis with {}",
                         vector,
                         rounded_inwards(to_degrees(range)),
-                        sequence.step_count),
+                        counted(sequence.step_count, "step")),
             {},
             input.folds ? "take more iterations" : "folding turns every direction into it");
     }

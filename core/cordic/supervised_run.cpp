@@ -315,7 +315,7 @@ SupervisedRun run_supervised(Processor& processor, Plc& plc, const SupervisedSet
     const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
     if (!positive(settings.clock_hz) || !positive(settings.scan_seconds) ||
         !positive(settings.most_seconds) || settings.records_ahead < 1) {
-        throw Error("clock, scan period, time and queue of a supervised run are positive");
+        throw Error("clock, scan period, time and queue of a supervised run have to be above 0");
     }
     return Machine(processor, plc, settings).run();
 }

@@ -1,5 +1,6 @@
 #include "core/gcode/plot_program.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 
@@ -283,7 +284,7 @@ std::optional<Diagnostic> speeds_not_reached(const plot::CutPath& path,
         }
     }
     if (count > 1) {
-        first->message += fmt::format("; so it is with {} moves more", count - 1);
+        first->message += fmt::format("; so it is with {} more", counted(count - 1, "move"));
     }
     return first;
 }

@@ -1,7 +1,10 @@
 #include "core/grid/internal/adaptation_text.h"
 
+#include "core/base/counted.h"
 #include "core/base/numbers.h"
 #include "core/base/text.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +42,16 @@ std::string mean_sentence(const ErrorSummary& error) {
 std::string iteration_sentence(const ImproverState& state, int iteration) {
     return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(iteration) + ": " +
            mean_sentence(state.now);
+}
+
+std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance) {
+    return fmt::format(
+        "The solver did not converge: round {} ended after {} with the norm {:.3g}, and the tolerance "
+        "is {}.",
+        state.round,
+        counted(iterations, "iteration"),
+        state.norm,
+        shortest(tolerance));
 }
 
 std::string refusals(const std::vector<double>& too_wide,

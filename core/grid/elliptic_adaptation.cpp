@@ -294,7 +294,10 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
     for (int n = 0; more && n < settings_.iterations_per_step; ++n) {
         progress.check();
         more = solver->iterate();
-        at.state.norms.push_back({at.state.round + 1, at.functional.adaptation, norm_after(*solver)});
+        at.state.norms.push_back(
+            {at.state.round + 1,
+             has_adaptation() ? at.functional.adaptation : std::numeric_limits<double>::quiet_NaN(),
+             norm_after(*solver)});
         if (has_failed(solver->status())) {
             at.state.iteration = at.iterations_before + solver->iterations();
             fall(at, solver->status());
@@ -370,11 +373,13 @@ void EllipticAdaptation::keep(Position& at, const Grid& grid) const {
 
 /// The round starts again with less adaptation, or everything ends if that was tried often enough.
 void EllipticAdaptation::fall(Position& at, SolverStatus failure) const {
-    const std::string what = failure_sentence(failure) + " at LV = " + shortest(at.functional.adaptation);
+    const std::string what =
+        failure_sentence(failure) +
+        (has_adaptation() ? " at LV = " + shortest(at.functional.adaptation) : std::string());
     at.state.current = at.round_start.array();
     at.iterations_before = at.state.iteration;
     at.solver = nullptr;
-    if (at.falls == most_falls || at.functional.adaptation <= 0.0) {
+    if (at.falls == most_falls || !has_adaptation() || at.functional.adaptation <= 0.0) {
         at.ending = as_improver_status(failure);
         at.state.note = "Given up: " + what;
         return;
@@ -392,6 +397,10 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
     const double before = at.round_start_error;
     const double now = at.state.now.mean;
     ++at.state.round;
+    at.unsolved =
+        solved == SolverStatus::converged
+            ? std::string()
+            : unsolved_sentence(at.state, at.state.iteration - at.iterations_before, settings_.tolerance);
     at.iterations_before = at.state.iteration;
     at.solver = nullptr;
     at.round_weight = nullptr;
@@ -467,6 +476,8 @@ void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
     at.state.status = better || failed ? at.ending : ImproverStatus::no_gain;
     if (failed) {
         at.state.note = ended;
+    } else if (!at.unsolved.empty()) {
+        at.state.warning = with_sentence(at.state.warning, at.unsolved);
     }
 }
 

@@ -112,10 +112,13 @@ private:
         FunctionalWeights functional{};
         int falls = 0;
         std::string weight_warning{};                    ///< as ImproverState::warning, of the weight alone
+        std::string unsolved{};                          ///< of the last round, a sentence; empty: converged
         int iterations_before = 0;                       ///< done before the solver started
         ImproverStatus ending = ImproverStatus::running; ///< how it will end, once confirmed
     };
 
+    /// Whether the functional has an LV.
+    [[nodiscard]] bool has_adaptation() const { return settings_.method != EllipticMethod::harmonic; }
     [[nodiscard]] WeightPtr error_weight(Position& at) const;
     [[nodiscard]] WeightPtr weight_of_round(Position& at) const;
     [[nodiscard]] std::unique_ptr<EllipticSolver> new_solver(Position& at) const;

@@ -1,5 +1,6 @@
 #include "core/grid/grid_file.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 
@@ -8,6 +9,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +21,7 @@ namespace {
 constexpr int decimals = 8;
 constexpr std::size_t width = 18;
 constexpr double farthest = 1e9; // what 18 places hold
+constexpr std::string_view folded_cell = "is folded";
 
 /// A number of the file and where it stands.
 struct Number {
@@ -101,11 +105,18 @@ std::vector<std::vector<Number>> numbers_of(std::string_view text, const std::fi
     return lines;
 }
 
-/// Where each node's first number stands, row-major, beside the nodes.
+using Lines = std::vector<std::vector<Number>>;
+
+/// The nodes, and where x and y of each stand, row-major.
 struct Placed {
     NodeArray nodes;
-    std::vector<Number> places;
+    std::vector<std::array<Number, 2>> places;
 };
+
+[[noreturn]] void
+fail_at(const std::filesystem::path& file, const Number& at, std::string message, std::string hint = {}) {
+    fail_in_file(file, at.line, at.column, std::move(message), std::move(hint));
+}
 
 std::string node_name(int i, int j) {
     return "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
@@ -155,36 +166,164 @@ std::string fault_of_cell(const NodeArray& nodes, int i, int j) {
     if (std::max(std::abs(least), std::abs(largest)) <= rounding) {
         return "has no area: its nodes lie on one line";
     }
-    return least > rounding ? "" : "is folded";
+    return least > rounding ? std::string() : std::string(folded_cell);
 }
 
 void require_near(const Placed& found, const std::filesystem::path& file) {
-    const NodeArray& nodes = found.nodes;
-    for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
-        if (nodes.nodes[k].cwiseAbs().maxCoeff() > farthest) {
-            fail_in_file(file,
-                         found.places[k].line,
-                         found.places[k].column,
-                         "A coordinate of this node is beyond 1e9");
+    for (const std::array<Number, 2>& place : found.places) {
+        for (const Number& coordinate : place) {
+            if (std::abs(coordinate.value) > farthest) {
+                fail_at(file, coordinate, "A coordinate of this node is beyond 1e9");
+            }
         }
     }
+}
+
+void require_inside(const Placed& found, const std::filesystem::path& file, const WantedNodes& wanted) {
+    for (std::size_t n = 0; n < found.places.size(); ++n) {
+        const int i = static_cast<int>(n) / found.nodes.columns,
+                  j = static_cast<int>(n) % found.nodes.columns;
+        for (const std::size_t k : {0U, 1U}) {
+            const Number& coordinate = found.places[n][k];
+            const double high = wanted.most[static_cast<Eigen::Index>(k)];
+            if (coordinate.value < 0.0 || coordinate.value > high) {
+                fail_at(file,
+                        coordinate,
+                        std::string(1, "xy"[k]) + " of node " + node_name(i, j) + " is " +
+                            shortest(coordinate.value) + ", outside of the surface: it goes from 0 to " +
+                            shortest(high),
+                        wanted.hint);
+            }
+        }
+    }
+}
+
+bool has_cell(const NodeArray& nodes, int i, int j) {
+    return i >= 0 && j >= 0 && i + 1 < nodes.rows && j + 1 < nodes.columns;
+}
+
+int faulty_cells_at(const NodeArray& nodes, const Corner& node) {
+    int count = 0;
+    for (const int i : {node[0] - 1, node[0]}) {
+        for (const int j : {node[1] - 1, node[1]}) {
+            count += has_cell(nodes, i, j) && !fault_of_cell(nodes, i, j).empty() ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+/// Of a cell's corners the one that spoils the most cells, the first of several.
+Corner suspect_of_cell(const NodeArray& nodes, int i, int j) {
+    const std::array<Corner, 4> corners = corners_of(i, j);
+    return *std::ranges::max_element(
+        corners, {}, [&](const Corner& node) { return faulty_cells_at(nodes, node); });
+}
+
+/// The coordinate that is farther from the mean of the neighbours' in both directions: 0 or 1.
+std::size_t suspect_coordinate(const NodeArray& nodes, const Corner& node) {
+    Vec2 off = Vec2::Zero();
+    const auto [i, j] = node;
+    if (i > 0 && i + 1 < nodes.rows) {
+        off += (nodes.at(i, j) - 0.5 * (nodes.at(i - 1, j) + nodes.at(i + 1, j))).cwiseAbs();
+    }
+    if (j > 0 && j + 1 < nodes.columns) {
+        off += (nodes.at(i, j) - 0.5 * (nodes.at(i, j - 1) + nodes.at(i, j + 1))).cwiseAbs();
+    }
+    return off.y() > off.x() ? 1 : 0;
+}
+
+/// Where the first fault is, and what; nothing where no cell is folded.
+std::optional<std::pair<Number, std::string>> first_fold(const Placed& found) {
+    const NodeArray& nodes = found.nodes;
+    for (int i = 0; i + 1 < nodes.rows; ++i) {
+        for (int j = 0; j + 1 < nodes.columns; ++j) {
+            const std::string fault = fault_of_cell(nodes, i, j);
+            if (fault.empty()) {
+                continue;
+            }
+            const bool folded = fault == folded_cell;
+            const Corner node = folded ? suspect_of_cell(nodes, i, j) : Corner{i, j};
+            return std::pair(
+                found.places[nodes.index(node[0], node[1])][folded ? suspect_coordinate(nodes, node) : 0],
+                "The cell from node " + node_name(i, j) + " " + fault);
+        }
+    }
+    return std::nullopt;
 }
 
 /// `hint` tells what else the file may be.
 void require_unfolded(const Placed& found, const std::filesystem::path& file, const std::string& hint = {}) {
-    const NodeArray& nodes = found.nodes;
-    for (int i = 0; i + 1 < nodes.rows; ++i) {
-        for (int j = 0; j + 1 < nodes.columns; ++j) {
-            if (const std::string fault = fault_of_cell(nodes, i, j); !fault.empty()) {
-                const Number& place = found.places[nodes.index(i, j)];
-                fail_in_file(file,
-                             place.line,
-                             place.column,
-                             "The cell from node " + node_name(i, j) + " " + fault,
-                             hint);
-            }
+    if (const auto fold = first_fold(found)) {
+        fail_at(file, fold->first, fold->second, hint);
+    }
+}
+
+/// Throws Error for a wrong count.
+Placed placed_pairs(const Lines& lines, const std::filesystem::path& file, int rows, int columns) {
+    std::vector<Number> all;
+    for (const std::vector<Number>& line : lines) {
+        all.insert(all.end(), line.begin(), line.end());
+    }
+    const std::size_t wanted = 2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+    const std::string sentence = std::to_string(rows) + " x " + std::to_string(columns) + " nodes need " +
+                                 std::to_string(wanted) + " numbers, here are " + std::to_string(all.size());
+    if (all.size() > wanted) {
+        fail_at(file, all[wanted], sentence);
+    }
+    if (all.size() < wanted) {
+        fail_in_file(file, all.empty() ? 1 : all.back().line, all.empty() ? 1 : all.back().column, sentence);
+    }
+    Placed found{NodeArray(rows, columns), {}};
+    for (std::size_t k = 0; k < found.nodes.nodes.size(); ++k) {
+        found.nodes.nodes[k] = Vec2(all[2 * k].value, all[2 * k + 1].value);
+        found.places.push_back({all[2 * k], all[2 * k + 1]});
+    }
+    return found;
+}
+
+/// Throws Error for lines that are no two blocks.
+Placed placed_blocks(const Lines& lines, const std::filesystem::path& file) {
+    if (lines.size() < 4 || lines.size() % 2 != 0) {
+        fail_in_file(file,
+                     lines.empty() ? 1 : lines.back().front().line,
+                     1,
+                     "Two blocks need an even number of lines, at least 4; here are " +
+                         std::to_string(lines.size()));
+    }
+    const std::size_t columns = lines.front().size();
+    for (const std::vector<Number>& line : lines) {
+        if (line.size() != columns || columns < 2) {
+            fail_at(file,
+                    line[std::min(columns, line.size() - 1)],
+                    counted(std::ssize(line), "number") + " in this line, " +
+                        std::to_string(std::max<std::size_t>(columns, 2)) + " are needed");
         }
     }
+    const std::size_t rows = lines.size() / 2;
+    Placed found{NodeArray(static_cast<int>(rows), static_cast<int>(columns)), {}};
+    for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t j = 0; j < columns; ++j) {
+            found.nodes.nodes[i * columns + j] = Vec2(lines[i][j].value, lines[rows + i][j].value);
+            found.places.push_back({lines[i][j], lines[rows + i][j]});
+        }
+    }
+    return found;
+}
+
+/// In the form of its lines. Throws Error where they are a sound grid in both forms.
+Placed placed_in_either(const Lines& lines, const std::filesystem::path& file, int rows, int columns) {
+    const bool like_blocks =
+        lines.size() == 2 * static_cast<std::size_t>(rows) &&
+        std::ranges::all_of(lines, [&](const auto& line) { return std::ssize(line) == columns; });
+    if (!like_blocks) {
+        return placed_pairs(lines, file, rows, columns);
+    }
+    Placed blocks = placed_blocks(lines, file), pairs = placed_pairs(lines, file, rows, columns);
+    const bool sound_pairs = !first_fold(pairs);
+    if (sound_pairs && !first_fold(blocks)) {
+        throw Error("this can be read as pairs and as blocks", file, "name the form");
+    }
+    return sound_pairs ? pairs : blocks;
 }
 
 std::string padded(double value) {
@@ -217,64 +356,40 @@ std::string blocks_text(const NodeArray& nodes) {
 
 NodeArray parse_pairs(std::string_view text, const std::filesystem::path& file, int rows, int columns) {
     expects(rows >= 2 && columns >= 2, "a grid file has at least 2 x 2 nodes");
-    std::vector<Number> all;
-    for (const std::vector<Number>& line : numbers_of(text, file)) {
-        all.insert(all.end(), line.begin(), line.end());
-    }
-    const std::size_t wanted = 2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
-    const std::string sentence = std::to_string(rows) + " x " + std::to_string(columns) + " nodes need " +
-                                 std::to_string(wanted) + " numbers, here are " + std::to_string(all.size());
-    if (all.size() > wanted) {
-        fail_in_file(file, all[wanted].line, all[wanted].column, sentence);
-    }
-    if (all.size() < wanted) {
-        fail_in_file(file, all.empty() ? 1 : all.back().line, all.empty() ? 1 : all.back().column, sentence);
-    }
-    Placed found{NodeArray(rows, columns), {}};
-    for (std::size_t k = 0; k < found.nodes.nodes.size(); ++k) {
-        found.nodes.nodes[k] = Vec2(all[2 * k].value, all[2 * k + 1].value);
-        found.places.push_back(all[2 * k]);
-    }
+    const Placed found = placed_pairs(numbers_of(text, file), file, rows, columns);
     require_near(found, file);
     require_unfolded(found, file);
     return found.nodes;
 }
 
 NodeArray parse_blocks(std::string_view text, const std::filesystem::path& file, FileContents contents) {
-    const std::vector<std::vector<Number>> lines = numbers_of(text, file);
-    if (lines.size() < 4 || lines.size() % 2 != 0) {
-        fail_in_file(file,
-                     lines.empty() ? 1 : lines.back().front().line,
-                     1,
-                     "Two blocks need an even number of lines, at least 4; here are " +
-                         std::to_string(lines.size()));
-    }
-    const std::size_t columns = lines.front().size();
-    for (const std::vector<Number>& line : lines) {
-        if (line.size() != columns || columns < 2) {
-            const Number& at = line[std::min(columns, line.size() - 1)];
-            fail_in_file(file,
-                         at.line,
-                         at.column,
-                         std::to_string(line.size()) + " numbers in this line, " +
-                             std::to_string(std::max<std::size_t>(columns, 2)) + " are needed");
-        }
-    }
-    const std::size_t rows = lines.size() / 2;
-    Placed found{NodeArray(static_cast<int>(rows), static_cast<int>(columns)), {}};
-    for (std::size_t i = 0; i < rows; ++i) {
-        for (std::size_t j = 0; j < columns; ++j) {
-            found.nodes.nodes[i * columns + j] = Vec2(lines[i][j].value, lines[rows + i][j].value);
-            found.places.push_back(lines[i][j]);
-        }
-    }
+    const Placed found = placed_blocks(numbers_of(text, file), file);
     if (contents == FileContents::nodes) {
         require_near(found, file);
         require_unfolded(found,
                          file,
-                         columns == 2 ? "a file of two numbers a line may be pairs: give its rows and columns"
-                                      : "");
+                         found.nodes.columns == 2
+                             ? "a file of two numbers a line may be pairs: give its rows and columns"
+                             : "");
     }
+    return found.nodes;
+}
+
+NodeArray parse_nodes(std::string_view text, const std::filesystem::path& file, const WantedNodes& wanted) {
+    expects(wanted.rows >= 2 && wanted.columns >= 2, "a grid file has at least 2 x 2 nodes");
+    const Lines lines = numbers_of(text, file);
+    const Placed found = !wanted.form ? placed_in_either(lines, file, wanted.rows, wanted.columns)
+                         : *wanted.form == FileForm::pairs
+                             ? placed_pairs(lines, file, wanted.rows, wanted.columns)
+                             : placed_blocks(lines, file);
+    if (found.nodes.rows != wanted.rows || found.nodes.columns != wanted.columns) {
+        throw Error(std::to_string(found.nodes.rows) + " x " + std::to_string(found.nodes.columns) +
+                        " nodes, and " + std::to_string(wanted.rows) + " x " +
+                        std::to_string(wanted.columns) + " are needed",
+                    file);
+    }
+    require_inside(found, file, wanted);
+    require_unfolded(found, file);
     return found.nodes;
 }
 

@@ -1,5 +1,5 @@
 // The text files of the thesis's solver. Pairs: "x y" of every node, row by row, no header, so the reader
-// must be told the size. Blocks: all x as one line a row, then all y; numbers 18 wide with 8 decimals, each
+// needs the size. Blocks: all x as one line a row, then all y; numbers 18 wide with 8 decimals, each
 // followed by a blank; residuals are written the same way, R_X then R_Y. Source: (Parasilmongkol 1997, KMITL)
 // appendix B.
 #pragma once
@@ -7,10 +7,14 @@
 #include "core/grid/node_array.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace millwright::grid {
+
+/// How the numbers of a grid lie in a file.
+enum class FileForm { pairs, blocks };
 
 /// What the numbers of a file are.
 enum class FileContents {
@@ -30,5 +34,18 @@ parse_pairs(std::string_view text, const std::filesystem::path& file, int rows, 
 [[nodiscard]] NodeArray parse_blocks(std::string_view text,
                                      const std::filesystem::path& file,
                                      FileContents contents = FileContents::nodes);
+
+/// Which nodes a file must have.
+struct WantedNodes {
+    int rows = 0, columns = 0;
+    std::optional<FileForm> form{}; ///< nothing: that in which the file has these nodes, unfolded
+    Vec2 most = Vec2::Ones();       ///< x lies from 0 to most.x(), y from 0 to most.y()
+    std::string hint{};             ///< for a coordinate that does not
+};
+
+/// As the two above. Also throws Error where a coordinate is out of its range, with its place, and where
+/// without a form the file is a sound grid in both.
+[[nodiscard]] NodeArray
+parse_nodes(std::string_view text, const std::filesystem::path& file, const WantedNodes& wanted);
 
 } // namespace millwright::grid

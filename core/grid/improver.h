@@ -35,7 +35,7 @@ struct ImproverLink {
 /// One iteration of a solver that works on a norm.
 struct IterationNorm {
     int round = 1;           ///< of the outer loop, from 1
-    double adaptation = 0.0; ///< LV that it ran with
+    double adaptation = 0.0; ///< LV that it ran with; not a number for the harmonic map, which has none
     double norm = 0.0;       ///< after it; not finite where the solver has none
 
     friend bool operator==(const IterationNorm&, const IterationNorm&) = default;
@@ -54,7 +54,7 @@ struct ImproverState {
     ErrorSummary now{};     ///< of the last complete grid
     ErrorSummary of_best{}; ///< of `best`
     std::string note{};     ///< one sentence: what was just done, or why it ended
-    std::string warning{};  ///< sentences: a weight that makes no sense, settings that could not be kept
+    std::string warning{};  ///< sentences: a senseless weight, settings not kept, no convergence
     std::vector<IterationNorm>
         norms{};                       ///< of every iteration; of the elliptic grid and the harmonic map only
     double done = 0.0;                 ///< of the whole way, 0 to 1, never falling; 1 at the end only

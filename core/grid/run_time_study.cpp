@@ -58,6 +58,48 @@ TimedRun timed_run(int side, int threads, int iterations, const StudyClocks& clo
     return {solver.nodes(), clocks.processor() - processor, clocks.wall() - wall};
 }
 
+/// One run of each number of threads that is not timed: threads start, and memory is mapped, in the first.
+void run_untimed(const RunTimeSettings& settings, int side) {
+    for (const int threads : settings.threads) {
+        set_thread_count(threads);
+        JacobiNewton solver(unit_grid(side), weight_w1_on(side), timed_settings(settings.iterations));
+        (void)solve(solver);
+    }
+}
+
+/// A processor that was idle is slow at first.
+void warm_up(const RunTimeSettings& settings, const StudyClocks& clocks, const Progress& progress) {
+    if (!(settings.warm_up > 0.0) || settings.sides.empty()) {
+        return;
+    }
+    const double begin = clocks.wall();
+    while (clocks.wall() - begin < settings.warm_up) {
+        progress.check();
+        run_untimed(settings, settings.sides.front());
+    }
+}
+
+/// What this process and the whole machine have used from here on.
+class Usage {
+public:
+    explicit Usage(const StudyClocks& clocks)
+        : clocks_(clocks), wall_(clocks.wall()), processor_(clocks.processor()), machine_(clocks.machine()) {}
+
+    [[nodiscard]] std::optional<double> other_cores() const {
+        const std::optional<double> machine = clocks_.machine();
+        const double wall = clocks_.wall() - wall_, own = clocks_.processor() - processor_;
+        if (!machine || !machine_ || !(wall > 0.0)) {
+            return std::nullopt;
+        }
+        return std::max(0.0, *machine - *machine_ - own) / wall;
+    }
+
+private:
+    const StudyClocks& clocks_;
+    double wall_, processor_;
+    std::optional<double> machine_;
+};
+
 /// The parts of the same iterations, each timed.
 RunTimeProfile profile_of(int side, int iterations, const StudyClocks& clocks) {
     set_thread_count(1);
@@ -103,10 +145,15 @@ run_time_study(const RunTimeSettings& settings, const StudyClocks& clocks, const
             "a study of run times runs something");
     const ThreadCount put_back;
     RunTimeStudy study;
+    progress.check();
+    warm_up(settings, clocks, progress);
+    const Usage usage(clocks);
+    double one_thread_processor = 0.0, one_thread_wall = 0.0;
     const auto sides = std::ssize(settings.sides);
     for (std::ptrdiff_t n = 0; n < sides; ++n) {
         const int side = settings.sides[static_cast<std::size_t>(n)];
         std::vector<TimedRun> best(settings.threads.size());
+        run_untimed(settings, side);
         for (int k = 0; k < settings.repeats; ++k) {
             progress.check();
             progress.report((static_cast<double>(n) + static_cast<double>(k) / settings.repeats) /
@@ -114,6 +161,10 @@ run_time_study(const RunTimeSettings& settings, const StudyClocks& clocks, const
                             "Timing " + std::to_string(side) + " x " + std::to_string(side) + " nodes");
             for (std::size_t t = 0; t < best.size(); ++t) { // in turns, so that a busy moment meets all
                 TimedRun run = timed_run(side, settings.threads[t], settings.iterations, clocks);
+                if (settings.threads[t] == 1) {
+                    one_thread_processor += run.processor;
+                    one_thread_wall += run.wall;
+                }
                 if (run.wall < best[t].wall) {
                     best[t] = std::move(run);
                 }
@@ -129,6 +180,8 @@ run_time_study(const RunTimeSettings& settings, const StudyClocks& clocks, const
         }
         study.profiles.push_back(profile_of(side, settings.iterations, clocks));
     }
+    study.one_thread_share = one_thread_wall > 0.0 ? one_thread_processor / one_thread_wall : 1.0;
+    study.other_cores = usage.other_cores();
     return study;
 }
 

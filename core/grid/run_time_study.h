@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,13 +17,16 @@ namespace millwright::grid {
 struct StudyClocks {
     std::function<double()> wall;
     std::function<double()> processor; ///< of all threads of this process
+    /// Processor time of all programs on all cores of the machine; nothing where it is unknown.
+    std::function<std::optional<double>()> machine = [] { return std::nullopt; };
 };
 
 struct RunTimeSettings {
     std::vector<int> sides{50, 70, 100, 150, 257}; ///< nodes per side, 3 or more
     std::vector<int> threads{1}; ///< 1 or more; the first is what the others are compared with
     int iterations = 10;
-    int repeats = 5; ///< the fastest run counts
+    int repeats = 5;      ///< the fastest run counts
+    double warm_up = 0.0; ///< s of runs that are not timed before the first one, beside one run of each case
 };
 
 /// The fastest of the repeated runs of all iterations.
@@ -50,6 +54,10 @@ struct RunTimeProfile {
 struct RunTimeStudy {
     std::vector<RunTime> runs; ///< by side, then by threads
     std::vector<RunTimeProfile> profiles;
+    /// Processor time per wall time of all runs with one thread: less than 1 where other programs took its
+    /// core. 1 without such runs.
+    double one_thread_share = 1.0;
+    std::optional<double> other_cores; ///< that other programs used meanwhile, on average
 };
 
 /// JacobiNewton on uniform grids with W1 as wide as on 25 x 25 nodes, LV = 1, WW = 0.81, without a tolerance.

@@ -89,7 +89,7 @@ Way way_of(const ArmBlock& block, const std::filesystem::path& file) {
 
 void expect_feed(const ArmBlock& block, const std::filesystem::path& file) {
     if (block.feed && !(*block.feed > 0.0)) {
-        fail_in_motion(file, block.line, "a feed is above 0");
+        fail_in_motion(file, block.line, "the feed F has to be above 0");
     }
 }
 
@@ -136,6 +136,10 @@ std::vector<ArmWay> ways_of(const ArmModel& arm,
         tool = at(1.0);
     }
     return ways;
+}
+
+bool sets_feed(const std::vector<ArmBlock>& blocks) {
+    return std::ranges::any_of(blocks, [](const ArmBlock& block) { return block.feed.has_value(); });
 }
 
 } // namespace millwright::kinematics

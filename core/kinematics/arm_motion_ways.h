@@ -25,4 +25,7 @@ void expect_arcs(const std::vector<ArmBlock>& blocks, const std::filesystem::pat
                                           const JointPositions& start,
                                           const std::filesystem::path& file);
 
+/// Whether a block has an F.
+[[nodiscard]] bool sets_feed(const std::vector<ArmBlock>& blocks);
+
 } // namespace millwright::kinematics

@@ -107,6 +107,28 @@ std::vector<ZoneBreach> zone_breaches(const ArmModel& arm, const JointPositions&
     return found;
 }
 
+std::vector<std::string> broken_limits(const ArmModel& arm,
+                                       const std::optional<ArmActuators>& actuators,
+                                       const JointPositions& joints) {
+    std::vector<std::string> reasons;
+    for (int n = 0; n < arm.joint_count(); ++n) {
+        if (joints[n] < arm.joint(n).min || joints[n] > arm.joint(n).max) {
+            reasons.push_back(fmt::format("joint {} is outside of its limits", arm.joint(n).name));
+        }
+    }
+    std::vector<ZoneBreach> breaches;
+    if (const ArmZone* zone = arm.zone()) {
+        add_box(arm, *zone, joints, breaches);
+    }
+    if (actuators) {
+        std::ranges::move(drive_breaches(*actuators, joints), std::back_inserter(breaches));
+    }
+    for (ZoneBreach& breach : breaches) {
+        reasons.push_back(std::move(breach.why));
+    }
+    return reasons;
+}
+
 std::string
 leaves_zone(const ArmModel& arm, const JointPositions& from, const JointPositions& to, double slack) {
     const std::vector<ZoneBreach> before = zone_breaches(arm, from);

@@ -31,6 +31,12 @@ struct ZoneBreach {
 /// All that is broken there; empty for an arm without a zone. Joint limits are not looked at.
 [[nodiscard]] std::vector<ZoneBreach> zone_breaches(const ArmModel& arm, const JointPositions& joints);
 
+/// A sentence for each limit of a joint and side of the workspace that is broken there; then, where
+/// `actuators` are given, for each limit of them, watched or not.
+[[nodiscard]] std::vector<std::string> broken_limits(const ArmModel& arm,
+                                                     const std::optional<ArmActuators>& actuators,
+                                                     const JointPositions& joints);
+
 /// Why the arm must not go there: a limit that is broken by more than `slack` (mm or degrees), and by more
 /// than where it comes from, so that it may always go back; empty if it may.
 [[nodiscard]] std::string

@@ -1,5 +1,6 @@
 #include "core/kinematics/inverse.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/kinematics/forward.h"
@@ -214,9 +215,9 @@ inverse_branches(const MachineModel& machine, const geometry::ToolPose& pose, co
     expects(std::abs(pose.axis.norm() - 1.0) < unit_tolerance, "a tool axis is a unit vector");
     expects(previous.size() == machine.axis_count(), "axis positions belong to their machine");
     if (!has_inverse(machine)) {
-        throw Error(fmt::format("machine '{}' has {} rotary axes, tool paths need one with two or none",
+        throw Error(fmt::format("machine '{}' has {}, tool paths need one with two or none",
                                 machine.name(),
-                                machine.rotary_axes().size()));
+                                counted(machine.rotary_axes().size(), "rotary axis", "rotary axes")));
     }
     const Vec3& t = machine.description().tool_axis;
     if (machine.rotary_axes().empty()) {

@@ -66,7 +66,7 @@ std::optional<RotaryTilt> rotary_tilt_of(const MachineModel& machine) {
 MachineModel with_rotary_tilt(const MachineModel& machine, const RotaryTilt& constants) {
     if (!rotary_tilt_of(machine)) {
         throw Error(
-            fmt::format("machine '{}' is not built as the thesis's rotary-tilt table: it has no e, OF, AB "
+            fmt::format("machine '{}' is not built like the thesis's rotary-tilt table: it has no e, OF, AB "
                         "and B4",
                         machine.name()));
     }

@@ -1,5 +1,7 @@
 #include "core/machine/job_report.h"
 
+#include "core/base/counted.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,8 @@ double JobReport::fraction() const {
 }
 
 std::string JobReport::blocks_text() const {
-    return fmt::format("{} of {} blocks {}", driver.executed_blocks, blocks, answers ? "executed" : "sent");
+    return fmt::format(
+        "{} of {} {}", driver.executed_blocks, counted(blocks, "block"), answers ? "executed" : "sent");
 }
 
 std::string JobReport::progress_text() const {

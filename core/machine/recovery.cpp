@@ -34,8 +34,8 @@ std::string sentence_of(const JobStory& story, const std::string& fault) {
             "{} after {}: {}", to_text(*story.end), short_time(story.time), with_clause(fault, done + "."));
     }
     if (story.executed_blocks == blocks) {
-        return fmt::format("Millwright ended before it could write the end: all {} blocks were {}.",
-                           blocks,
+        return fmt::format("Millwright ended before it could write the end: {} {}.",
+                           internal::all_blocks_text(blocks),
                            story.start.answers ? "executed" : "sent");
     }
     const int open = std::max(0, story.allowed_blocks - story.executed_blocks);

@@ -1,5 +1,6 @@
 #include "core/machine/run_from_line.h"
 
+#include "core/base/counted.h"
 #include "core/gcode/reader/interpreter.h"
 #include "core/machine/internal/bare_line.h"
 #include "core/machine/internal/program_from_line.h"
@@ -335,8 +336,8 @@ void check_room(const std::vector<std::string>& before, const std::filesystem::p
     if (line <= std::ssize(before)) {
         refuse_start(file,
                      line,
-                     fmt::format("the approach to this line takes {} lines, and {} stand above it",
-                                 before.size(),
+                     fmt::format("the approach to this line takes {}, and {} stand above it",
+                                 counted(before.size(), "line"),
                                  line - 1),
                      "run it from its beginning");
     }
@@ -350,7 +351,7 @@ RunFrom run_from_line(std::string_view text,
                       const RunFromSettings& settings) {
     const std::vector<std::string_view> lines = lines_of(text);
     if (line < 1 || line > std::ssize(lines)) {
-        refuse_start(file, line, fmt::format("the program has {} lines", lines.size()));
+        refuse_start(file, line, fmt::format("the program has {}", counted(lines.size(), "line")));
     }
     check_flow(lines, file);
     Watcher watcher;

@@ -36,7 +36,7 @@ void check(const Trajectory& trajectory, const StepSettings& settings) {
         throw Error(fmt::format("a timer of {} Hz does not tick", settings.timer_frequency));
     }
     if (settings.min_interval < 1 || settings.jitter_limit < 0.0 || settings.most_pulses_a_block < 0) {
-        throw Error("interval, jitter limit and number of pulses are not negative, the interval not zero");
+        throw Error("the interval has to be above 0; jitter limit and number of pulses must not be negative");
     }
 }
 

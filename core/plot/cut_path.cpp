@@ -1,5 +1,6 @@
 #include "core/plot/cut_path.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/plot/path_bound.h"
 
@@ -100,13 +101,12 @@ public:
         const Tabs& tabs = level.tabs;
         const double part = length(stroke) / tabs.count;
         if (!(tabs.width < part)) {
-            throw Error(
-                fmt::format("pen {}: {} tabs do not fit on a stroke of {:.6g} mm: each takes {:.6g} mm of "
-                            "the tool's way, its own width and that of the tool",
-                            level.pen,
-                            tabs.count,
-                            part * tabs.count,
-                            tabs.width));
+            throw Error(fmt::format("pen {}: {} do not fit on a stroke of {:.6g} mm: each takes {:.6g} mm of "
+                                    "the tool's way, its own width and that of the tool",
+                                    level.pen,
+                                    counted(tabs.count, "tab"),
+                                    part * tabs.count,
+                                    tabs.width));
         }
         double passed = 0.0; // way around up to the segment
         int edge = 0;        // edges of tabs passed: an odd number is on a tab

@@ -1,5 +1,6 @@
 #include "core/project/gouges.h"
 
+#include "core/base/counted.h"
 #include "core/base/text.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ DeepestBite deepest_of(const CutStudy& cut, bool by_holder) {
 }
 
 std::string blocks_text(const DeepestBite& found) {
-    const std::string blocks = found.blocks == 1 ? "1 block" : fmt::format("{} blocks", found.blocks);
+    const std::string blocks = counted(found.blocks, "block");
     return found.bite->line > 0 ? fmt::format("{}, the deepest in line {}", blocks, found.bite->line)
                                 : blocks;
 }

@@ -45,7 +45,8 @@ Evaluation evaluation_by(const GridMaking& by, const Evaluation& uniform, const 
                     found.outcome.start_by_curve,
                     refusal(found, uniform, !by.workpiece.machine.rotary_axes().empty()),
                     found.outcome.warning,
-                    found.outcome.links};
+                    found.outcome.links,
+                    found.outcome.norms};
     return kept;
 }
 

@@ -1,5 +1,6 @@
 #include "core/project/imported_surface.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/settings.h"
@@ -58,7 +59,9 @@ import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Pr
     imported.notes = read.notes;
     if (read.without_area > 0) {
         imported.notes.push_back(
-            fmt::format("{} triangles have no area and are left out", read.without_area));
+            read.without_area == 1
+                ? std::string("1 triangle has no area and is left out")
+                : fmt::format("{} triangles have no area and are left out", read.without_area));
     }
     take_fit(imported,
              exchange::fit_patch(scaled(read.mesh, choice.mm_per_unit), fit_settings(choice), progress));
@@ -107,9 +110,8 @@ const CadFace& chosen_face(const exchange::CadModel& model, const std::filesyste
         return model.faces.front();
     }
     if (number == 0) {
-        throw Error(fmt::format("the file has {} faces", model.faces.size()),
-                    file,
-                    "choose one of them by its number");
+        throw Error(
+            "the file has " + counted(model.faces.size(), "face"), file, "choose one of them by its number");
     }
     const auto found = std::ranges::find(model.faces, number, &CadFace::number);
     if (found == model.faces.end()) {

@@ -126,6 +126,25 @@ void refuse_crossing(const geometry::BezierPatch& patch, const geometry::Trim& t
     }
 }
 
+/// The machine with the constants of the project. Throws Error with the field where it has no such constants.
+kinematics::MachineModel with_tool_set(const kinematics::MachineModel& machine, const ToolSetInput& set) {
+    const Vec3 part = machine.description().workpiece_offset;
+    try {
+        return kinematics::with_rotary_tilt(machine,
+                                            {.a = part.x(),
+                                             .b = part.y(),
+                                             .c = part.z(),
+                                             .e = set.e,
+                                             .AB = set.AB,
+                                             .B4 = set.B4,
+                                             .OF = set.OF});
+    } catch (const Error& fault) {
+        throw Error("machine/tool_set: " + fault.diagnostic().message,
+                    {},
+                    "leave tool_set out, or choose a machine of the thesis");
+    }
+}
+
 } // namespace
 
 Workpiece workpiece_of(const Project& project, const Folders& folders) {
@@ -135,15 +154,7 @@ Workpiece workpiece_of(const Project& project, const Folders& folders) {
     kinematics::MachineModel machine =
         kinematics::read_machine(machine_path(project, folders.project, folders.assets));
     if (const auto& set = project.machine.tool_set) {
-        const Vec3 part = machine.description().workpiece_offset;
-        machine = kinematics::with_rotary_tilt(machine,
-                                               {.a = part.x(),
-                                                .b = part.y(),
-                                                .c = part.z(),
-                                                .e = set->e,
-                                                .AB = set->AB,
-                                                .B4 = set->B4,
-                                                .OF = set->OF});
+        machine = with_tool_set(machine, *set);
     }
     machine = machine_with(project.tool, machine);
     if (project.machine.workpiece_offset) {

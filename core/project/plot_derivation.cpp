@@ -11,6 +11,7 @@
 #include "core/plot/ordering.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/engraving.h"
+#include "core/plot/picture/file_pixels.h"
 #include "core/plot/picture/finished_look.h"
 #include "core/plot/picture/relief_plan.h"
 #include "core/plot/picture/trace.h"
@@ -193,18 +194,18 @@ void PlotDerivation::cut_picture() {
         cut_of({level})));
 }
 
-/// `pixel`: width of one of the file, mm.
+/// `pixel`: side of a square one, mm.
 void PlotDerivation::show_picture(const plot::PictureSettings& reading, double pixel) {
     plot::PictureSettings whole = reading;
     whole.region.reset();
-    whole.pixel_aspect = 1.0;
     whole.most_pixels = 1 << 16;
+    plot::FilePixels read = plot::read_file_pixels(result_.input.file, whole, progress_.part(0.15, 0.2));
     auto shown = std::make_shared<ShownPicture>();
-    shown->picture = plot::read_picture_file(result_.input.file, whole, progress_.part(0.15, 0.2)).picture;
+    shown->picture = std::move(read.picture);
     const int side = shown->picture.file_pixels;
     const plot::PixelRegion region = reading.region.value_or(plot::PixelRegion{});
     const int below = region.height > 0 ? side * shown->picture.height - region.top - region.height : 0;
-    const Vec2 of_pixel(pixel, pixel * reading.pixel_aspect);
+    const Vec2 of_pixel(pixel * read.pixel_width, pixel * read.pixel_height * reading.pixel_aspect);
     shown->cell = side * of_pixel;
     const Vec2 middle = 0.5 * (shown->cell - of_pixel); // of a square, from that of its first pixel
     shown->corner = settings_.origin + middle - Vec2(region.left, below).cwiseProduct(of_pixel);

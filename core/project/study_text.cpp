@@ -1,4 +1,5 @@
 // A study as text for spreadsheets, programs and people.
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/internal/json_text.h"
@@ -58,8 +59,8 @@ std::string cell(const StudyRow& row) {
 /// The rows of one table, one line a number of points: `rows` has all methods of a case one after another.
 std::string text_table(std::span<const StudyRow> rows) {
     const StudyCase& first = rows.front().of;
-    std::string text =
-        fmt::format("\n## {} on {}, {} tracks\n\n| points |", first.surface, first.machine, first.tracks);
+    std::string text = fmt::format(
+        "\n## {} on {}, {}\n\n| points |", first.surface, first.machine, counted(first.tracks, "track"));
     for (const StudyMethod method : every_study_method) {
         text += fmt::format(" {} |", label(method));
     }

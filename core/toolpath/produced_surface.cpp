@@ -29,33 +29,44 @@ double parameter_along(const Toolpath& path, std::size_t point) {
     return path.direction == grid::TrackDirection::along_v ? uv.y() : uv.x();
 }
 
-bool has_equal_tracks(const Toolpath& path, const std::vector<std::size_t>& starts) {
-    const std::size_t tracks = starts.size() - 1;
-    if (tracks < 2) {
-        return false;
-    }
+/// Of all tracks; 0 where they differ.
+std::size_t points_per_track(const std::vector<std::size_t>& starts) {
     const std::size_t count = starts[1] - starts[0];
-    for (std::size_t t = 0; t < tracks; ++t) {
+    for (std::size_t t = 1; t + 1 < starts.size(); ++t) {
         if (starts[t + 1] - starts[t] != count) {
-            return false;
+            return 0;
         }
     }
-    const bool goes_over = std::ranges::any_of(
-        path.points, [](const PathPoint& point) { return point.reached_by == MoveKind::over; });
-    return count >= 2 && !goes_over;
+    return count;
 }
 
 } // namespace
+
+std::string why_no_produced_surface(const Toolpath& path) {
+    if (path.tool.cutter) {
+        return "The produced surface needs a tool that is a point: a cutter cuts beside its tip";
+    }
+    if (std::ranges::any_of(path.points,
+                            [](const PathPoint& point) { return point.reached_by == MoveKind::over; })) {
+        return "The produced surface needs a whole patch: this path lifts over parts that are not cut";
+    }
+    const std::vector<std::size_t> starts = track_starts(path);
+    constexpr std::size_t fewest = 2; // tracks, and points of each
+    if (starts.size() <= fewest || points_per_track(starts) < fewest) {
+        return "The produced surface needs tracks side by side with equally many points: this path has none";
+    }
+    return {};
+}
 
 std::optional<ProducedSurface> produced_surface(const kinematics::MachineModel& machine,
                                                 const Toolpath& path,
                                                 const AxisPath& axes,
                                                 int steps) {
     expects(steps >= 1, "a move has a step");
-    const std::vector<std::size_t> starts = track_starts(path);
-    if (path.tool.cutter || axes.positions.size() != path.points.size() || !has_equal_tracks(path, starts)) {
+    if (axes.positions.size() != path.points.size() || !why_no_produced_surface(path).empty()) {
         return std::nullopt;
     }
+    const std::vector<std::size_t> starts = track_starts(path);
     const std::size_t tracks = starts.size() - 1, moves = starts[1] - starts[0] - 1;
     ProducedSurface found{
         .tracks = static_cast<int>(tracks), .places = static_cast<int>(moves) * steps + 1, .points = {}};

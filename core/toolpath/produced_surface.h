@@ -7,6 +7,7 @@
 #include "core/toolpath/toolpath.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace millwright::toolpath {
@@ -24,9 +25,13 @@ struct ProducedSurface {
     }
 };
 
+/// Why `path` has no produced surface, as a sentence without its full stop; empty: it has one. It needs
+/// tracks of equally many moves side by side, which a spiral, a path with added points and a trimmed patch do
+/// not have, and a tool that is a point: the tip of a cutter is not where it cuts.
+[[nodiscard]] std::string why_no_produced_surface(const Toolpath& path);
+
 /// `steps` places per move (an even number has its middle among them) of the path that `axes` follow. Nothing
-/// where the path has no tracks of equally many moves side by side, as a spiral or a path with added points,
-/// and for a cutter, whose tip is not where it cuts. Throws Defect for less than one step.
+/// where why_no_produced_surface() has a reason. Throws Defect for less than one step.
 [[nodiscard]] std::optional<ProducedSurface> produced_surface(const kinematics::MachineModel& machine,
                                                               const Toolpath& path,
                                                               const AxisPath& axes,

@@ -103,7 +103,7 @@ ObliqueView::ObliqueView(const std::vector<Vec3>& points) {
     if (!(across > least && up > least)) {
         throw Error("the thesis's view has no scale for this surface",
                     {},
-                    "X + Y cos 30 and Z + Y sin 30 of its middle are above 0");
+                    "X + Y cos 30 and Z + Y sin 30 of its middle have to be above 0");
     }
     R_ = std::min(250.0 / across, 200.0 / up);
 }

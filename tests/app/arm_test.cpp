@@ -234,6 +234,26 @@ TEST(Arm, K6TurnsJointsIntoCountsOfTheDrivesAndBack) {
     EXPECT_THAT(run({"arm", "actuators", "--counts", "0", "0"}).err, HasSubstr("2 counts were given"));
 }
 
+// Forward kinematics and the drives judge a pose by all limits alike.
+TEST(Arm, FkAndActuatorsAgreeOnWhatIsInsideTheLimits) {
+    using Joints = std::vector<std::string>;
+    for (const auto& [joints, reason] :
+         {std::pair(Joints{"0", "-90", "90", "0", "0"}, std::string()),
+          {Joints{"0", "20", "60", "0", "0"}, "drive 2 would have to open its triangle"},
+          {Joints{"200", "-90", "90", "0", "0"}, "is outside of its limits"}}) {
+        const auto answer_of = [&](const char* command) {
+            std::vector<std::string> words{"arm", command, "--json"};
+            words.insert(words.end(), joints.begin(), joints.end());
+            return answer_to(words);
+        };
+        const auto by_joints = answer_of("fk"), by_drives = answer_of("actuators");
+        EXPECT_EQ(by_joints.at("inside_limits"), reason.empty());
+        EXPECT_EQ(by_joints.at("inside_limits"), by_drives.at("inside_limits"));
+        EXPECT_EQ(by_joints.at("reasons"), by_drives.at("reasons"));
+        EXPECT_THAT(by_joints.at("reasons").dump(), HasSubstr(reason));
+    }
+}
+
 TEST(Arm, SolvesOtherArmsToo) {
     EXPECT_EQ(answer_to({"arm", "ik", "400", "100", "250", "0", "0", "-1", "--arm", "scara", "--json"})
                   .at("solutions")
@@ -316,10 +336,15 @@ TEST(Arm, StreamsAMotionFileThroughTheDualPortedRam) {
     const Ended ended = run({"arm", "stream", file, "--step", "10", "--watch", watch});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("13 points, 13 interrupts of EQU1"));
+    EXPECT_EQ(ended.err, "");
     const std::string rows = content_of(watch);
     EXPECT_THAT(rows, testing::StartsWith("time_s,m151,m152,m153,m154,m155,sent,equ1,x_deg,y_deg,z_deg\n"));
     EXPECT_THAT(rows, HasSubstr(",1,1,1,0,")); // running, a point waits, the first one, not yet taken
     EXPECT_THAT(rows, HasSubstr(",1,0,13,13,"));
+    write_content(file, "G1 X0 Y100 Z-50 F2 ;\n");
+    const Ended with_feed = run({"arm", "stream", file, "--step", "10"});
+    EXPECT_EQ(with_feed.out, ended.out);
+    EXPECT_THAT(with_feed.err, testing::ContainsRegex("note: F is not used: each move takes [0-9]+ ms"));
     write_content(file, "X3000 ;");
     EXPECT_EQ(run({"arm", "stream", file}).exit_code, 1);
 }

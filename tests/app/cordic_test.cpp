@@ -320,6 +320,14 @@ TEST(Cordic, WritesTheWholeProcessorAsHardware) {
     const Ended of_arc = run({"cordic", "rtl-processor", thesis_arc, "--out", out});
     EXPECT_EQ(of_arc.exit_code, 0) << of_arc.err;
     EXPECT_THAT(content_of(folder.path() / "gcode_processor_tb.v"), HasSubstr("RUNS = 1;"));
+    for (const auto& [option, value] : {std::pair("--instructions", "10"), {"--seed", "7"}}) {
+        const Ended both = run({"cordic", "rtl-processor", thesis_arc, "--out", out, option, value});
+        EXPECT_EQ(both.exit_code, 2) << option;
+        EXPECT_THAT(both.err, HasSubstr(std::string(option) + " excludes FILE"));
+    }
+    const Ended folder_for_file = run({"cordic", "rtl-processor", out, "--out", out});
+    EXPECT_EQ(folder_for_file.exit_code, 1);
+    EXPECT_THAT(folder_for_file.err, testing::Not(HasSubstr("actually")));
     const auto endless = folder.path() / "endless.asm";
     write_content(endless, ".format q12.20\nAGAIN: MOV PC, AGAIN\n");
     for (const auto& [options, reason] :

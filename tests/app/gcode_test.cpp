@@ -30,7 +30,7 @@ TEST(Gcode, CheckTellsEveryErrorWithItsPlace) {
     EXPECT_THAT(ended.err,
                 HasSubstr("millwright: " + file.string() + ":2:1: G1 with a feed of zero (give F)"));
     EXPECT_THAT(ended.err, HasSubstr(file.string() + ":3:7: a line has one X word at most"));
-    EXPECT_EQ(ended.out, "4 lines, 1 moves, 2 errors\n");
+    EXPECT_EQ(ended.out, "4 lines, 1 move, 2 errors\n");
 }
 
 TEST(Gcode, CheckReadsOnBehindTheErrorsThatItLists) {
@@ -46,7 +46,7 @@ TEST(Gcode, CheckReadsOnBehindTheErrorsThatItLists) {
     EXPECT_THAT(ended.err, HasSubstr(file.string() + ":100:"));
     EXPECT_THAT(ended.err, Not(HasSubstr(file.string() + ":101:")));
     EXPECT_THAT(ended.err, HasSubstr("bad.ngc: 150 more errors are not listed\n"));
-    EXPECT_EQ(ended.out, "252 lines, 1 moves, 250 errors\n");
+    EXPECT_EQ(ended.out, "252 lines, 1 move, 250 errors\n");
     const auto answer = nlohmann::json::parse(run({"gcode", "check", file.string(), "--json"}).out);
     EXPECT_EQ(answer.at("lines"), 252);
     EXPECT_EQ(answer.at("errors").size(), 100U);
@@ -139,7 +139,7 @@ TEST(Gcode, CheckReadsKlartextAndNamesOtherLanguages) {
     const Ended other = run({"gcode", "check", file});
     EXPECT_EQ(other.exit_code, 1);
     EXPECT_THAT(other.err, HasSubstr("part.h:1:1: this is the Sinumerik language of Siemens, not G-code"));
-    EXPECT_THAT(other.out, HasSubstr(" 1 errors"));
+    EXPECT_THAT(other.out, HasSubstr(" 1 error"));
 }
 
 TEST(Gcode, TheDialectDecides) {

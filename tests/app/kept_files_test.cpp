@@ -176,6 +176,44 @@ TEST_F(KeptFiles, AllAreReplacedOrNone) {
     EXPECT_TRUE(drafts().empty());
 }
 
+// Before the work, whose progress is not printed then.
+TEST_F(KeptFiles, WhatCannotBeWrittenIsFoundBeforeTheWork) {
+    const fs::path project = small_project(scratch.path(), "dome");
+    fs::create_directory(out);
+    write_content(scratch / "file", "old");
+    const std::vector<std::string> grid{"thesis", "grid", project, "--method", "elliptic"};
+    for (const auto& [words, reason] : {
+             std::pair(std::vector<std::string>{"--out", scratch / "no/grid.dat"},
+                       "no/grid.dat: cannot write"),
+             {{"--out", out}, "--out names a folder, and writes a file (add a file name)"},
+             {{"--out", out / "a", "--norms", scratch / "no/n.csv"}, "no/n.csv: cannot write"},
+             {{"--out", out / "a", "--residuals", out}, "--residuals names a folder, and writes a file"},
+         }) {
+        std::vector<std::string> all = grid;
+        all.insert(all.end(), words.begin(), words.end());
+        const Ended ended = run(all);
+        EXPECT_EQ(ended.exit_code, 1) << reason;
+        EXPECT_THAT(ended.err, AllOf(HasSubstr(reason), Not(HasSubstr(" % "))));
+    }
+    const Ended plan_in_file = run({"plan", project, "--out", scratch / "file"});
+    EXPECT_EQ(plan_in_file.exit_code, 1);
+    EXPECT_THAT(plan_in_file.err, HasSubstr("--out names a file, and needs a folder"));
+    const Ended accepted = run({"study",
+                                "set-up",
+                                project,
+                                "--out",
+                                out,
+                                "--places",
+                                "2",
+                                "--nodes",
+                                "4",
+                                "--accept",
+                                scratch / "no/p.json"});
+    EXPECT_THAT(accepted.err, AllOf(HasSubstr("no/p.json: cannot write"), Not(HasSubstr(" % "))));
+    EXPECT_TRUE(fs::is_empty(out)) << "nothing is left of looking";
+    EXPECT_EQ(content_of(scratch / "file"), "old");
+}
+
 TEST_F(KeptFiles, NoLinkIsFollowedThatSomebodyPutInTheWay) {
     const fs::path project = small_project(scratch.path(), "dome");
     fs::create_directory(out);

@@ -73,7 +73,7 @@ TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
     const Ended ended = convert("router-xyz", "grbl", {"--arcs", "0.01", "--line-numbers"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("N40 G3 X-10.000 Y0.000 I-10.000 J0.000 F"));
-    EXPECT_THAT(ended.err, HasSubstr("1 arcs\n"));
+    EXPECT_THAT(ended.err, HasSubstr("1 arc\n"));
 }
 
 /// An arc is longer than its chords by a hair; its feed is theirs.
@@ -269,6 +269,10 @@ TEST_F(Posts, ConvertFindsSubroutinesInTheFoldersThatAreGiven) {
     const Ended ended = convert("router-xyz", "grbl", {"--subroutines", folder.string()});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("\nZ5.000\n"));
+    EXPECT_THAT(convert("router-xyz", "grbl", {"--subroutines", part}).err,
+                HasSubstr("is a file, and a folder is needed"));
+    EXPECT_THAT(convert("router-xyz", "grbl", {"--subroutines", scratch / "no"}).err,
+                HasSubstr("there is no folder"));
 }
 
 TEST_F(Posts, ConvertSaysWhatCannotBe) {

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::test {
@@ -81,6 +83,22 @@ TEST(RenderCommand, DrawsFromOtherSidesInOtherColours) {
         run({"render", project, "--view", "design", "--color", "grid_u=red", "--out", scratch / "o.png"})
             .exit_code,
         2);
+}
+
+TEST(RenderCommand, RefusesAProducedSurfaceThatThePathDoesNotHave) {
+    const ScratchFolder scratch;
+    for (const auto& [member, reason] :
+         {std::pair(R"("toolpath": {"strategy": "spiral"},)", "needs tracks side by side"),
+          {R"("tool": {"cutter": "ball", "diameter_mm": 6, "length_mm": 30},)",
+           "needs a tool that is a point"}}) {
+        const auto project =
+            small_project(scratch.path(), "dome", "\"surface\":", std::string(member) + "\"surface\":");
+        const Ended ended = run(
+            {"render", project, "--view", "produced", "--size", "320x200", "--out", scratch / "none.png"});
+        EXPECT_EQ(ended.exit_code, 1) << member;
+        EXPECT_THAT(ended.err, HasSubstr(reason));
+        EXPECT_FALSE(std::filesystem::exists(scratch / "none.png")) << "an empty picture says nothing";
+    }
 }
 
 TEST(RenderCommand, FailsWithoutTouchingWhatIsThere) {

@@ -212,7 +212,7 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
     const Ended unheard = run(words);
     EXPECT_EQ(unheard.exit_code, 1);
     EXPECT_THAT(unheard.err, HasSubstr("the table did not answer point 1 within 1 s"));
-    EXPECT_THAT(silent.stop().out, HasSubstr("1 records obeyed"));
+    EXPECT_THAT(silent.stop().out, HasSubstr("1 record obeyed"));
 }
 
 TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {

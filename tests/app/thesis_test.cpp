@@ -100,6 +100,13 @@ std::filesystem::path thesis_case(const ScratchFolder& scratch, double lv, int i
     return scratch / "case.json";
 }
 
+std::string figure_behind(const std::string& text, const std::string& words) {
+    const auto at = text.find(words);
+    return at == std::string::npos
+               ? std::string()
+               : text.substr(at + words.size(), text.find(' ', at + words.size()) - at - words.size());
+}
+
 // T13, T19: figures of an independent implementation; the grid is written though it does not improve the
 // path.
 TEST(ThesisCommand, WritesTheAdaptedGridWithItsResidualsAndNorms) {
@@ -131,6 +138,25 @@ TEST(ThesisCommand, WritesTheAdaptedGridWithItsResidualsAndNorms) {
     EXPECT_EQ(run({"thesis", "convert", scratch / "orx.dat", "--residuals", "--out", scratch / "again.dat"})
                   .exit_code,
               0);
+    EXPECT_THAT(ended.err,
+                HasSubstr("warning: The solver did not converge: round 1 ended after 250 iterations"));
+    // What is printed is of the grid that is written, whatever the method keeps.
+    EXPECT_THAT(ended.out, testing::ContainsRegex("The method keeps (the start|another) grid: "));
+    const std::string this_grid = figure_behind(ended.out, "this grid ");
+    EXPECT_NE(this_grid, figure_behind(ended.out, "curve: start "));
+    const Ended again = run({"thesis",
+                             "grid",
+                             scratch / "case.json",
+                             "--method",
+                             "elliptic",
+                             "--units",
+                             "nodes",
+                             "--start",
+                             scratch / "grid.dat",
+                             "--out",
+                             scratch / "next.dat"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(figure_behind(again.out, "curve: start "), this_grid);
     // Not the uniform grid, which the program keeps.
     ASSERT_EQ(run({"thesis",
                    "grid",
@@ -206,7 +232,8 @@ TEST(ThesisCommand, RefusesAStartGridThatIsNone) {
     write_content(scratch / "source", displaced_pairs());
     const Ended outside = with_start("parameters");
     EXPECT_EQ(outside.exit_code, 1);
-    EXPECT_THAT(outside.err, HasSubstr("source: node (0, 2) is outside of the surface"));
+    EXPECT_THAT(outside.err,
+                HasSubstr("source:3:16: y of node (0, 2) is 2, outside of the surface: it goes from 0 to 1"));
     const Ended bent = run({"thesis",
                             "grid",
                             project,
@@ -246,6 +273,17 @@ TEST(ThesisCommand, WritesTheGridOfEveryMethod) {
         const Ended ended = run({"thesis", "grid", project, "--method", method, "--out", file});
         ASSERT_EQ(ended.exit_code, 0) << method << ended.err;
         EXPECT_EQ(std::ranges::count(content_of(file), '\n'), 12) << method;
+        const Ended again = run({"thesis",
+                                 "grid",
+                                 project,
+                                 "--method",
+                                 "uniform",
+                                 "--start",
+                                 file,
+                                 "--out",
+                                 scratch / "same.dat"});
+        EXPECT_EQ(again.exit_code, 0) << method << again.err;
+        EXPECT_EQ(content_of(scratch / "same.dat"), content_of(file)) << method << ": blocks are read back";
     }
 }
 
@@ -267,6 +305,12 @@ TEST(ThesisCommand, WritesTheFilesOfTheProjectsOwnMachineAndDirection) {
     EXPECT_EQ(std::ranges::count(own, '\n'), 2 * (7 * 5 - 1));
     EXPECT_EQ(path({"--constants", "listing"}), own) << "the dome is on the listing's machine";
     EXPECT_EQ(path({"--direction", "along-v", "--nodes", "7,5"}), own);
+    for (const char* list : {"5,", ",5", "5,,7"}) {
+        const Ended holed =
+            run({"thesis", "files", scratch / "dome.json", "--out", scratch / "out", "--nodes", list});
+        EXPECT_EQ(holed.exit_code, 2) << list;
+        EXPECT_THAT(holed.err, HasSubstr("has an empty place")) << list;
+    }
     EXPECT_NE(path({"--direction", "along-u"}), own);
     json["machine"]["workpiece_offset"] = {-15.0, 0.0, 100.0};
     written();

@@ -26,7 +26,7 @@ class Iverilog : public OracleTest {
 protected:
     Iverilog() : OracleTest("iverilog", "iverilog") {}
 
-    /// What the test bench of `module` prints.
+    /// What the test bench of `module` prints; its exit code is 0 exactly if that is PASS.
     [[nodiscard]] std::string simulated(const std::vector<RtlFile>& files, const std::string& module) const {
         const test::ScratchFolder folder;
         std::vector<std::string> arguments = {
@@ -40,7 +40,11 @@ protected:
         const ProgramRun compiled = run(arguments);
         EXPECT_EQ(compiled.exit_code, 0) << compiled.output;
         EXPECT_EQ(compiled.output, "");
-        return output_of("cd '" + folder.path().string() + "' && ./sim 2>&1 </dev/null");
+        std::string said =
+            output_of("cd '" + folder.path().string() + "' && ./sim 2>&1 </dev/null; echo exit code $?");
+        const std::string passed = "exit code 0\n";
+        EXPECT_EQ(said.starts_with("PASS"), said.ends_with(passed)) << said;
+        return said.substr(0, said.rfind("exit code"));
     }
 
     void expect_both_pass(const NumberFormat& format,

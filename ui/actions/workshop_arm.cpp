@@ -1,7 +1,9 @@
 // The part of the workshop that deals with the arm: what it shows, plays, and gives to its card.
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
+#include "core/kinematics/arm_motion_ways.h"
 #include "core/kinematics/arm_simulation.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
 #include "core/machine/drivers/pmac/pmac_file.h"
@@ -62,10 +64,6 @@ bool can_go_path(const Workbench& now, bool of_card) {
     const bool rests = status.state == DriverState::idle || status.state == DriverState::stopped;
     return of_card ? now.arm_connected() && rests && status.powered && status.position_known
                    : !now.arm_connected();
-}
-
-std::string counted(std::size_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 /// One notice of one kind of findings: a pile of them would hide what matters.
@@ -194,8 +192,18 @@ void Workshop::stream_motion_file() {
         kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
     const auto records = kinematics::simulate_arm(
         arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
-    arm_->play_stream(
-        std::make_shared<machine::SharedMemoryStream>(kinematics::first_turns_deg(records), deg_per_s));
+    auto stream =
+        std::make_shared<machine::SharedMemoryStream>(kinematics::first_turns_deg(records), deg_per_s);
+    if (kinematics::sets_feed(blocks)) {
+        tell(session_,
+             widgets::Severity::info,
+             fmt::format(
+                 "The stream does not use F: each move takes {:.0f} ms, in which no motor turns faster "
+                 "than {} degrees per second.",
+                 1e3 * stream->move_time(),
+                 deg_per_s));
+    }
+    arm_->play_stream(std::move(stream));
 }
 
 void Workshop::run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends) {

@@ -1,5 +1,6 @@
 #include "ui/panels/outline_rows.h"
 
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/project/left_out.h"
 #include "core/project/settings.h"
@@ -45,10 +46,9 @@ bool is_so_far(const project::Evaluation* evaluation) {
 }
 
 /// Short enough for its column however many they are.
-std::string counted(std::ptrdiff_t count, std::string_view what) {
-    constexpr std::ptrdiff_t told_whole = 100'000;
-    return count < told_whole ? fmt::format("{} {}", count, what)
-                              : fmt::format("{} k {}", (count + 500) / 1000, what);
+std::string short_count(std::ptrdiff_t count, std::string_view one) {
+    constexpr std::ptrdiff_t whole_below = 100'000;
+    return count < whole_below ? counted(count, one) : fmt::format("{} k {}s", (count + 500) / 1000, one);
 }
 
 /// Grids that are always made, or that the program uses.
@@ -84,14 +84,14 @@ std::vector<OutlineRow> outline_rows(const Workbench& now) {
     }
     rows.push_back({"toolpath",
                     "Toolpath",
-                    path ? mark + counted(std::ssize(path->field.moves), "moves") : "...",
+                    path ? mark + short_count(std::ssize(path->field.moves), "move") : "...",
                     Workspace::toolpath,
                     so_far});
     const std::string of_program = now.in_file() ? "" : mark; // an opened file is final
     const auto program = now.program();
     rows.push_back({"program",
                     "Program",
-                    program ? of_program + counted(program->block_count(), "blocks") : "...",
+                    program ? of_program + short_count(program->block_count(), "block") : "...",
                     Workspace::program,
                     program && !of_program.empty()});
     const auto trajectory = now.trajectory();

@@ -14,21 +14,26 @@ namespace millwright::panels {
 
 namespace {
 
-constexpr float least_height = 170.0F; // of the map; a lower pane scrolls
+// Of the map, px at scale 1: a lower pane scrolls.
+constexpr float least_height = 170.0F;
+constexpr float most_height = 2000.0F;
+constexpr float around_map = 70.0F; // title, axis and their numbers, across and down
 
 widgets::Colour gray_colour(double share) {
     const auto level = static_cast<widgets::Colour>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
     return 0xFF000000U | level << 16U | level << 8U | level;
 }
 
-/// In pixels of the file.
-plot::PixelRegion region_between(int row, int column, int other_row, int other_column, int side) {
+/// In pixels of the file; at its right and lower edge, where cells may have fewer, up to the edge.
+plot::PixelRegion
+region_between(int row, int column, int other_row, int other_column, const plot::Picture& shown) {
+    const int side = shown.file_pixels;
     const auto [top, bottom] = std::minmax(row, other_row);
     const auto [left, right] = std::minmax(column, other_column);
     return {.left = left * side,
             .top = top * side,
-            .width = (right - left + 1) * side,
-            .height = (bottom - top + 1) * side};
+            .width = right + 1 == shown.width ? 0 : (right - left + 1) * side,
+            .height = bottom + 1 == shown.height ? 0 : (bottom - top + 1) * side};
 }
 
 void change_region(ActionQueue& ask,
@@ -75,10 +80,21 @@ void PicturePane::mark(const Cell& corner, ActionQueue& ask) {
         return;
     }
     const Cell other = *std::exchange(first_, std::nullopt);
-    change_region(
-        ask,
-        "Mark a region",
-        region_between(other.row, other.column, corner.row, corner.column, shown_->picture.file_pixels));
+    change_region(ask,
+                  "Mark a region",
+                  region_between(other.row, other.column, corner.row, corner.column, shown_->picture));
+}
+
+float PicturePane::map_height(const Ui& ui) const {
+    const float fitting = std::max(ui.rest().h, ui.px(least_height));
+    if (!fills_width_) {
+        return fitting;
+    }
+    const double ratio =
+        shown_->cell.y() * shown_->picture.height / (shown_->cell.x() * shown_->picture.width);
+    const float around = ui.px(around_map);
+    const float filling = static_cast<float>(ratio) * std::max(ui.rest().w - around, 1.0F) + around;
+    return std::clamp(filling, fitting, std::max(fitting, ui.px(most_height)));
 }
 
 void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -89,7 +105,7 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     follow(made->shown_picture);
     const int side = shown_->picture.file_pixels;
     {
-        const auto line = ui.row(2);
+        const auto line = ui.row(3);
         const auto& region = now.plot.settings().picture.region;
         if (ui.button("whole",
                       "Whole picture",
@@ -97,6 +113,15 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                       {{}, widgets::Rank::normal, -1.0F, "Forgets the region that is cut"})) {
             first_.reset();
             change_region(ask, "Cut the whole picture", std::nullopt);
+        }
+        if (ui.button("size",
+                      fills_width_ ? "Fit the pane" : "Fill the width",
+                      {},
+                      {{},
+                       widgets::Rank::normal,
+                       -1.0F,
+                       fills_width_ ? "Shows the whole map" : "A larger map, which scrolls"})) {
+            fills_width_ = !fills_width_;
         }
         ui.note(
             first_ ? "Click the opposite corner of the region."
@@ -114,7 +139,7 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.y = y_;
     view.values = gray_;
     view.same_scale = true;
-    view.height = std::max(ui.rest().h, ui.px(least_height));
+    view.height = map_height(ui);
     view.colours = gray_colour;
     view.when_empty = "The picture has one row or column only.";
     view.readout = [this](std::size_t column, std::size_t row) {

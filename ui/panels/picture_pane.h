@@ -24,10 +24,13 @@ private:
     void follow(const std::shared_ptr<const project::ShownPicture>& shown);
     [[nodiscard]] Cell cell_at(double x, double y) const;
     void mark(const Cell& corner, ActionQueue& ask);
+    /// px
+    [[nodiscard]] float map_height(const Ui& ui) const;
 
     std::shared_ptr<const project::ShownPicture> shown_; ///< of which the rest is
     std::vector<double> x_, y_, gray_;                   ///< as heat_map() takes them
     std::optional<Cell> first_;                          ///< corner of a region
+    bool fills_width_ = false;
 };
 
 } // namespace millwright::panels

@@ -1,5 +1,7 @@
 #include "ui/panels/processor_blocks.h"
 
+#include "core/base/counted.h"
+
 #include <fmt/format.h>
 
 #include <string_view>
@@ -76,8 +78,8 @@ std::vector<std::string> sequencer_lines(const Processor& processor) {
 }
 
 std::vector<std::string> port_lines(const Processor& processor) {
-    std::vector<std::string> lines{
-        fmt::format("{} points, {} cmd", processor.published().size(), processor.commanded().size())};
+    std::vector<std::string> lines{fmt::format(
+        "{}, {} cmd", counted(processor.published().size(), "point"), processor.commanded().size())};
     if (!processor.published().empty()) {
         const auto last = processor.set_point(processor.published().back());
         lines.push_back(fmt::format("X {:.7g}", last.x));

@@ -1,5 +1,6 @@
 #include "ui/panels/processor_panel.h"
 
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "ui/actions/processor_bench.h"
@@ -82,7 +83,7 @@ std::string followed_text(const ProcessorBench& bench) {
 }
 
 std::string late_text(std::int64_t late, std::int64_t stitches) {
-    return fmt::format("{} of {} stitches", late, stitches);
+    return fmt::format("{} of {}", late, counted(stitches, "stitch", "stitches"));
 }
 
 std::string register_text(const cordic::Processor& processor, Register name) {
@@ -325,9 +326,9 @@ void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask)
         const int iterations = image.made_for.iterations;
         ui.value("says",
                  "The text is for",
-                 fmt::format("{}, {} steps",
+                 fmt::format("{}, {}",
                              cordic::to_text(image.format),
-                             iterations == 0 ? thesis_steps : iterations));
+                             counted(iterations == 0 ? thesis_steps : iterations, "step")));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "ui/panels/processor_path.h"
 
+#include "core/base/counted.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/panels/titled_drawing.h"
 #include "ui/render/color_map.h"
@@ -133,7 +134,9 @@ void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
     const std::size_t done = processor.published().size();
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const Rect inside = below_title(
-        ui, place, fmt::format("Tool path, {} of {} set-points", done, now.processor.set_points()));
+        ui,
+        place,
+        fmt::format("Tool path, {} of {}", done, counted(now.processor.set_points(), "set-point")));
     const widgets::Canvas canvas = widgets::canvas(ui, "path", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-point.");
@@ -188,11 +191,11 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const double worst = now.processor.report().position_error;
     const std::span<const std::size_t> late = now.processor.report().late;
-    const Rect inside =
-        below_title(ui,
-                    place,
-                    late.empty() ? std::string("CORDIC path against the exact one")
-                                 : fmt::format("CORDIC path, exact path; {} set-points late", late.size()));
+    const Rect inside = below_title(
+        ui,
+        place,
+        late.empty() ? std::string("CORDIC path against the exact one")
+                     : fmt::format("CORDIC path, exact path; {} late", counted(late.size(), "set-point")));
     (void)widgets::canvas(ui, "map", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-point.");

@@ -1,5 +1,6 @@
 #include "ui/panels/start_sheet.h"
 
+#include "core/base/counted.h"
 #include "core/base/units.h"
 #include "core/gcode/reader/axes.h"
 #include "ui/panels/internal/fields.h"
@@ -129,7 +130,7 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                  "Program",
                  wish.job->from_line > 1
                      ? fmt::format("{}, from line {}", wish.job->name, wish.job->from_line)
-                     : fmt::format("{}, {} blocks", wish.job->name, wish.job->block_count()));
+                     : fmt::format("{}, {}", wish.job->name, counted(wish.job->block_count(), "block")));
         ui.value("machine", "Machine", wish.machine);
         const bool verified = status.position_known && status.position_doubt.empty();
         ui.value(

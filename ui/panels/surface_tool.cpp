@@ -1,5 +1,6 @@
 #include "ui/panels/surface_tool.h"
 
+#include "core/base/counted.h"
 #include "core/project/grids.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
@@ -144,10 +145,9 @@ void outline_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::vector<Vec2>& draft = now.session.surface_tool.draft;
     const grid::Region& region = now.project.grid.elliptic.region;
     if (!draft.empty()) {
-        ui.note(
-            fmt::format("{} corners. Click on the surface for more, on the first one to close the outline; "
-                        "Esc drops it.",
-                        draft.size()));
+        ui.note(fmt::format("{}. Click on the surface for more, on the first one to close the outline; "
+                            "Esc drops it.",
+                            counted(draft.size(), "corner")));
         return;
     }
     ui.note(region.everywhere() ? "Click corners on the surface; the grid adapts inside of them alone."

@@ -1,5 +1,6 @@
 #include "ui/panels/tool_fields.h"
 
+#include "core/base/counted.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -46,17 +47,17 @@ void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
     ui.note(as_sentence(project::checked_text(project)));
     ui.value("bites",
              "Too deep",
-             fmt::format("{} blocks", of_cutter),
+             fmt::format("{}", counted(of_cutter, "block")),
              "",
              "Blocks in which the cutter goes below the surface: the tab Gouges lists them");
     ui.value("holder_bites",
              "Holder in the part",
-             fmt::format("{} blocks", of_holder),
+             fmt::format("{}", counted(of_holder, "block")),
              "",
              "Blocks in which the holder touches the part");
     ui.value("local",
              "Does not fit",
-             fmt::format("{} nodes", cut.local_gouges.size()),
+             fmt::format("{}", counted(cut.local_gouges.size(), "node")),
              "",
              "Places where the surface is bent more tightly than the cutter");
     if (!cut.bites.empty() || !cut.local_gouges.empty()) {

@@ -11,6 +11,7 @@
 #include "ui/render/convert.h"
 #include "ui/render/framebuffer.h"
 #include "ui/render/imgui_session.h"
+#include "ui/render/ink.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
 #include "ui/render/picture.h"

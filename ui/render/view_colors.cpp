@@ -1,9 +1,12 @@
 #include "ui/render/view_colors.h"
 
+#include "ui/render/color_map.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 namespace millwright::render {
 
@@ -85,6 +88,32 @@ ViewColors light() {
             .axis_z = rgb(36, 96, 200)};
 }
 
+/// Takes from `other` what is seen better there on `background`, of what is not seen well.
+void keep_off(ViewColors& colors,
+              const glm::vec3& background,
+              const ViewColors& other,
+              const LayerColors& chosen) {
+    constexpr double visible = 2.4;
+    const auto choose = [&](glm::vec3 ViewColors::*mark) {
+        const double now = contrast(colors.*mark, background);
+        if (now < visible && contrast(other.*mark, background) > now) {
+            colors.*mark = other.*mark;
+        }
+    };
+    for (glm::vec3 ViewColors::*const mark :
+         {&ViewColors::net, &ViewColors::handle, &ViewColors::selected, &ViewColors::rapid}) {
+        choose(mark);
+    }
+    for (const auto& [which, mark] : {std::pair(LayerColor::toolpath, &ViewColors::path),
+                                      {LayerColor::axis_x, &ViewColors::axis_x},
+                                      {LayerColor::axis_y, &ViewColors::axis_y},
+                                      {LayerColor::axis_z, &ViewColors::axis_z}}) {
+        if (!chosen.of(which)) {
+            choose(mark);
+        }
+    }
+}
+
 } // namespace
 
 std::span<const LayerColorInfo> layer_color_infos() {
@@ -146,6 +175,9 @@ ViewColors view_colors(Theme theme, const LayerColors& chosen) {
     take(LayerColor::axis_x, colors.axis_x);
     take(LayerColor::axis_y, colors.axis_y);
     take(LayerColor::axis_z, colors.axis_z);
+    if (const auto& background = chosen.of(LayerColor::background)) {
+        keep_off(colors, *background, view_colors(theme == Theme::dark ? Theme::light : Theme::dark), chosen);
+    }
     colors.chosen = chosen;
     return colors;
 }

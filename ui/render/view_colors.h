@@ -96,7 +96,7 @@ struct ViewColors {
 };
 
 [[nodiscard]] ViewColors view_colors(Theme theme);
-/// With the chosen colours in place of the theme's.
+/// With the chosen ones. What is not seen on a chosen background is of the other theme.
 [[nodiscard]] ViewColors view_colors(Theme theme, const LayerColors& chosen);
 
 } // namespace millwright::render

@@ -5,9 +5,9 @@
 #include "ui/render/view_target.h"
 #include "ui/viewport/internal/axis_gizmo.h"
 #include "ui/viewport/internal/desk.h"
-#include "ui/viewport/internal/grid_lines.h"
 #include "ui/viewport/internal/overlay.h"
 #include "ui/viewport/internal/sheet.h"
+#include "ui/viewport/internal/view_notes.h"
 #include "ui/viewport/machine_sight.h"
 #include "ui/viewport/picture_facts.h"
 #include "ui/viewport/scene_view.h"
@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace millwright::viewport {
 
@@ -47,6 +49,9 @@ std::vector<Part> parts_of(const project::Project& project,
         part.scene.now = moment_at(*part.scene.shown, machine_moment);
     }
     if (kind == ViewKind::produced) {
+        if (std::string note = produced_note(part.scene); !note.empty()) {
+            throw Error(std::move(note), {}, "--view toolpath and --view error draw this path");
+        }
         part.caption = "Produced";
         Part designed = {.scene = part.scene, .caption = "Designed"};
         designed.scene.layers.surface = designed.scene.layers.surface_lines = true;
@@ -98,7 +103,7 @@ public:
         render::show(target_, {place_.w, place_.h});
         const Pane pane = {.rect = place_, .view = view_, .colors = colors};
         draw_labels(ui, pane, visible_labels(scene_, part_.scene, picker_, pane));
-        draw_caption(ui, pane, {}, grid_lines_note(part_.scene, view_));
+        draw_caption(ui, pane, {}, view_notes(part_.scene, view_));
     }
 
     [[nodiscard]] Pane pane(const widgets::Rect& free, const render::ViewColors& colors) const {

@@ -27,7 +27,8 @@ struct PictureLook {
 
 /// The same bytes each time. Makes a context of its own, which is current while it draws: a caller that has
 /// one makes it current again. Not within a frame of ImGui. `machine_solids` as in a Scene. Throws Error if
-/// there is no EGL or no OpenGL 3.3, Defect if the size has no area.
+/// there is no EGL or no OpenGL 3.3, or where the path has no produced surface to show; Defect if the size
+/// has no area.
 [[nodiscard]] render::Picture render_view(const project::Project& project,
                                           const project::Plan& plan,
                                           ViewKind kind,

@@ -1,5 +1,6 @@
 #include "ui/viewport/picture_facts.h"
 
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/strategy_path.h"
@@ -15,10 +16,6 @@ using project::GridMethod;
 
 std::string times(int a, int b) {
     return std::to_string(a) + " \u00D7 " + std::to_string(b);
-}
-
-std::string counted(std::size_t count, const std::string& one) {
-    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
 /// Lengths to a micrometre, what is larger than a metre to a tenth of a millimetre.

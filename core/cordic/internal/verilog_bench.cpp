@@ -79,7 +79,10 @@ std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& be
 )";
     text += bench.compares;
     return text + R"(        if (wrong == 0) $display("PASS %0d vectors", COUNT);
-        else $display("FAIL %0d", wrong);
+        else begin
+            $display("FAIL %0d", wrong);
+            $fatal(1);    // the simulator's exit code is not 0
+        end
         $finish;
     end
 endmodule

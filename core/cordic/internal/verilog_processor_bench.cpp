@@ -249,7 +249,10 @@ PAGES                default: ;
         end
         if (wrong == 0 && line == LINES && taken == RECORD_TOTAL)
             $display("PASS %0d instructions, %0d clocks, %0d set-points and commands", INSTRUCTIONS, total, taken);
-        else $display("FAIL %0d of %0d lines, %0d of %0d records", wrong, LINES, taken, RECORD_TOTAL);
+        else begin
+            $display("FAIL %0d of %0d lines, %0d of %0d records", wrong, LINES, taken, RECORD_TOTAL);
+            $fatal(1);    // the simulator's exit code is not 0
+        end
         $finish;
     end
 endmodule
@@ -291,7 +294,10 @@ constexpr std::string_view sequencer_bench_text = R"(module micro_sequencer_tb;
             clk = 0;
         end
         if (wrong == 0) $display("PASS %0d operations", COUNT);
-        else $display("FAIL %0d", wrong);
+        else begin
+            $display("FAIL %0d", wrong);
+            $fatal(1);    // the simulator's exit code is not 0
+        end
         $finish;
     end
 endmodule

@@ -1,5 +1,6 @@
 #include "core/exchange/internal/soup.h"
 
+#include "core/base/counted.h"
 #include "core/exchange/mesh_file.h"
 
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ void Soup::add_point(const Vec3& point, int line) {
 
 void Soup::add_face(std::span<const int> corners, int line) {
     if (corners.size() < 3) {
-        fail(fmt::format("a face has {} corners", corners.size()), line);
+        fail(fmt::format("a face has {}", counted(corners.size(), "corner")), line);
     }
     if (std::ssize(corners) > most_corners) {
         fail(fmt::format("a face has more than {} corners", most_corners), line);

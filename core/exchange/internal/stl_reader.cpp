@@ -1,3 +1,4 @@
+#include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/exchange/internal/mesh_readers.h"
 #include "core/exchange/internal/word_lines.h"
@@ -106,7 +107,8 @@ void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
             ++corners;
         } else if (word == "endloop") {
             if (corners != 3) {
-                soup.fail(fmt::format("a loop of {} corners", std::max(corners, 0)), lines.number());
+                soup.fail(fmt::format("a loop of {}", counted(std::max(corners, 0), "corner")),
+                          lines.number());
             }
             const int last = static_cast<int>(soup.point_count());
             soup.add_face(std::array{last - 3, last - 2, last - 1}, lines.number());

@@ -1,5 +1,6 @@
 #include "core/gcode/reader/klartext.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/gcode/reader/internal/programmed_feed.h"
@@ -109,7 +110,7 @@ private:
     [[nodiscard]] std::vector<Word> behind(std::string_view text, std::size_t count) const {
         const std::size_t head = words_of(text).size();
         if (words_.size() != head + count) {
-            refuse(end_column(), fmt::format("{} is followed by {} words", text, count));
+            refuse(end_column(), fmt::format("{} is followed by {}", text, counted(count, "word")));
         }
         return {words_.begin() + static_cast<std::ptrdiff_t>(head), words_.end()};
     }

@@ -16,6 +16,9 @@ namespace millwright::grid {
 
 [[nodiscard]] std::string iteration_sentence(const ImproverState& state, int iteration);
 
+/// That the solver did not converge in the round that has just ended, after so many iterations of it.
+[[nodiscard]] std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance);
+
 /// Of the refused grids those with a lower mean than the one that was taken: how good they were, and why not.
 /// `too_wide` and `worse_elsewhere` are their means, mm.
 [[nodiscard]] std::string refusals(const std::vector<double>& too_wide,

@@ -1,5 +1,6 @@
 #include "core/machine/internal/end_sentence.h"
 
+#include "core/base/counted.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 
@@ -8,8 +9,15 @@
 namespace millwright::machine::internal {
 
 std::string done_text(int executed_blocks, int blocks, bool answers) {
-    return fmt::format(
-        "{} of {} blocks were {}", executed_blocks, blocks, answers ? "executed for certain" : "sent");
+    return fmt::format("{} of {} {} {}",
+                       executed_blocks,
+                       counted(blocks, "block"),
+                       executed_blocks == 1 ? "was" : "were",
+                       answers ? "executed for certain" : "sent");
+}
+
+std::string all_blocks_text(int blocks) {
+    return blocks == 1 ? "the only block was" : fmt::format("all {} blocks were", blocks);
 }
 
 std::string
@@ -21,12 +29,13 @@ end_sentence(JobEnd end, const DriverStatus& status, const JobOutcome& outcome, 
                                       : std::string());
     switch (end) {
     case JobEnd::done:
-        return answers
-                   ? fmt::format("All {} blocks were executed in {}.", outcome.blocks, time)
-                   : fmt::format("All {} blocks were sent in {}. The machine gives no answers: whether it "
-                                 "executed them is not known.",
-                                 outcome.blocks,
-                                 time);
+        return capitalised(all_blocks_text(outcome.blocks)) +
+               (answers
+                    ? fmt::format(" executed in {}.", time)
+                    : fmt::format(" sent in {}. The machine gives no answers: whether it executed {} is not "
+                                  "known.",
+                                  time,
+                                  outcome.blocks == 1 ? "it" : "them"));
     case JobEnd::stopped:
         return fmt::format("The machine was stopped: {}.", executed);
     case JobEnd::cancelled:

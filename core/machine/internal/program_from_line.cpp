@@ -1,5 +1,6 @@
 #include "core/machine/internal/program_from_line.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/gcode/program_settings.h"
 #include "core/gcode/retract.h"
@@ -32,7 +33,7 @@ using kinematics::MachineModel;
 int first_block(const Job& job, int line) {
     const Listing& listing = *job.listing;
     if (line < 1 || line > listing.line_count()) {
-        refuse(job, line, fmt::format("the program has {} lines", listing.line_count()));
+        refuse(job, line, fmt::format("the program has {}", counted(listing.line_count(), "line")));
     }
     const auto found = std::ranges::lower_bound(listing.line_of_block, line);
     if (found == listing.line_of_block.end()) {

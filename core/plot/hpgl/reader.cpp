@@ -1,5 +1,6 @@
 #include "core/plot/hpgl/reader.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -172,7 +173,7 @@ private:
         }
         if (!row.count.allows(numbers_.size())) {
             problems_.add(command.byte,
-                          fmt::format("{} cannot have {} numbers", command.name, numbers_.size()));
+                          fmt::format("{} cannot have {}", command.name, counted(numbers_.size(), "number")));
             return false;
         }
         return true;

@@ -1,6 +1,7 @@
 #include "core/plot/picture/picture.h"
 
 #include "core/base/file_snapshot.h"
+#include "core/plot/picture/file_pixels.h"
 #include "core/plot/picture/internal/exif.h"
 #include "core/plot/picture/internal/row_sink.h"
 #include "core/plot/picture/internal/square_pixels.h"
@@ -9,16 +10,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace millwright::plot {
 
 namespace {
+
+using internal::PixelShape;
 
 /// Cameras lay their pictures down as they were held, and say so.
 ReadPicture read_turned(std::string_view bytes,
                         const std::filesystem::path& file,
                         PictureSettings settings,
                         const Progress& progress,
+                        PixelShape& shape,
                         const internal::PictureTurn& turn,
                         void (*read_rows)(std::string_view bytes, internal::RowSink& sink)) {
     if (settings.region && turn.orientation != 1) {
@@ -26,9 +31,12 @@ ReadPicture read_turned(std::string_view bytes,
     }
     internal::RowSink sink(settings, file, progress);
     read_rows(bytes, sink);
-    ReadPicture read = sink.end();
+    ReadPicture read = sink.end(shape);
     if (turn.orientation != 1) {
         read.picture = internal::turned(read.picture, turn.orientation);
+    }
+    if (internal::lies(turn.orientation)) {
+        std::swap(shape.width, shape.height);
     }
     return read;
 }
@@ -36,14 +44,15 @@ ReadPicture read_turned(std::string_view bytes,
 ReadPicture read_rows_of(std::string_view bytes,
                          const std::filesystem::path& file,
                          const PictureSettings& settings,
-                         const Progress& progress) {
+                         const Progress& progress,
+                         PixelShape& shape) {
     if (bytes.starts_with("\xff\xd8")) {
         return read_turned(
-            bytes, file, settings, progress, internal::jpeg_turn(bytes), internal::read_jpeg_rows);
+            bytes, file, settings, progress, shape, internal::jpeg_turn(bytes), internal::read_jpeg_rows);
     }
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) {
         return read_turned(
-            bytes, file, settings, progress, internal::png_turn(bytes), internal::read_png_rows);
+            bytes, file, settings, progress, shape, internal::png_turn(bytes), internal::read_png_rows);
     }
     internal::RowSink sink(settings, file, progress);
     if (bytes.starts_with("BM")) {
@@ -54,7 +63,7 @@ ReadPicture read_rows_of(std::string_view bytes,
         sink.fail(bytes.empty() ? "the file is empty" : "this is no picture that can be read",
                   "PNG, JPEG, BMP, PGM and PPM files can be read");
     }
-    return sink.end();
+    return sink.end(shape);
 }
 
 /// Every band becomes one brightness.
@@ -94,7 +103,8 @@ ReadPicture read_picture(std::string_view bytes,
                          const PictureSettings& settings,
                          const Progress& progress) {
     expect_in_range(settings);
-    ReadPicture read = read_rows_of(bytes, file, settings, progress);
+    PixelShape shape;
+    ReadPicture read = read_rows_of(bytes, file, settings, progress, shape);
     const int rows = std::max(1, static_cast<int>(std::lround(read.picture.height * settings.pixel_aspect)));
     if (rows != read.picture.height) {
         read.picture = internal::with_rows(read.picture, rows);
@@ -110,6 +120,19 @@ ReadPicture read_picture_file(const std::filesystem::path& file,
                               const Progress& progress) {
     const FileSnapshot bytes(file, progress);
     return read_picture(bytes.text(), file, settings, progress);
+}
+
+FilePixels read_file_pixels(const std::filesystem::path& file,
+                            const PictureSettings& settings,
+                            const Progress& progress) {
+    expect_in_range(settings);
+    const FileSnapshot bytes(file, progress);
+    PixelShape shape{.stays = true};
+    Picture picture = read_rows_of(bytes.text(), file, settings, progress, shape).picture;
+    if (settings.gray_steps > 0) {
+        make_steps(picture, settings.gray_steps);
+    }
+    return {.picture = std::move(picture), .pixel_width = shape.width, .pixel_height = shape.height};
 }
 
 } // namespace millwright::plot

@@ -1,5 +1,6 @@
 #include "core/plot/picture/relief_plan.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/plot/standing_tabs.h"
 
@@ -27,9 +28,9 @@ void expect_tabs_fit(const Tabs& tabs, double plate, double around, double tool)
             fmt::format("the frame: tabs of {:.6g} mm stand above a plate of {:.6g} mm", tabs.height, plate));
     }
     if (!(tabs.count * (tabs.width + tool) < around)) {
-        throw Error(fmt::format("the frame: {} tabs of {:.6g} mm do not fit on a way of {:.6g} mm around it: "
+        throw Error(fmt::format("the frame: {} of {:.6g} mm do not fit on a way of {:.6g} mm around it: "
                                 "each takes {:.6g} mm more, the width of the tool",
-                                tabs.count,
+                                counted(tabs.count, "tab"),
                                 tabs.width,
                                 around,
                                 tool),

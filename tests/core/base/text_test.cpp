@@ -1,5 +1,6 @@
 #include "core/base/text.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 
@@ -86,6 +87,14 @@ TEST(Text, ShowsShortTimesInSeconds) {
     EXPECT_EQ(short_time(0.163), "0.16 s");
     EXPECT_EQ(short_time(59.2), "59.20 s");
     EXPECT_EQ(short_time(61.0), "00:01:01");
+}
+
+TEST(Text, CountsInThePluralExceptOfOne) {
+    EXPECT_EQ(counted(0, "point"), "0 points");
+    EXPECT_EQ(counted(1, "point"), "1 point");
+    EXPECT_EQ(counted(2, "point"), "2 points");
+    EXPECT_EQ(counted(1, "axis", "axes"), "1 axis");
+    EXPECT_EQ(counted(3, "axis", "axes"), "3 axes");
 }
 
 TEST(ExactlyEqual, IsEqualityAndNothingElse) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace millwright::grid {
 namespace {
@@ -106,8 +107,8 @@ TEST(GridFile, BadBlocksAreNamedWithTheirPlace) {
     EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1\n"),
               "grid.dat:3:1: Two blocks need an even number of lines, at least 4; here are 3");
     EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1 2\n0 1\n"), "grid.dat:3:5: 3 numbers in this line, 2 are needed");
-    EXPECT_EQ(diagnostic_of("0 0\n1\n0 1\n0 1\n"), "grid.dat:2:1: 1 numbers in this line, 2 are needed");
-    EXPECT_EQ(diagnostic_of("0\n1\n0\n1\n"), "grid.dat:1:1: 1 numbers in this line, 2 are needed");
+    EXPECT_EQ(diagnostic_of("0 0\n1\n0 1\n0 1\n"), "grid.dat:2:1: 1 number in this line, 2 are needed");
+    EXPECT_EQ(diagnostic_of("0\n1\n0\n1\n"), "grid.dat:1:1: 1 number in this line, 2 are needed");
     EXPECT_EQ(diagnostic_of("0 0\n1  one\n0 1\n0 1\n"), "grid.dat:2:4: \"one\" is no number");
     EXPECT_EQ(diagnostic_of("0 0\n1 1,5\n0 1\n0 1\n"), "grid.dat:2:3: \"1,5\" is no number");
     EXPECT_EQ(diagnostic_of("0 0\n1 nan\n0 1\n0 1\n"), "grid.dat:2:3: \"nan\" is not finite");
@@ -121,9 +122,56 @@ TEST(GridFile, BadBlocksAreNamedWithTheirPlace) {
 TEST(GridFile, AFoldedGridIsNamedByItsFirstCell) {
     NodeArray nodes = unit_spaced(4, 4);
     nodes.at(2, 2) = Vec2(0.5, 0.5);
-    EXPECT_EQ(diagnostic_of(blocks_text(nodes)), "grid.dat:2:28: The cell from node (1, 1) is folded");
+    EXPECT_EQ(diagnostic_of(blocks_text(nodes)), "grid.dat:3:47: The cell from node (1, 1) is folded");
     EXPECT_EQ(pairs_diagnostic_of(pairs_text(nodes), 4, 4),
-              "start.dat:6:1: The cell from node (1, 1) is folded");
+              "start.dat:11:1: The cell from node (1, 1) is folded");
+    nodes.at(2, 2) = Vec2(2.0, 0.5); // of which y is wrong
+    EXPECT_EQ(diagnostic_of(blocks_text(nodes)), "grid.dat:7:47: The cell from node (1, 1) is folded");
+    EXPECT_EQ(pairs_diagnostic_of(pairs_text(nodes), 4, 4),
+              "start.dat:11:12: The cell from node (1, 1) is folded");
+}
+
+std::string either_diagnostic_of(const std::string& text, const WantedNodes& wanted) {
+    try {
+        (void)parse_nodes(text, "start.dat", wanted);
+    } catch (const Error& error) {
+        return to_text(error.diagnostic());
+    }
+    return "read";
+}
+
+// What is written in either form is read without saying which.
+TEST(GridFile, TheFormIsFoundFromTheLines) {
+    for (const auto& [rows, columns] : {std::pair(12, 8), {8, 12}, {5, 2}, {2, 5}, {2, 2}, {4, 4}, {3, 2}}) {
+        NodeArray nodes = unit_spaced(rows, columns);
+        nodes.at(0, 1).x() = 0.125;
+        nodes.at(1, 0).y() = 0.25;
+        const WantedNodes wanted{.rows = rows, .columns = columns, .most = Vec2(rows - 1, columns - 1)};
+        EXPECT_EQ(parse_nodes(pairs_text(nodes), "start.dat", wanted), nodes) << rows << " " << columns;
+        EXPECT_EQ(parse_nodes(blocks_text(nodes), "start.dat", wanted), nodes) << rows << " " << columns;
+    }
+    EXPECT_EQ(either_diagnostic_of("0 0.25\n0 0.5\n0.5 0.75\n0.25 0.75\n", {.rows = 2, .columns = 2}),
+              "start.dat: this can be read as pairs and as blocks (name the form)");
+    EXPECT_EQ(either_diagnostic_of("0 0.25\n0 0.5\n0.5 0.75\n0.25 0.75\n",
+                                   {.rows = 2, .columns = 2, .form = FileForm::pairs}),
+              "read");
+    EXPECT_EQ(
+        either_diagnostic_of(blocks_text(unit_spaced(3, 4)), {.rows = 4, .columns = 3}),
+        "start.dat:1:9: The cell from node (0, 0) has no area of its own: nodes (0, 0) and (0, 1) are in "
+        "one place");
+    EXPECT_EQ(either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
+                                   {.rows = 4, .columns = 3, .form = FileForm::blocks}),
+              "start.dat: 3 x 4 nodes, and 4 x 3 are needed");
+}
+
+TEST(GridFile, ACoordinateOutsideOfTheSurfaceIsNamedWithItsOwnPlace) {
+    NodeArray nodes = unit_spaced(4, 4);
+    nodes.at(2, 1).y() = -0.5;
+    const WantedNodes wanted{.rows = 4, .columns = 4, .most = Vec2(3.0, 3.0)};
+    EXPECT_EQ(either_diagnostic_of(blocks_text(nodes), wanted),
+              "start.dat:7:27: y of node (2, 1) is -0.5, outside of the surface: it goes from 0 to 3");
+    EXPECT_EQ(either_diagnostic_of(pairs_text(nodes), wanted),
+              "start.dat:10:12: y of node (2, 1) is -0.5, outside of the surface: it goes from 0 to 3");
 }
 
 TEST(GridFile, ACellWithoutAreaIsNamedWithWhatItsNodesDo) {

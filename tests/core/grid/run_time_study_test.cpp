@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace millwright::grid {
@@ -39,10 +41,13 @@ TEST(RunTimeStudy, ComparesEveryNumberOfThreadsWithTheFirst) {
     EXPECT_EQ(study.runs[2].threads, 3);
     EXPECT_EQ(study.runs[3].side, 9);
     EXPECT_DOUBLE_EQ(study.runs[0].speed_up, 1.0);
-    // Looks 1 and 2 are of the first run: 2 apart; each later run is 2 longer. The fastest counts.
-    EXPECT_DOUBLE_EQ(study.runs[0].wall, 2.0);
-    EXPECT_DOUBLE_EQ(study.runs[1].wall, 4.0);
-    EXPECT_DOUBLE_EQ(study.runs[1].speed_up, 0.5);
+    // Look 1 is of the whole study, looks 2 and 3 are of the first run: 3 apart; each later run is 2 longer.
+    // The fastest counts.
+    EXPECT_DOUBLE_EQ(study.runs[0].wall, 3.0);
+    EXPECT_DOUBLE_EQ(study.runs[1].wall, 5.0);
+    EXPECT_DOUBLE_EQ(study.runs[1].speed_up, 0.6);
+    EXPECT_DOUBLE_EQ(study.one_thread_share, 0.0) << "the processor's clock did not move";
+    EXPECT_FALSE(study.other_cores);
     for (const RunTime& run : study.runs) {
         EXPECT_TRUE(run.same_nodes) << run.side << " " << run.threads;
     }
@@ -52,6 +57,38 @@ TEST(RunTimeStudy, ComparesEveryNumberOfThreadsWithTheFirst) {
             EXPECT_GT(part, 0.0);
         }
     }
+}
+
+// Clocks that go on by themselves: per look at the wall clock the process uses 0.75 s, the machine 2 s.
+TEST(RunTimeStudy, TellsWhatOtherProgramsUsed) {
+    double now = 0.0;
+    const StudyClocks clocks{.wall = [&] { return now += 1.0; },
+                             .processor = [&] { return 0.75 * now; },
+                             .machine = [&] { return std::optional(2.0 * now); }};
+    const RunTimeStudy study =
+        run_time_study({.sides = {5}, .threads = {2, 1}, .iterations = 3, .repeats = 4}, clocks, Progress());
+    ASSERT_TRUE(study.other_cores);
+    EXPECT_NEAR(*study.other_cores, 1.25, 0.1);
+    double wall = 0.0, processor = 0.0; // 3 s of processor time in the 4 s of each run
+    const RunTimeStudy shared =
+        run_time_study({.sides = {5, 6}, .threads = {1, 2}, .iterations = 1, .repeats = 3},
+                       {.wall = [&] { return wall += 4.0; }, .processor = [&] { return processor += 3.0; }},
+                       Progress());
+    EXPECT_DOUBLE_EQ(shared.one_thread_share, 0.75);
+    EXPECT_FALSE(shared.other_cores);
+}
+
+TEST(RunTimeStudy, RunsUntimedBeforeTheFirstRunAsLongAsAsked) {
+    int looks = 0;
+    const auto wall = [&] { return static_cast<double>(++looks); };
+    const auto none = [] { return 0.0; };
+    const RunTimeSettings cold{.sides = {5}, .iterations = 1, .repeats = 1};
+    (void)run_time_study(cold, {.wall = wall, .processor = none}, Progress());
+    const int looks_when_cold = std::exchange(looks, 0);
+    RunTimeSettings warm = cold;
+    warm.warm_up = 10.0;
+    (void)run_time_study(warm, {.wall = wall, .processor = none}, Progress());
+    EXPECT_EQ(looks, looks_when_cold + 1 + 10) << "the begin, and one look before each untimed run";
 }
 
 TEST(RunTimeStudy, StopsWhereItIsCancelled) {

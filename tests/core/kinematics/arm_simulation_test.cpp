@@ -170,7 +170,7 @@ TEST(ArmMotionWays, NeedAFeedAboveNothing) {
     const ArmModel arm = test::arm("motoman-l3");
     EXPECT_THAT(
         reason([&] { (void)ways_of(arm, parse_arm_motion("X1;\nX1 F0;", "a.mot"), arm_home(), "a.mot"); }),
-        HasSubstr("a.mot:2: a feed is above 0"));
+        HasSubstr("a.mot:2: the feed F has to be above 0"));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "core/project/opened_program.h"
 #include "core/project/plot_settings.h"
 #include "core/project/plot_time.h"
+#include "tests/support/bmp_shape.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
@@ -182,6 +183,29 @@ TEST(PlotWork, EveryNumberOfTheSettingsCounts) {
     for (const auto& setting : plot_numbers()) {
         EXPECT_TRUE(tried.contains(setting.id)) << setting.id;
     }
+}
+
+// The gray map has the file's own rows, which a region counts; the cut has square pixels.
+TEST(PlotWork, APictureWhosePixelsAreNotSquareIsShownAsItIsCut) {
+    const test::ScratchFolder scratch;
+    test::write_bmp(scratch / "high.bmp", 256, 256, 10'000, 5'000); // each 0.1 x 0.2 mm
+    PlotInput input = picture_input(PictureUse::relief);
+    input.file = scratch / "high.bmp";
+    input.settings.size = {};
+    const auto whole = derived(input);
+    ASSERT_FALSE(whole->failure) << to_text(*whole->failure);
+    ASSERT_TRUE(whole->shown_picture);
+    EXPECT_EQ(whole->shown_picture->picture.height, 256);
+    EXPECT_LT((whole->shown_picture->cell - Vec2(0.1, 0.2)).norm(), 1e-9);
+    EXPECT_LT((whole->picture_size - Vec2(25.6, 51.2)).norm(), 1e-9);
+    input.settings.picture.region = plot::PixelRegion{30, 100, 60, 50};
+    const auto part = derived(input);
+    ASSERT_FALSE(part->failure) << to_text(*part->failure);
+    EXPECT_LT((part->picture_size - Vec2(6.0, 10.0)).norm(), 1e-9);
+    // Its lower left pixel is at the origin: 30 pixels are at its left, 106 below.
+    EXPECT_LT((part->shown_picture->corner - input.settings.origin - Vec2(-3.0, -21.2)).norm(), 1e-9);
+    input.settings.picture.pixel_aspect = 0.5; // times what the file says
+    EXPECT_LT((derived(input)->shown_picture->cell - Vec2(0.1, 0.1)).norm(), 1e-9);
 }
 
 TEST(PlotWork, ToolsAreChangedAtAPlaceOfTheMachine) {

@@ -6,6 +6,7 @@
 #include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace millwright::toolpath {
@@ -13,6 +14,7 @@ namespace {
 
 using grid::Grid;
 using grid::TrackDirection;
+using ::testing::HasSubstr;
 
 struct Made {
     kinematics::MachineModel machine = test::machine("rotary-tilt-listing");
@@ -47,17 +49,25 @@ TEST(ProducedSurface, HasTheMiddlesOfTheMovesOnTracksThatAllGoTheSameWay) {
     }
 }
 
-TEST(ProducedSurface, IsNoneWhereNoTracksLieSideBySide) {
+TEST(ProducedSurface, IsNoneWhereNoTracksLieSideBySideAndSaysWhy) {
     const Made made(TrackDirection::along_v);
+    EXPECT_EQ(why_no_produced_surface(made.path), "");
     Toolpath longer = made.path;
     AxisPath axes = made.axes;
     longer.points.push_back(longer.points.back()); // one more move on the last track
     axes.positions.push_back(axes.positions.back());
     EXPECT_FALSE(produced_surface(made.machine, longer, axes, 2));
+    EXPECT_THAT(why_no_produced_surface(longer), HasSubstr("tracks side by side with equally many points"));
+    Toolpath lifted = made.path;
+    lifted.points[3].reached_by = MoveKind::over;
+    EXPECT_FALSE(produced_surface(made.machine, lifted, made.axes, 2));
+    EXPECT_THAT(why_no_produced_surface(lifted), HasSubstr("lifts over parts"));
     Toolpath with_cutter = made.path;
     with_cutter.tool.cutter = test::body({.kind = CutterKind::ball, .diameter = 6.0, .length = 30.0});
     EXPECT_FALSE(produced_surface(made.machine, with_cutter, made.axes, 2));
+    EXPECT_THAT(why_no_produced_surface(with_cutter), HasSubstr("a tool that is a point"));
     EXPECT_FALSE(produced_surface(made.machine, {}, {}, 2));
+    EXPECT_NE(why_no_produced_surface({}), "");
     EXPECT_THROW((void)produced_surface(made.machine, made.path, made.axes, 0), Defect);
 }
 

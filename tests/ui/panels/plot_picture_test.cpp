@@ -1,4 +1,5 @@
 // A picture below its path, and as a gray map on which a region is marked.
+#include "tests/support/bmp_shape.h"
 #include "tests/ui/panels/plot_person.h"
 #include "ui/panels/view_panel.h"
 
@@ -57,6 +58,41 @@ TEST(PlotPicture, ARegionIsMarkedOnTheGrayMapByTwoClicks) {
     bench.person.click("lower/whole");
     bench.settle();
     EXPECT_FALSE(bench.plot().settings().picture.region);
+}
+
+// A region counts the file's pixels, not the square ones that are cut; cells at the edge have fewer of them.
+TEST(PlotPicture, ARegionOfPixelsThatAreNotSquareIsMarked) {
+    const test::ScratchFolder scratch;
+    test::write_bmp(scratch / "high.bmp", 301, 401, 10'000, 5'000);
+    PlotPerson bench(scratch / "high.bmp", {1280, 1400});
+    ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    bench.person.click("lower/tabs/picture");
+    bench.person.frames(3);
+    const widgets::Rect map = bench.person.place("lower/gray_map");
+    EXPECT_NEAR(map.h / map.w, 2.0 * 401.0 / 301.0, 0.1);
+    const auto at = [&](float x, float y) { return widgets::Point{map.x + x * map.w, map.y + y * map.h}; };
+    bench.person.click_at(at(0.5F, 0.3F));
+    bench.person.frames(2);
+    bench.person.click_at(at(0.995F, 0.1F));
+    bench.settle();
+    const auto region = bench.plot().settings().picture.region;
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->width, 0) << "up to the edge";
+    EXPECT_NEAR(region->left, 150, 10);
+    EXPECT_NEAR(region->top, 40, 10);
+    EXPECT_NEAR(region->height, 80, 10);
+    ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    EXPECT_NEAR(bench.made().picture_size.y() / bench.made().picture_size.x(),
+                2.0 * region->height / (301.0 - region->left),
+                0.02);
+    const float before = map.w;
+    bench.person.click("lower/size");
+    bench.person.frames(3);
+    EXPECT_GT(bench.person.place("lower/gray_map").w, 1.5F * before);
+    bench.person.keep("plot-gray-map-wide");
+    bench.person.click("lower/size");
+    bench.person.frames(3);
+    EXPECT_NEAR(bench.person.place("lower/gray_map").w, before, 1.0F);
 }
 
 } // namespace

@@ -38,7 +38,11 @@ protected:
 
 TEST_F(Strategies, ASpiralIsChosenShownAndUndone) {
     const auto zigzag = person_.workshop().look().shown();
+    person_.workshop().run("view.layer_produced");
+    person_.frames();
+    EXPECT_FALSE(person_.sees("view/left_out"));
     person_.choose("inspector/strategy/strategy", "spiral");
+    EXPECT_TRUE(person_.sees("view/left_out")) << "why a spiral has no produced surface";
     EXPECT_EQ(person_.project().toolpath.strategy, StrategyInput::spiral);
     ASSERT_NE(plan().path, nullptr);
     EXPECT_EQ(person_.workshop().look().shown(), plan().path);

@@ -1,6 +1,7 @@
 #include "ui/render/view_colors.h"
 
 #include "ui/render/color_map.h"
+#include "ui/render/ink.h"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,31 @@ TEST(ViewColors, TakesChosenColoursInPlaceOfTheThemes) {
     for (std::size_t n = 0; n < layer_color_infos().size(); ++n) {
         EXPECT_EQ(static_cast<std::size_t>(layer_color_infos()[n].which), n);
     }
+}
+
+// What is written and marked on a background of one's own is seen, whatever the theme is.
+TEST(ViewColors, AreSeenOnAnyChosenBackground) {
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        for (const char* background : {"#ffffff", "#000000", "#f0f0e8", "#202830"}) {
+            LayerColors chosen;
+            chosen.set(LayerColor::background, color_from(background));
+            const ViewColors colors = view_colors(theme, chosen);
+            EXPECT_GT(contrast(ink(colors), colors.background_top), 7.0) << background;
+            EXPECT_GT(contrast(faint_ink(colors), colors.background_top), text_contrast) << background;
+            for (const glm::vec3& mark :
+                 {colors.net, colors.handle, colors.path, colors.axis_x, colors.axis_y, colors.axis_z}) {
+                EXPECT_GT(contrast(mark, colors.background_top), 2.4)
+                    << background << " " << color_text(mark);
+            }
+        }
+    }
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        EXPECT_EQ(ink(view_colors(theme)), view_colors(theme).neutral.back());
+    }
+    LayerColors chosen;
+    chosen.set(LayerColor::background, color_from("#ffffff"));
+    chosen.set(LayerColor::toolpath, color_from("#fefefe"));
+    EXPECT_EQ(color_text(view_colors(Theme::dark, chosen).path), "#fefefe") << "a person may want that";
 }
 
 } // namespace

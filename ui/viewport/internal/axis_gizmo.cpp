@@ -1,5 +1,7 @@
 #include "ui/viewport/internal/axis_gizmo.h"
 
+#include "ui/render/ink.h"
+
 #include <glm/vec2.hpp>
 #include <imgui.h>
 
@@ -60,7 +62,7 @@ void draw_end(widgets::Ui& ui, const Pane& pane, ImVec2 middle, const End& end, 
         list.AddCircle(at, 0.85F * radius, to_colour(color, 0.9), 0, ui.px(1.2F));
     }
     if (hovered) {
-        list.AddCircle(at, radius + ui.px(1.5F), to_colour(pane.colors.neutral[7]), 0, ui.px(1.5F));
+        list.AddCircle(at, radius + ui.px(1.5F), to_colour(render::ink(pane.colors)), 0, ui.px(1.5F));
     }
     if (end.positive || hovered) {
         const std::string text = std::string(end.positive ? "" : "-") + "XYZ"[end.axis];
@@ -69,7 +71,7 @@ void draw_end(widgets::Ui& ui, const Pane& pane, ImVec2 middle, const End& end, 
         list.AddText(font,
                      font->FontSize,
                      {std::round(at.x - 0.5F * size.x), std::round(at.y - 0.5F * size.y)},
-                     to_colour(end.positive ? pane.colors.neutral[0] : pane.colors.neutral[7]),
+                     to_colour(end.positive ? pane.colors.neutral[0] : render::ink(pane.colors)),
                      text.c_str());
     }
 }
@@ -89,7 +91,7 @@ std::optional<StandardView> axis_gizmo(widgets::Ui& ui, const Pane& pane) {
     ui.record("axes", place);
     if (hovered) {
         ImGui::GetWindowDrawList()->AddCircleFilled(
-            middle, 0.5F * size, to_colour(pane.colors.neutral[7], 0.08));
+            middle, 0.5F * size, to_colour(render::ink(pane.colors), 0.08));
     }
     const std::array<End, 6> all = ends(pane.view, ui.px(arm));
     const ImVec2 mouse = ImGui::GetIO().MousePos;

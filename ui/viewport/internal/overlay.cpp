@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/kinematics/arm_forward.h"
 #include "ui/render/convert.h"
+#include "ui/render/ink.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/legend.h"
@@ -266,7 +267,7 @@ void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point) 
     const Point left = {pane.rect.x + ui.px(overlay_margin), pane.rect.bottom() - ui.px(overlay_margin)};
     const Point right = {left.x + width, left.y};
     const float tick = ui.px(5.0F);
-    const widgets::Colour colour = text_colour(pane);
+    const widgets::Colour colour = to_colour(render::ink(pane.colors));
     for (const auto& [a, b] : {std::pair{left, right},
                                std::pair{Point{left.x, left.y - tick}, left},
                                std::pair{Point{right.x, right.y - tick}, right}}) {
@@ -365,15 +366,19 @@ void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std:
     if (!left_out.empty()) {
         ui.record("left_out", {pane.rect.x, y, pane.rect.w, font->FontSize});
     }
+    const float room = std::max(pane.rect.w - 2.0F * ui.px(overlay_margin), 1.0F);
     for (const std::string_view line : {name, left_out}) {
         if (!line.empty()) {
+            const char* const end = line.data() + line.size();
             ImGui::GetWindowDrawList()->AddText(font,
                                                 font->FontSize,
                                                 {pane.rect.x + ui.px(overlay_margin), y},
-                                                to_colour(pane.colors.neutral[6]),
+                                                to_colour(render::faint_ink(pane.colors)),
                                                 line.data(),
-                                                line.data() + line.size());
-            y += 1.3F * font->FontSize;
+                                                end,
+                                                room);
+            y += font->CalcTextSizeA(font->FontSize, FLT_MAX, room, line.data(), end).y +
+                 0.3F * font->FontSize;
         }
     }
 }

@@ -4,7 +4,7 @@
 #include "ui/render/convert.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/viewport/internal/axis_gizmo.h"
-#include "ui/viewport/internal/grid_lines.h"
+#include "ui/viewport/internal/view_notes.h"
 #include "ui/viewport/machine_sight.h"
 #include "ui/viewport/navigation.h"
 #include "ui/widgets/canvas.h"
@@ -212,7 +212,7 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     if (hand_.box()) {
         draw_box(pane, *hand_.box());
     }
-    draw_caption(frame.ui, pane, caption_, grid_lines_note(frame.scene, pane.view));
+    draw_caption(frame.ui, pane, caption_, view_notes(frame.scene, pane.view));
     record_handles(frame, pane);
     if (!frame.details) {
         return;

@@ -306,7 +306,7 @@ void make_cycle(Run& run, Block& block, int motion) {
         refuse(block.column_of('R'), fmt::format("R of {} lies below the bottom", g_name(motion)));
     }
     if ((motion == 730 || motion == 830) && !(hole.q > 0.0)) {
-        refuse(block.column_of('Q'), fmt::format("Q of {} is more than 0", g_name(motion)));
+        refuse(block.column_of('Q'), fmt::format("Q of {} has to be more than 0", g_name(motion)));
     }
     check_spindle(s, motion, column);
     constexpr double up_to_r = 1.0;

@@ -117,7 +117,7 @@ void orient_spindle(Run& run, const Block& block) {
     }
     if (block.has('Q')) {
         if (!(block['Q'] > 0.0)) {
-            refuse(block.column_of('Q'), "Q of M19 is more than 0");
+            refuse(block.column_of('Q'), "Q of M19 has to be more than 0");
         }
         run.out.post(CommandKind::wait_spindle_orient, 0, block['Q']);
     }

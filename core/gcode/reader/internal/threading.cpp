@@ -72,13 +72,13 @@ void cut_pass(const Thread& t, double depth) {
 void check_threading_words(const Block& block) {
     const double i = block['I'];
     if (!(i < 0.0 || i > 0.0)) {
-        refuse(block.column_of('I'), "I of G76 is not 0");
+        refuse(block.column_of('I'), "I of G76 must not be 0");
     }
     if (!(block['J'] > 0.0)) {
-        refuse(block.column_of('J'), "J of G76 is more than 0");
+        refuse(block.column_of('J'), "J of G76 has to be more than 0");
     }
     if (!(block['K'] > block['J'])) {
-        refuse(block.column_of('K'), "K of G76 is more than J");
+        refuse(block.column_of('K'), "K of G76 has to be more than J");
     }
     constexpr double steepest = 80.0;
     if (std::abs(block.value_or('Q', 0.0)) > steepest) {

@@ -1,5 +1,6 @@
 #include "core/machine/drivers/cordic/cordic_driver.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/gcode/reader/cordic_motion.h"
@@ -73,13 +74,12 @@ std::string CordicDriver::remark() const {
     if (done.late.empty()) {
         return {};
     }
-    return fmt::format(
-        "{} of {} set-points took longer to compute at {:.6g} MHz than the motion before them; "
-        "none would up to {:.6g} mm/min",
-        done.late.size(),
-        done.published,
-        1e-6 * options_.clock_hz,
-        to_mm_per_min(done.fastest.value_or(0.0))); // with late ones there are two at least
+    return fmt::format("{} of {} took longer to compute at {:.6g} MHz than the motion before them; "
+                       "none would up to {:.6g} mm/min",
+                       done.late.size(),
+                       counted(done.published, "set-point"),
+                       1e-6 * options_.clock_hz,
+                       to_mm_per_min(done.fastest.value_or(0.0))); // with late ones there are two at least
 }
 
 std::vector<Diagnostic> CordicDriver::warnings() const {

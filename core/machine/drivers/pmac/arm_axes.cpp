@@ -1,5 +1,6 @@
 #include "core/machine/drivers/pmac/arm_axes.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_zone.h"
@@ -22,10 +23,10 @@ PmacSettings arm_settings_of(std::string_view axes) {
 
 PmacSettings within_limits(PmacSettings settings, const kinematics::ArmModel& arm) {
     if (arm.joint_count() < std::ssize(settings.axes)) {
-        throw Error(fmt::format("the card moves {} axes, and arm '{}' has {} joints",
-                                settings.axes.size(),
+        throw Error(fmt::format("the card moves {}, and arm '{}' has {}",
+                                counted(settings.axes.size(), "axis", "axes"),
                                 arm.name(),
-                                arm.joint_count()));
+                                counted(arm.joint_count(), "joint")));
     }
     for (std::size_t n = 0; n < settings.axes.size(); ++n) {
         const kinematics::ArmJoint& joint = arm.joint(static_cast<int>(n));

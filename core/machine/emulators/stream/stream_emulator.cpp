@@ -1,5 +1,6 @@
 #include "core/machine/emulators/stream/stream_emulator.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 
 #include <fmt/format.h>
@@ -79,7 +80,9 @@ void StreamEmulator::take(std::string_view line) {
         sample.push_back(*value);
     }
     if (sample.size() != axes_.size()) {
-        bad(line, fmt::format("{} numbers for {} axes", sample.size(), axes_.size()));
+        bad(line,
+            fmt::format(
+                "{} for {}", counted(sample.size(), "number"), counted(axes_.size(), "axis", "axes")));
         return;
     }
     if (due_.empty()) {

@@ -1,5 +1,7 @@
 #include "core/plot/hpgl/internal/setup.h"
 
+#include "core/base/counted.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -64,7 +66,7 @@ void scale(Run& run, const Given& given) {
         return;
     }
     if (given.count() < 4) {
-        return run.refuse(fmt::format("SC: {} numbers; there are 0, 4, 5 or 7", given.count()));
+        return run.refuse(fmt::format("SC: {}; there are 0, 4, 5 or 7", counted(given.count(), "number")));
     }
     const Vec2 first(given[0], given[2]);
     const Vec2 second(given[1], given[3]);

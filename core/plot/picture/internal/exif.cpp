@@ -57,12 +57,6 @@ int orientation_in(std::string_view tiff) {
     return 1;
 }
 
-/// Turned by a quarter, so that width and height change places.
-bool lies(int orientation) {
-    constexpr int first = 5;
-    return orientation >= first;
-}
-
 /// The file's pixel that is seen at (x, y); the file has width x height pixels.
 std::pair<int, int> in_file(int x, int y, int orientation, int width, int height) {
     switch (orientation) {
@@ -86,6 +80,11 @@ std::pair<int, int> in_file(int x, int y, int orientation, int width, int height
 }
 
 } // namespace
+
+bool lies(int orientation) {
+    constexpr int first = 5;
+    return orientation >= first;
+}
 
 PictureTurn jpeg_turn(std::string_view bytes) {
     constexpr std::uint32_t exif_marker = 0xE1;

@@ -18,6 +18,9 @@ struct PictureTurn {
 [[nodiscard]] PictureTurn jpeg_turn(std::string_view bytes);
 [[nodiscard]] PictureTurn png_turn(std::string_view bytes);
 
+/// Turned by a quarter, so that width and height change places.
+[[nodiscard]] bool lies(int orientation);
+
 /// Pixels of the file, for a region of the picture as people see it.
 [[nodiscard]] PixelRegion region_in_file(PixelRegion seen, const PictureTurn& turn);
 

@@ -206,11 +206,15 @@ void RowSink::allow_memory(std::int64_t bytes, const std::string& what) const {
 }
 
 /// A pixel is as wide as high in all that follows.
-void RowSink::square_pixels() {
+void RowSink::square_pixels(PixelShape& shape) {
     Picture& picture = read_.picture;
     const double height = std::round(picture.height * height_of_width_);
     constexpr double rounded = 1e-3; // densities are whole numbers
     if (std::abs(height_of_width_ - 1.0) < rounded || height < 1.0) {
+        return;
+    }
+    if (shape.stays) {
+        shape.height = height_of_width_;
         return;
     }
     if (height * picture.width > static_cast<double>(settings_.most_pixels)) {
@@ -227,7 +231,7 @@ void RowSink::square_pixels() {
     picture = with_rows(picture, static_cast<int>(height));
 }
 
-ReadPicture RowSink::end() {
+ReadPicture RowSink::end(PixelShape& shape) {
     expects(lines_ == region_.height, "a decoder hands in every row of the region");
     flush_block();
     read_.picture.file_pixels = square_;
@@ -237,7 +241,7 @@ ReadPicture RowSink::end() {
     if (transparent_) {
         notice("transparent pixels are not cut");
     }
-    square_pixels();
+    square_pixels(shape);
     return std::move(read_);
 }
 

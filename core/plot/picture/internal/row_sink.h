@@ -16,6 +16,12 @@ struct RowFormat {
 /// The region of a picture of this size, where a width or height of 0 goes up to its edge.
 [[nodiscard]] PixelRegion up_to_edge(PixelRegion region, int width, int height);
 
+/// Of a pixel, where a square one has 1.
+struct PixelShape {
+    bool stays = false; ///< else it is made square
+    double width = 1.0, height = 1.0;
+};
+
 class RowSink {
 public:
     RowSink(const PictureSettings& settings, const std::filesystem::path& file, const Progress& progress)
@@ -38,13 +44,14 @@ public:
     /// Throws Error if `bytes` that `what` needs in memory at once are too many.
     void allow_memory(std::int64_t bytes, const std::string& what) const;
 
-    /// The picture, when all rows came.
-    [[nodiscard]] ReadPicture end();
+    /// The picture, when all rows came. Its pixels are made square unless `shape` stays, which gets their
+    /// width and height then.
+    [[nodiscard]] ReadPicture end(PixelShape& shape);
 
 private:
     void add_to_block(int line);
     void flush_block();
-    void square_pixels();
+    void square_pixels(PixelShape& shape);
 
     const PictureSettings& settings_;
     const std::filesystem::path& file_;
