@@ -50,8 +50,10 @@ void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice
     command
         .add_option("--speed",
                     choice.speed,
-                    "Times real time, of the virtual machine and the CORDIC processor; 0: as fast as it goes")
-        ->check(CLI::Validator(fault_of_speed, "0, or 0.01 to 1000"))
+                    "Times real time, of the virtual machine and the CORDIC processor, 0.01 to 1000; 0: as "
+                    "fast as it goes")
+        ->type_name("X")
+        ->check(CLI::Validator(fault_of_speed, ""))
         ->capture_default_str();
     command.add_option("--clock", choice.processor_hz, "Clock frequency of the CORDIC processor, Hz")
         ->type_name("HZ")

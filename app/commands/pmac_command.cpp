@@ -208,7 +208,9 @@ void add_pmac_command(CLI::App& app, Command& chosen) {
                     "an emulated card on this computer")
         ->envname("MILLWRIGHT_PMAC_PORT")
         ->type_name("PORT");
-    command.add_option("--load", options->file, "File of commands to send before, such as assets/samples/pmac-arm.ini")
+    command
+        .add_option(
+            "--load", options->file, "File of commands to send before, such as assets/samples/pmac-arm.ini")
         ->type_name("FILE");
     command.add_flag("--power", options->power, "Commands may give motors power; somebody has looked");
     command.add_flag(

@@ -138,7 +138,7 @@ TEST_F(BadInput, AFolderThatCannotBeWritten) {
                 HasSubstr("dome.json/out: cannot make the folder"));
     EXPECT_THAT(failure_of(project, "/proc/millwright"),
                 HasSubstr("/proc/millwright: cannot make the folder"));
-    EXPECT_THAT(failure_of(project, "/proc"), HasSubstr("/proc/"));
+    EXPECT_THAT(failure_of(project, "/proc"), HasSubstr("/proc: cannot write"));
 }
 
 TEST_F(BadInput, APlaceThatIsTaken) {

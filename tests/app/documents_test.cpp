@@ -120,9 +120,10 @@ protected:
         if ((has(" run ") || has(" send ")) && (has("--driver virtual") || has("--driver cordic"))) {
             command = std::regex_replace(command, real_time, "") + " --speed 0";
         }
-        const std::string port = has(" pmac ") ? "tmp/pmac" : "tmp/grbl";
+        const std::string port =
+            has(" pmac ") ? "/tmp/pmac" : "/tmp/grbl"; // below the checkout, as all of /tmp
         for (const char* const shown : {"/dev/ttyUSB0", "tcp:127.0.0.1:1025"}) {
-            command = replaced_everywhere(command, shown, (checkout / port).string());
+            command = replaced_everywhere(command, shown, port);
         }
         return replaced_everywhere(command, "/tmp/", (checkout / "tmp").string() + "/");
     }

@@ -48,13 +48,13 @@ TEST(RenderCommand, DrawsAMachineWhoseFileOfBodiesIsMissingByItsSimpleBodies) {
     const Ended alone = run({"render", project, "--view", "machine", "--size", "320x200", "--out", file});
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
     EXPECT_THAT(alone.err, HasSubstr("rotary-tilt-listing.glb: there is no such file"));
-    const std::string simple = content_of(file);
+    const std::string simple_bodies = content_of(file);
     const Ended made =
         run({"machine", "bodies", scratch / "own.json", "--out", scratch / "rotary-tilt-listing.glb"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const Ended whole = run({"render", project, "--view", "machine", "--size", "320x200", "--out", file});
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
-    EXPECT_NE(content_of(file), simple);
+    EXPECT_NE(content_of(file), simple_bodies);
     write_content(scratch / "rotary-tilt-listing.glb", "no bodies");
     EXPECT_EQ(run({"render", project, "--view", "machine", "--size", "320x200", "--out", file}).exit_code, 1);
 }

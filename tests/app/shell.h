@@ -48,7 +48,7 @@ struct ShellRun {
 
 /// In `folder`, which is where the program keeps its state, too; nothing is typed.
 [[nodiscard]] inline ShellRun shell(const std::filesystem::path& folder, const std::string& command) {
-    const std::string there = "cd '" + folder.string() + "' && export XDG_STATE_HOME=\"$PWD\" && ";
+    const std::string there = "cd '" + folder.string() + "' && export XDG_STATE_HOME=\"$PWD\" || exit 1; ";
     FILE* pipe = popen((there + command + " 2>&1 </dev/null").c_str(), "r");
     EXPECT_NE(pipe, nullptr);
     ShellRun run;

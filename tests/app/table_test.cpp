@@ -155,7 +155,7 @@ TEST(TableCommand, FilesLieWhereTheirOriginIs) {
     const Ended outside = run(words);
     EXPECT_EQ(outside.exit_code, 1);
     EXPECT_THAT(outside.err, HasSubstr("axis X would go to -7.000"));
-    words.insert(words.end(), {"--origin", "10,20", "--speed", "0"});
+    words.insert(words.end(), {"--origin", "10,20"});
     const Ended inside = run(words);
     EXPECT_EQ(inside.exit_code, 0) << inside.err;
     EXPECT_THAT(table.stop().out, HasSubstr("at X 75.6190 Y 70.0000"));

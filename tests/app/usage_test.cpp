@@ -31,7 +31,7 @@ TEST(Usage, HelpNamesEveryCommandAndOption) {
          {"plan", "render", "run", "gcode", "--version", "FILE", "plot, picture, path or"}) {
         EXPECT_THAT(ended.out, HasSubstr(command));
     }
-    EXPECT_THAT(run({"render", "--help"}).out, HasSubstr("design,grid,toolpath,error,machine"));
+    EXPECT_THAT(run({"render", "--help"}).out, HasSubstr("design|grid|toolpath|error|machine"));
     EXPECT_THAT(run({"run", "--help"}).out, HasSubstr("--speed"));
 }
 
@@ -118,11 +118,11 @@ TEST(Usage, SeriesOfNumbersLeaveTheFileBehindThemAlone) {
         {"send", "--origin", "1,2,3", "absent", "--driver", "virtual", "--machine", "router-xyz"},
         {"send", "--at", "1,2,3", "absent", "--driver", "virtual", "--machine", "router-xyz"},
         {"gcode", "convert", "--origin", "1,2", "absent", "--machine", "router-xyz", "--post", "grbl"},
-        {"plot", "toolpath", "--origin", "1,2", "absent", "--out", "/nowhere/out.ngc"},
-        {"picture", "trace", "--region", "1,2,3,4", "absent", "--out", "/nowhere/out.svg"},
+        {"plot", "toolpath", "--origin", "1,2", "absent", "--out", "/tmp/out.ngc"},
+        {"picture", "trace", "--region", "1,2,3,4", "absent", "--out", "/tmp/out.svg"},
         {"arm", "reach", "--frame", "1,2,3,4,5,6", "absent", "--json"},
-        {"reshape", "--degree", "3,3", "absent", "--out", "/nowhere/out.json"},
-        {"thesis", "convert", "--size", "3,3", "absent", "--out", "/nowhere/out.dat"}};
+        {"reshape", "--degree", "3,3", "absent", "--out", "/tmp/out.json"},
+        {"thesis", "convert", "--size", "3,3", "absent", "--out", "/tmp/out.dat"}};
     for (const auto& command : commands) {
         const Ended ended = run(command);
         EXPECT_EQ(ended.exit_code, 1) << testing::PrintToString(command);

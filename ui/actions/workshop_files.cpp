@@ -248,6 +248,8 @@ void Workshop::read_window_settings() {
     for (const std::string& refused : restore(session_, kept_settings_)) {
         tell(session_, widgets::Severity::warning, as_sentence(refused), file.string());
     }
+    kept_settings_ =
+        kept_of(session_, std::move(kept_settings_)); // with what was not in the file, to see changes
 }
 
 /// Another window may have kept its own meanwhile: what was not changed here stays as that left it.

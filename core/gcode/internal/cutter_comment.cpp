@@ -11,7 +11,7 @@ namespace millwright::gcode::internal {
 
 std::string cutter_comment(const ProgramCutter& cutter, double unit) {
     constexpr int micrometres = 3;
-    constexpr int more_in_inches = 2;
+    constexpr int more_in_inches = 3;
     const NumberFormat length{.decimals = unit > 1.0 ? micrometres + more_in_inches : micrometres,
                               .trailing_zeros = false};
     const NumberFormat angle{.decimals = 2, .trailing_zeros = false, .point = false};

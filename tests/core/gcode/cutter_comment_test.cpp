@@ -57,9 +57,10 @@ TEST(CutterComment, OfEveryPostIsReadAsItWasMeant) {
         const auto tools = tools_in_comments(text);
         ASSERT_EQ(tools.size(), 2U) << entry.path() << "\n" << text;
         EXPECT_EQ(tools[0].number, 1) << entry.path();
-        EXPECT_NEAR(tools[0].diameter, 3.175, 1e-9) << entry.path();
+        constexpr double digits = 2e-5; // mm: six decimals of an inch
+        EXPECT_NEAR(tools[0].diameter, 3.175, digits) << entry.path();
         EXPECT_EQ(tools[1].number, 2) << entry.path();
-        EXPECT_NEAR(tools[1].diameter, 0.5, 1e-9) << entry.path();
+        EXPECT_NEAR(tools[1].diameter, 0.5, digits) << entry.path();
         ++posts;
     }
     EXPECT_GE(posts, 8);

@@ -1,7 +1,6 @@
 #include "core/gcode/writer.h"
 
 #include "core/base/error.h"
-#include "core/base/files.h"
 #include "core/base/units.h"
 #include "tests/support/programs.h"
 
@@ -99,14 +98,6 @@ TEST(GcodeWriter, WritesEveryOtherKindOfBlock) {
     test::add_block(program, BlockKind::coolant_off);
     test::add_block(program, BlockKind::spindle_off);
     EXPECT_THAT(write_gcode(program, {}).text, HasSubstr("S12000 M3\nM8\nG4 P1.5000\nM9\nM5\n"));
-}
-
-TEST(GcodeWriter, BeginsAProgramAsItsReferencePageShows) {
-    const std::string page = read_file("docs/reference/gcode.md");
-    const std::size_t begin = page.find("G21 G90");
-    const std::string shown = page.substr(begin, page.find("```", begin) - begin);
-    const auto posted = test::post_over("dome", test::machine("rotary-tilt-listing"), 20, 20);
-    EXPECT_THAT(write_gcode(posted.program, {}).text, HasSubstr(shown));
 }
 
 TEST(GcodeWriter, RefusesATargetThatIsNotFinite) {

@@ -308,6 +308,7 @@ TEST(Gouges, AreAskedAboutBeforeTheProgramIsWritten) {
     person.press_key(render::Key::e, true);
     person.frames(3);
     person.click("dialogs/gouges/gouges_write");
+    person.frames(3);
     ASSERT_TRUE(person.sees("dialogs/files/name"));
     const fs::path file = person.folder() / "gouging.ngc";
     person.fill_in("dialogs/files/name", file.string());

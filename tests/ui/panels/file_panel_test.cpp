@@ -271,6 +271,7 @@ TEST_F(FileDialog, ImportBeginsWhereTheLastSurfaceCameFrom) {
     person_.press_key(render::Key::i, true);
     person_.keep("import-dialog-empty");
     person_.click("dialogs/files/entries/scans");
+    person_.press_key(render::Key::enter);
     person_.click("dialogs/files/entries/first.obj");
     person_.click("dialogs/files/open");
     person_.wait_idle();

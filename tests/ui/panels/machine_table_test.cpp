@@ -127,6 +127,7 @@ TEST_F(MachineTable, RunsNoProgramWhosePositionsNobodyCanKnow) {
     write_file(file, "G21 G90\nG0 X9 Y9 Z20\nG1 Z10 F1000\nG53 G0 Z0\nM2\n");
     person.open(file);
     person.wait_idle();
+    person.click("menu/workspaces/machine");
     person.frames(3);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("G53 goes to a machine position"));
     EXPECT_EQ(now().opened->findings.size(), 1U);

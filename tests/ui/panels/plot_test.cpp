@@ -120,7 +120,8 @@ TEST(PlotWorkspace, ADrawingBeyondTheTableSaysWhichOriginWouldDo) {
     ASSERT_TRUE(bench.made().failure);
     EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("axis X would have to go to"));
     EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("put its origin at"));
-    EXPECT_TRUE(bench.person.sees("inspector/failure"));
+    bench.person.frames(3);
+    EXPECT_TRUE(bench.person.sees("layers/failure"));
     EXPECT_NE(bench.person.refusal("inspector/plot_to_machine"), "");
     bench.person.click("lower/tabs/notices");
     bench.person.frames();
@@ -128,8 +129,9 @@ TEST(PlotWorkspace, ADrawingBeyondTheTableSaysWhichOriginWouldDo) {
     bench.person.fill_in("inspector/work/origin_x_mm", "300");
     bench.settle();
     EXPECT_FALSE(bench.made().failure);
+    bench.person.frames(3);
     EXPECT_FALSE(bench.person.sees("lower/what_is_wrong"));
-    EXPECT_FALSE(bench.person.sees("inspector/failure"));
+    EXPECT_FALSE(bench.person.sees("layers/failure"));
     EXPECT_EQ(bench.person.refusal("inspector/plot_to_machine"), "");
 }
 
