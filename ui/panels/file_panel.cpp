@@ -196,14 +196,14 @@ std::string FilePanel::cell(const FolderEntry& entry, int column) const {
 }
 
 void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask) {
-    constexpr std::array<widgets::Column, 4> columns{{{"Name", "", 3.0F, false},
-                                                      {"Kind", "", 1.4F, false},
+    constexpr std::array<widgets::Column, 4> columns{{{"Name", "", 2.6F, false},
+                                                      {"Kind", "", 1.3F, false},
                                                       {"Size", "", 1.0F, true},
-                                                      {"Changed", "", 1.6F, true}}};
+                                                      {"Changed", "", 2.2F, true}}};
     constexpr std::array<widgets::Column, 4> of_recent{{{"Name", "", 2.0F, false},
-                                                        {"Folder", "", 3.0F, false},
+                                                        {"Folder", "", 2.6F, false},
                                                         {"Size", "", 1.0F, true},
-                                                        {"Changed", "", 1.6F, true}}};
+                                                        {"Changed", "", 2.1F, true}}};
     widgets::TableView view;
     view.columns = source_ == Source::recent ? of_recent : columns;
     view.rows = std::ssize(entries_);
