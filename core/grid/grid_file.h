@@ -35,7 +35,7 @@ parse_pairs(std::string_view text, const std::filesystem::path& file, int rows, 
                                      const std::filesystem::path& file,
                                      FileContents contents = FileContents::nodes);
 
-/// Which nodes a file must have.
+/// The nodes that a file is required to have.
 struct WantedNodes {
     int rows = 0, columns = 0;
     std::optional<FileForm> form{}; ///< nothing: that in which the file has these nodes, unfolded

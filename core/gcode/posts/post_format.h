@@ -25,7 +25,7 @@ enum class PositionsOf {
 };
 
 enum class FeedWriting {
-    inverse_time, ///< moves a minute
+    inverse_time, ///< moves per minute
     per_minute    ///< mm a minute along X Y Z, else degrees a minute
 };
 
