@@ -69,8 +69,8 @@ ScaleFit fit(int motor, const std::vector<ScaleReading>& readings) {
         squares += (reading.counts - mean_counts) * (reading.counts - mean_counts);
         product += (reading.counts - mean_counts) * (reading.angle - mean_angle);
     }
-    const double slope = product / squares; // deg a count
-    if (!(squares > 0.0) || !(std::abs(slope) > 0.0)) {
+    const double slope = squares > 0.0 ? product / squares : 0.0; // deg per count
+    if (!(std::abs(slope) > 0.0)) {
         throw Error(
             fmt::format("motor {}: two readings at different counts and angles are needed at least", motor));
     }

@@ -258,7 +258,8 @@ TEST(CutStudy, FormulaKnowsPartedTracks) {
 TEST(CutStudy, FormulaKnowsTheRoundsOfASpiral) {
     Project project = plane(5, 11);
     project.toolpath.strategy = StrategyInput::spiral;
-    const CutStudy& found = *studied_cut(project, ball_tool).cut;
+    const auto cut = studied_cut(project, ball_tool).cut;
+    const CutStudy& found = *cut;
     EXPECT_NEAR(found.scallops.by_formula, 100.0 / (8.0 * 4.0), 1e-9);
     EXPECT_GT(found.scallops.max, 1.0) << "what is left between them is no surface that was never cut";
 }

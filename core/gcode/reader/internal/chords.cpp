@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace millwright::gcode::internal {
@@ -157,7 +158,8 @@ double arc_radius(const AxisValues& start, const Move& arc) {
 
 double chord_count(const AxisValues& start, const Move& arc, double tolerance) {
     const double step = longest_step(std::max(arc_radius(start, arc), tolerance), tolerance);
-    return std::ceil(std::abs(arc.sweep) / step);
+    // A tolerance can be too small for the arc's numbers.
+    return step > 0.0 ? std::ceil(std::abs(arc.sweep) / step) : std::numeric_limits<double>::infinity();
 }
 
 double chord_count_of_length(const AxisValues& start, const Move& arc, double length) {

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "tests/core/gcode/reader/read_program.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,6 +35,7 @@ TEST(ParameterFile, HasANumberAndAValueALine) {
 }
 
 TEST(ParameterFile, IsRefusedWithTheLine) {
+    const test::WithoutTraps without_traps;
     EXPECT_EQ(refusal_of("5161 1\nx 2\n"),
               "linuxcnc.var:2: a line has the number of a parameter and its value");
     EXPECT_THAT(refusal_of("5161\n"), HasSubstr(":1: a line has"));

@@ -1,6 +1,7 @@
 #include "core/machine/service/maestro_amplifier.h"
 
 #include "core/base/error.h"
+#include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
 
@@ -50,6 +51,7 @@ TEST(MaestroAmplifierC4, GivesResistorsForTheTachometer) {
 }
 
 TEST(MaestroAmplifierC4, RefusesWhatIsNoCurrentOrSpeed) {
+    const test::WithoutTraps without_traps;
     EXPECT_THROW((void)speed_resistor(0.0, 7.0), Error);
     EXPECT_THROW((void)tacho_loss_resistor(3000.0, std::nan("")), Error);
     EXPECT_THROW((void)nominal_current_resistor(-1.0, 16.0), Error);

@@ -1,5 +1,6 @@
 #include "core/machine/emulators/pmac/internal/expression.h"
 
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ long long integer_part(double value) {
     return static_cast<long long>(std::clamp(value, -most, most));
 }
 
+/// 0 where it has no value.
 double function(const std::string& name, double a) {
     if (name == "SIN") {
         return std::sin(from_degrees(a));
@@ -44,22 +46,23 @@ double function(const std::string& name, double a) {
         return std::tan(from_degrees(a));
     }
     if (name == "ASIN") {
-        return to_degrees(std::asin(a));
+        return std::abs(a) <= 1.0 ? to_degrees(std::asin(a)) : 0.0;
     }
     if (name == "ACOS") {
-        return to_degrees(std::acos(a));
+        return std::abs(a) <= 1.0 ? to_degrees(std::acos(a)) : 0.0;
     }
     if (name == "ATAN") {
         return to_degrees(std::atan(a));
     }
     if (name == "SQRT") {
-        return std::sqrt(a);
+        return a >= 0.0 ? std::sqrt(a) : 0.0;
     }
     if (name == "EXP") {
-        return std::exp(a);
+        constexpr double largest = 700.0; // of which a double has the result
+        return a <= largest ? std::exp(a) : 0.0;
     }
     if (name == "LN") {
-        return std::log(a);
+        return a > 0.0 ? std::log(a) : 0.0;
     }
     return name == "INT" ? std::floor(a) : std::abs(a);
 }
@@ -79,6 +82,7 @@ bool compare(const std::string& op, double a, double b) {
     }
 }
 
+/// A division by 0 gives 0.
 double arithmetic(const std::string& op, double a, double b) {
     switch (op.front()) {
     case '+':
@@ -88,9 +92,9 @@ double arithmetic(const std::string& op, double a, double b) {
     case '*':
         return a * b;
     case '/':
-        return a / b;
+        return exactly_equal(b, 0.0) ? 0.0 : a / b;
     case '%':
-        return std::fmod(a, b);
+        return exactly_equal(b, 0.0) ? 0.0 : std::fmod(a, b);
     case '&':
         return static_cast<double>(integer_part(a) & integer_part(b));
     case '|':

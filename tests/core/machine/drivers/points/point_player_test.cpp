@@ -2,6 +2,7 @@
 #include "core/machine/drivers/points/point_player.h"
 
 #include "tests/support/machines.h"
+#include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -315,6 +316,7 @@ TEST(PointPlayer, RestsAtTheStopsOfItsTrackUntilAPersonResumes) {
 }
 
 TEST(PointPlayer, RefusesWhatCannotBePlayed) {
+    const test::WithoutTraps without_traps;
     LateClock clock;
     const auto model = test::machine("forming-table");
     const auto player = [&](PointTrack track, const PlayerOptions& options = {}) {
