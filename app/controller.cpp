@@ -5,9 +5,11 @@
 #include "app/job_printer.h"
 #include "app/pmac_care.h"
 #include "app/question.h"
+#include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/machine/box_trace.h"
 #include "core/machine/dispatcher.h"
 #include "core/machine/drivers/make_driver.h"
 #include "core/machine/drivers/pmac/arm_axes.h"
@@ -30,6 +32,12 @@ namespace millwright::app {
 
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice) {
     command.add_flag("--one-by-one", choice.one_by_one, "Wait for the answer to each line before the next");
+    command.add_flag("--check", choice.check, "Let the controller read each program in its check mode first");
+    command.add_flag("--check-only", choice.check_only, "The same, and run nothing");
+    command.add_flag(
+        "--trace-box",
+        choice.trace_box,
+        "Go around the box of the cuts, at their greatest height with the spindle off; run nothing");
     command.add_flag("--unlock", choice.unlock, "Unlock a locked controller without homing");
     command.add_flag("--trust-position",
                      choice.trust_position,
@@ -47,6 +55,16 @@ CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice)
                             "Serial port as /dev/ttyUSB0 or /dev/ttyUSB0,9600,8E1, or tcp:HOST:PORT; of a "
                             "coordinate stream also file:PATH")
                 ->type_name("PORT");
+}
+
+void expect_one_way(const ControllerChoice& choice, int from_line) {
+    if (choice.trace_box && (choice.check || choice.check_only)) {
+        throw UsageError(
+            "--trace-box runs no program that could be checked", {}, "check it with --check-only first");
+    }
+    if (from_line > 1 && (choice.trace_box || choice.check || choice.check_only)) {
+        throw UsageError("checks and traces are of whole programs", {}, "leave --from-line out");
+    }
 }
 
 Controller::Controller(ControllerChoice choice, const std::string& log_folder)
@@ -113,7 +131,7 @@ void Controller::expect_rest() const {
 void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     using machine::DriverState;
     using machine::DriverStatus;
-    if (!choice_.home) {
+    if (!choice_.home && !choice_.check_only) { // nothing moves in a check
         settle_position(at_a_line, stop);
     }
     const bool homing_unlocks = choice_.home && choice_.driver == "grbl";
@@ -245,6 +263,22 @@ void Controller::look_at(const machine::Job& job) const {
     }
 }
 
+void Controller::check_there(const machine::Job& job, const std::stop_token& stop) {
+    const int number = driver_->check_there(*job.listing);
+    wait_for([](const machine::DriverStatus& now) { return !machine::is_at_work(now.state); }, stop);
+    const machine::CommandAnswer answer = driver_->status().answer;
+    if (answer.number != number || answer.state != machine::CommandAnswer::State::done) {
+        throw Error(Diagnostic{{job.project}, "refused in check mode:\n" + answer.text, {}});
+    }
+    fmt::print("{}: {}.\n", job.project, answer.text);
+}
+
+machine::Job Controller::box_of(const machine::Job& job) const {
+    const auto found = survey_of(job);
+    expects(found.has_value(), "a controller that reads G-code");
+    return machine::box_trace_job(job, *found);
+}
+
 void Controller::show_warnings(const machine::Job& job) const {
     if (const auto found = survey_of(job)) {
         for (const Diagnostic& warning : machine::warnings_of(*found, driver_->limits(), job.project)) {
@@ -270,7 +304,11 @@ void Controller::check_joints(const machine::Job& job, const std::stop_token& st
     }
 }
 
-machine::JobOutcome Controller::run(const machine::Job& job, const Interrupt& interrupt) {
+machine::JobOutcome Controller::run(const machine::Job& wanted, const Interrupt& interrupt) {
+    if (choice_.check) {
+        check_there(wanted, interrupt.token());
+    }
+    const machine::Job job = choice_.trace_box ? box_of(wanted) : wanted;
     show_warnings(job);
     if (choice_.driver == "pmac") {
         check_joints(job, interrupt.token());

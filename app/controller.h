@@ -23,8 +23,8 @@ class Option;
 
 namespace millwright::app {
 
-/// Which controller, and what the options --port, --one-by-one, --unlock, --power, --home, --trust-position,
-/// --keys, --optional-stop and --single-block say.
+/// Which controller, and what the options --port, --one-by-one, --check, --check-only, --trace-box, --unlock,
+/// --power, --home, --trust-position, --keys, --optional-stop and --single-block say.
 struct ControllerChoice {
     std::string driver = "grbl"; ///< or linuxcnc
     std::string port;
@@ -34,6 +34,9 @@ struct ControllerChoice {
     bool keys = false;           ///< of JobKeys also from an input that is no terminal
     bool optional_stop = false;
     bool single_block = false;      ///< from the first block on
+    bool check = false;             ///< the controller reads each job in its check mode before it runs
+    bool check_only = false;        ///< it does, and nothing runs
+    bool trace_box = false;         ///< the box of the cuts in place of the job
     std::string axes = "XYZ";       ///< of a LinuxCNC
     std::string arm = "motoman-l3"; ///< of a PMAC: a name or a file
     bool power = false;             ///< a person has looked: the motors may have power
@@ -43,6 +46,9 @@ struct ControllerChoice {
 
 /// Adds these to `command`; returns --port.
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice);
+
+/// Throws UsageError for a check or a trace of half a program, or of both at once.
+void expect_one_way(const ControllerChoice& choice, int from_line);
 
 /// A controller on which jobs are run one after another, over one connection.
 class Controller {
@@ -62,6 +68,9 @@ public:
     void connect(bool at_a_line, const std::stop_token& stop);
     /// Throws Error for what the connected machine could not do of it from where it stands; nothing moves.
     void look_at(const machine::Job& job) const;
+    /// Has the controller read it in its check mode, in which nothing moves. Throws Error with what it
+    /// refuses.
+    void check_there(const machine::Job& job, const std::stop_token& stop);
     /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
     /// anything is sent if the text is at fault.
     [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const Interrupt& interrupt);
@@ -75,6 +84,7 @@ private:
     void ask_whether_position_is_right(const std::string& why, const std::stop_token& stop);
     void say_who_is_there() const;
     void remember();
+    [[nodiscard]] machine::Job box_of(const machine::Job& job) const;
     [[nodiscard]] std::optional<machine::Survey> survey_of(const machine::Job& job) const;
     void show_warnings(const machine::Job& job) const;
     void check_joints(const machine::Job& job, const std::stop_token& stop) const;

@@ -27,6 +27,9 @@ const std::vector<DriverOption>& driver_options() {
     static const std::vector<DriverOption> options{
         {"--port", {"grbl", "linuxcnc", "pmac", "stream", "records"}},
         {"--one-by-one", {"grbl"}},
+        {"--check", {"grbl"}},
+        {"--check-only", {"grbl"}},
+        {"--trace-box", {"grbl", "linuxcnc"}},
         {"--unlock", controllers},
         {"--home", controllers},
         {"--trust-position", controllers},

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
 #include <regex>
 #include <set>
 #include <vector>
@@ -15,9 +17,28 @@ std::string plain_name(const std::string& type) {
     return type == "FLOAT" ? "NUMBER" : type == "INT" || type == "UINT" ? "N" : type;
 }
 
-/// A default that says something: no empty text, no empty list.
-bool is_told(const std::string& value) {
-    return !value.empty() && value != "[]" && value != "\"\"";
+std::optional<double> number_in(const std::string& text) {
+    double value = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    return read.ec == std::errc{} ? std::optional(value) : std::nullopt;
+}
+
+/// Of text that is no number it is not known.
+bool is_between(const std::string& text, double least, double most) {
+    const auto value = number_in(text);
+    return !value || (*value >= least && *value <= most);
+}
+
+/// A default that says something: no empty text, no empty list, no number in place of a name, and none beyond
+/// the range, as what stands for "not given" is.
+bool is_told(const std::string& value, const ValueText& of) {
+    if (value.empty() || value == "[]" || value == "\"\"") {
+        return false;
+    }
+    if (of.name.find('|') != std::string::npos && number_in(value)) {
+        return ("|" + of.name + "|").find("|" + value + "|") != std::string::npos;
+    }
+    return !of.least || !of.most || is_between(value, *of.least, *of.most);
 }
 
 std::string names_of(const std::set<CLI::Option*>& options) {
@@ -40,7 +61,10 @@ ValueText value_text(const std::string& type) {
     static const std::regex listed(R"([^:]*:\{(.*)\})");
     std::smatch found;
     if (std::regex_match(type, found, ranged)) {
-        return {plain_name(found[1]), fmt::format("{} to {}", found[2].str(), found[3].str())};
+        return {plain_name(found[1]),
+                fmt::format("{} to {}", found[2].str(), found[3].str()),
+                number_in(found[2].str()),
+                number_in(found[3].str())};
     }
     if (std::regex_match(type, found, listed)) {
         std::string names = found[1];
@@ -65,7 +89,7 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
     }
     if (option->get_required()) {
         remarks.emplace_back("required");
-    } else if (is_told(option->get_default_str())) {
+    } else if (is_told(option->get_default_str(), value)) {
         remarks.push_back("default " + option->get_default_str());
     }
     if (!option->get_envname().empty()) {

@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <optional>
 #include <string>
 
 namespace millwright::app {
@@ -21,6 +22,7 @@ public:
 struct ValueText {
     std::string name;
     std::string range;
+    std::optional<double> least{}, most{}; ///< of `range`
 };
 /// Of the parser's name of a type with its checks: "FLOAT:FLOAT in [0 - 180]", "TEXT:{nearest,travel}".
 [[nodiscard]] ValueText value_text(const std::string& type);

@@ -27,8 +27,20 @@ bool is_ignored(int signal) {
 sigset_t watched_signals(Suspending suspending) {
     sigset_t set{};
     sigemptyset(&set);
-    for (const int signal :
-         {SIGINT, SIGTERM, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGIO, SIGPWR, SIGXCPU}) {
+    for (const int signal : {SIGINT,
+                             SIGTERM,
+                             SIGQUIT,
+                             SIGUSR1,
+                             SIGUSR2,
+                             SIGALRM,
+                             SIGVTALRM,
+                             SIGIO,
+                             SIGPWR,
+                             SIGXCPU,
+                             SIGSTKFLT}) {
+        sigaddset(&set, signal);
+    }
+    for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) {
         sigaddset(&set, signal);
     }
     if (!is_ignored(SIGHUP)) { // the terminal was closed

@@ -4,6 +4,7 @@
 #include "app/given_options.h"
 #include "app/held_story.h"
 #include "app/question.h"
+#include "app/usage_error.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/machine/job_queue.h"
@@ -294,6 +295,18 @@ void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
 }
 
 int run_series(const SeriesChoice& choice, const SeriesSteps& steps, const std::stop_token& stop) {
+    if (steps.instead) {
+        if (choice.go_on) {
+            throw UsageError("--continue goes on with jobs, and none is run here");
+        }
+        std::vector<machine::Job> jobs;
+        for (const std::string& file : choice.files) {
+            jobs.push_back(steps.make(file, 1));
+        }
+        steps.ready();
+        std::ranges::for_each(jobs, steps.instead);
+        return 0;
+    }
     Series series(choice, steps, stop);
     series.fill();
     return series.run();

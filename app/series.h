@@ -42,6 +42,8 @@ struct SeriesSteps {
     /// Throws Error for what the machine that is there now cannot do of one of several; may be none.
     std::function<void(const machine::Job&)> look = {};
     std::function<machine::JobOutcome(const machine::Job&)> run;
+    /// In place of all running: done with each job, which leaves nothing behind. May be none.
+    std::function<void(const machine::Job&)> instead = {};
 };
 
 /// The exit code: 0 if all were done. Throws Error, also for what `steps` throws, or Cancelled.

@@ -114,9 +114,9 @@ int vector(const NumberOptions& options) {
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["magnitude"] = found.length;
-        answer["degrees"] = found.angle_deg;
+        answer["angle_deg"] = found.angle_deg;
         answer["error"] = found.length_error;
-        answer["error_degrees"] = found.angle_error_deg;
+        answer["error_deg"] = found.angle_error_deg;
         answer["clocks"] = found.clocks;
         answer["shift"] = found.shift;
         answer["words"] = hexadecimal_words(found.words);

@@ -67,7 +67,20 @@ std::vector<Mcs51Row> mcs51_rows(const CordicCompareOptions& options) {
     const std::vector<std::string> thesis{"5,7,4,8"};
     for (const std::string& text : options.lines.empty() ? thesis : options.lines) {
         const cordic::Mcs51Line line = line_of(text);
+        if (line.x0 == line.x1 && line.y0 == line.y1) {
+            throw Error(fmt::format("the line {} has no length", text));
+        }
         rows.push_back({line, cordic::run_mcs51_line(code, line, options.mcs51)});
+        const auto& run = rows.back().run;
+        const bool computed =
+            std::isfinite(run.vx) && std::isfinite(run.vy) && std::abs(run.vx) + std::abs(run.vy) > 0.0;
+        if (!computed) {
+            throw Error(
+                fmt::format(
+                    "of the line {} the program gives no velocity: vx {}, vy {}", text, run.vx, run.vy),
+                options.mcs51,
+                "is it built as the documents say?");
+        }
     }
     return rows;
 }
@@ -109,7 +122,7 @@ int compare(const CordicCompareOptions& options) {
     if (options.json) {
         const auto json_of_line = [](const cordic::LineTime& time, const cordic::StitchTimes& stitch) {
             return nlohmann::ordered_json{{"clocks", time.clocks},
-                                          {"seconds", time.seconds},
+                                          {"time_s", time.seconds},
                                           {"most_rpm", time.most_rpm},
                                           {"share_of_stitch", stitch.share}};
         };

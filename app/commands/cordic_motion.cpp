@@ -247,7 +247,7 @@ void print(const CordicMotionReport& report) {
 
 nlohmann::ordered_json json_of(const CordicMotionReport& report) {
     nlohmann::ordered_json answer;
-    answer["seconds"] = report.seconds;
+    answer["time_s"] = report.seconds;
     answer["max_speed_mm_s"] = report.max_speed;
     answer["max_acceleration_mm_s2"] = report.max_acceleration;
     for (const AxisPulses& axis : report.axes) {

@@ -80,7 +80,7 @@ void print(const cordic::SupervisedRun& run) {
 nlohmann::ordered_json json_of(const cordic::SupervisedRun& run) {
     nlohmann::ordered_json answer;
     answer["end"] = to_text(run.end);
-    answer["seconds"] = run.seconds;
+    answer["time_s"] = run.seconds;
     answer["scans"] = run.scans;
     answer["moved_s"] = run.moved_seconds;
     answer["held_s"] = run.held_seconds;
@@ -91,7 +91,7 @@ nlohmann::ordered_json json_of(const cordic::SupervisedRun& run) {
     answer["outputs"] = nlohmann::ordered_json::array();
     for (const cordic::OutputChange& change : run.outputs) {
         answer["outputs"].push_back(
-            {{"seconds", change.seconds}, {"bit", cordic::plc_name(change.bit)}, {"value", change.value}});
+            {{"time_s", change.seconds}, {"bit", cordic::plc_name(change.bit)}, {"value", change.value}});
     }
     return answer;
 }

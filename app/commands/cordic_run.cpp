@@ -142,7 +142,7 @@ void print_run_json(JsonMembers& answer,
     answer.add("stop", by_logic ? cordic::to_text(supervised->end) : cordic::to_text(report.stop));
     answer.add("format", cordic::to_text(processor.format()));
     answer.add("clocks", clocks_json(report.clocks));
-    answer.add("seconds", report.seconds);
+    answer.add("time_s", report.seconds);
     if (has_exact) {
         answer.add("errors", {{"position_mm", report.position_error}, {"speed", report.speed_error}});
     }

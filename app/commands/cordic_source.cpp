@@ -171,7 +171,7 @@ void add_cordic_source(CLI::App& command, CordicSource& source, const char* kind
     source.of_gcode = {
         command
             .add_option(
-                "--tolerance", source.tolerance, "G-code: farthest that the path may be from its arc, mm")
+                "--arc-tolerance", source.tolerance, "G-code: farthest that the path may be from its arc, mm")
             ->check(CLI::Range(1e-9, 1e3))
             ->capture_default_str(),
         command.add_option("--rapid", source.rapid_mm_per_min, "G-code: speed of G0, mm/min")

@@ -255,6 +255,13 @@ int convert_gcode(const GcodeOptions& options) {
     if (run.found.start_notice) {
         fmt::print(stderr, "warning: {}\n", to_text(*run.found.start_notice));
     }
+    if (!options.origin.empty()) {
+        fmt::print(stderr,
+                   "warning: {}: the positions count from the machine's zero, as --origin places the work "
+                   "there: run the "
+                   "program with a work offset (G54) of zero\n",
+                   options.file);
+    }
     const PostedText result = posted_from(options.file, run.found.program, run.machine, options.post);
     print_notes(result);
     const std::string& text = result.text.listing.text;

@@ -156,7 +156,8 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
         ->type_name(listed(turn_policies))
         ->default_str("minority");
     const std::size_t of_both = command.get_options().size();
-    command.add_option("--chords", options->chord_tolerance, "Of a program: as near to the curves, mm")
+    command
+        .add_option("--arc-tolerance", options->chord_tolerance, "Of a program: as near to the curves, mm")
         ->check(above_zero())
         ->capture_default_str();
     add_stroke_options(command, options->cutting);

@@ -112,6 +112,9 @@ int run_plan(const RunOptions& options) {
         return controller ? controller->run(job, interrupt)
                           : planned_machine.run(job, options.series.log, interrupt);
     };
+    if (controller && options.machine.controller.check_only) {
+        steps.instead = [&](const machine::Job& job) { controller->check_there(job, interrupt.token()); };
+    }
     return run_series(options.series, steps, interrupt.token());
 }
 
@@ -133,6 +136,7 @@ void add_run_command(CLI::App& app, Command& chosen) {
         options->series.options = options_to_go_on(command);
         chosen = [&command, options] {
             expect_options_of_driver(command, options->machine.driver);
+            expect_one_way(options->machine.controller, options->series.from_line);
             return run_plan(*options);
         };
     });

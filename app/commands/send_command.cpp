@@ -154,6 +154,9 @@ int send_text(const SendOptions& options) {
     steps.ready = [&] { controller.connect(options.series.from_line > 1, interrupt.token()); };
     steps.look = [&](const machine::Job& job) { controller.look_at(job); };
     steps.run = [&](const machine::Job& job) { return controller.run(job, interrupt); };
+    if (options.machine.controller.check_only) {
+        steps.instead = [&](const machine::Job& job) { controller.check_there(job, interrupt.token()); };
+    }
     return run_series(options.series, steps, interrupt.token());
 }
 
@@ -234,6 +237,7 @@ void add_send_command(CLI::App& app, Command& chosen) {
         options->machine.controller.driver = options->machine.driver;
         chosen = [&command, options] {
             expect_options_of_driver(command, options->machine.driver);
+            expect_one_way(options->machine.controller, options->series.from_line);
             return send(*options);
         };
     });

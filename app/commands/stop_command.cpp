@@ -50,11 +50,14 @@ at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_to
 }
 
 /// Boards that reset when their port is opened stop dead, and know no longer where they are.
-void refuse_reset_by_opening(const machine::Driver& driver, machine::PositionMemory& memory) {
+void refuse_reset_by_opening(machine::Driver& driver, machine::PositionMemory& memory) {
     const auto* const grbl = dynamic_cast<const machine::GrblDriver*>(&driver);
     if (grbl == nullptr || !grbl->readout().began_anew) {
         return;
     }
+    // Whoever stops a machine says that it moves: every later job asks first.
+    constexpr bool lost = true;
+    driver.doubt_position("opening the port to stop it reset the controller, perhaps in motion", lost);
     memory.keep(driver.status());
     throw Error(
         "opening the port reset the controller: if the machine was moving, its motion was cut dead and its "

@@ -174,13 +174,16 @@ void add_study_set_up_command(CLI::App& group, Command& chosen) {
         ->type_name("DIR");
     command.add_option("--goal", settings.goal, "What is made small: error or travel")
         ->transform(one_of(goals))
-        ->type_name(listed(goals));
+        ->type_name(listed(goals))
+        ->default_str("error");
     command.add_option("--across", settings.across, "Of the map's columns: a, b, c or turn")
         ->transform(one_of(parameters))
-        ->type_name(listed(parameters));
+        ->type_name(listed(parameters))
+        ->default_str("a");
     command.add_option("--up", settings.up, "Of the map's rows: a, b, c or turn")
         ->transform(one_of(parameters))
-        ->type_name(listed(parameters));
+        ->type_name(listed(parameters))
+        ->default_str("b");
     command.add_option("--places", settings.places, "Of the map, each way")->check(CLI::Range(2, 500));
     command.add_option("--nodes", settings.nodes, "Of the grid that is measured, each way")
         ->check(CLI::Range(2, 200));

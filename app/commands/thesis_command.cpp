@@ -153,9 +153,10 @@ void add_convert(CLI::App& thesis, Command& chosen) {
         "Read a grid or residuals of the thesis's solver, check them, write them in the other form");
     command.add_option("FILE", options->file, "Blocks, or pairs with --size")->required();
     command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
-    command.add_option("--to", options->to, "A node a line, or blocks (default)")
+    command.add_option("--to", options->to, "One node per line, or blocks")
         ->transform(one_of(grid_forms))
-        ->type_name(listed(grid_forms));
+        ->type_name(listed(grid_forms))
+        ->default_str("blocks");
     CLI::Option& size =
         *command.add_option("--size", options->size, "FILE has pairs, of so many rows and columns")
              ->delimiter(',')

@@ -207,14 +207,14 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
         "The grid that the program of a project uses, or that a method ends with, for the thesis's solver");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
-    command.add_option("--form", options->form, "One node per line, or blocks of u and of v (default)")
+    command.add_option("--form", options->form, "One node per line, or blocks of u and of v")
         ->transform(one_of(grid_forms))
-        ->type_name(listed(grid_forms));
-    command
-        .add_option(
-            "--units", options->units, "u and v from 0 to 1 (default), or from 0 to n - 1 as in the thesis")
+        ->type_name(listed(grid_forms))
+        ->default_str("blocks");
+    command.add_option("--units", options->units, "u and v from 0 to 1, or from 0 to n - 1 as in the thesis")
         ->transform(one_of(grid_units))
-        ->type_name(listed(grid_units));
+        ->type_name(listed(grid_units))
+        ->default_str("parameters");
     std::map<std::string, GridMethod> methods;
     for (const auto& row : project::grid_methods()) {
         methods.emplace(row.id, row.value);

@@ -52,6 +52,10 @@ int Driver::command(const std::string&) {
     refuse_unsupported(*this, "execute single lines");
 }
 
+int Driver::check_there(const gcode::Listing&) {
+    refuse_unsupported(*this, "read a program without moving");
+}
+
 int Driver::load(const std::vector<std::string>&) {
     refuse_unsupported(*this, "load files of settings");
 }
@@ -94,6 +98,8 @@ std::string_view to_text(Activity activity) {
         return "a jog";
     case Activity::homing:
         return "homing";
+    case Activity::check:
+        return "a check";
     }
     return "unknown";
 }

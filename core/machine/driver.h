@@ -40,6 +40,7 @@ struct Capabilities {
     bool tells_spindle = true;      ///< whether it turns
     bool told_place = false;        ///< does not tell where it stands: a person does, stands_at()
     bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
+    bool check_mode = false;        ///< reads a program without moving: check_there()
     bool probe = false;             ///< G38.2 as a command
     bool settings = false;          ///< has a table of its own that can be changed
     bool single_block = false;      ///< can stand still after each block
@@ -171,8 +172,12 @@ public:
     /// or stopped; after a refused one the rest is left out. What became of them: DriverStatus::answer, whose
     /// number is returned.
     virtual int command(const std::string& lines);
-    /// The same for a whole file of settings: what is behind a refused line is sent all the same, and the
-    /// answer has a line for each refusal.
+    /// Has the controller itself read a program in a mode in which nothing moves, while idle or stopped;
+    /// stop() ends it. What it refuses: DriverStatus::answer, a line for each, whose number is returned.
+    /// Throws Error for what must not be sent, and where the check would change something that stays.
+    virtual int check_there(const gcode::Listing& listing);
+    /// The same as command() for a whole file of settings: what is behind a refused line is sent all the
+    /// same, and the answer has a line for each refusal.
     virtual int load(const std::vector<std::string>& lines);
     /// After each block with anything to do the machine rests, DriverState::holding, until resume(). Also
     /// while a program runs: it rests as soon as it can.

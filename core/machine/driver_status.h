@@ -29,7 +29,7 @@ enum class DriverState {
 [[nodiscard]] bool is_at_work(DriverState state);
 
 /// What a machine is at while it is running, holding or stopping.
-enum class Activity { none, program, command, jog, homing };
+enum class Activity { none, program, command, jog, homing, check };
 
 [[nodiscard]] std::string_view to_text(Activity activity);
 

@@ -10,7 +10,9 @@ namespace millwright::machine {
 class Driver;
 struct DriverStatus;
 
-/// Of one controller. Nothing is on disk unless something is in doubt.
+/// Of one controller. Nothing is on disk unless something is in doubt, or a program runs: whoever finds the
+/// controller reset after a broken link or a program of ours that was killed knows then that it was cut off
+/// in motion.
 class PositionMemory {
 public:
     /// `controller` tells it from others that are remembered in `folder`: its kind and address.
@@ -26,8 +28,9 @@ public:
 private:
     std::filesystem::path folder_, file_;
     std::string controller_;
-    std::string kept_;       ///< what was last kept; empty: nothing
-    bool kept_lost_ = false; ///< DriverStatus::position_lost, of that
+    std::string kept_;         ///< what was last kept; empty: nothing
+    bool kept_lost_ = false;   ///< DriverStatus::position_lost, of that
+    bool kept_moving_ = false; ///< a program was running when it was last seen
 };
 
 } // namespace millwright::machine

@@ -32,14 +32,15 @@ public:
 
     void move(const Move& move, const gcode::SourceLine&) override {
         const AxisValues begin = frame_.from_machine(at_);
-        if (move.kind != MoveKind::traverse && move.kind != MoveKind::probe) {
+        const bool cuts = move.kind != MoveKind::traverse && move.kind != MoveKind::probe;
+        if (cuts) {
             cut(move.source.line);
         }
         found_.probes = found_.probes || move.kind == MoveKind::probe;
         if (move.kind == MoveKind::arc) {
             take_arc(begin, move);
         }
-        go(move.target, move.source.line);
+        go(move.target, move.source.line, cuts);
     }
 
     void curve(const gcode::Curve& curve, const gcode::SourceLine&) override {
@@ -48,7 +49,7 @@ public:
         for (const gcode::ControlPoint& corner : curve.points) { // the curve lies within their hull
             point[gcode::Axis::x] = corner.x;
             point[gcode::Axis::y] = corner.y;
-            go(point, curve.source.line);
+            go(point, curve.source.line, true);
         }
     }
 
@@ -90,6 +91,7 @@ private:
             found_.first_cut_line = line;
             found_.spindle_before_cut = turning_;
         }
+        widen(found_.cuts, line);
     }
 
     void take_feed(const Command& command) {
@@ -100,15 +102,23 @@ private:
         }
     }
 
-    void go(const AxisValues& target, int line) {
+    void go(const AxisValues& target, int line, bool cuts) {
         at_ = frame_.to_machine(target);
         if (keep_path_) {
             using gcode::Axis;
             found_.path.push_back({line, Vec3(at_[Axis::x], at_[Axis::y], at_[Axis::z])});
         }
+        widen(found_.ranges, line);
+        if (cuts) {
+            widen(found_.cuts, line);
+        }
+    }
+
+    /// By where the machine is.
+    void widen(std::array<Survey::Range, gcode::axis_count>& ranges, int line) const {
         for (std::size_t n = 0; n < gcode::axis_count; ++n) {
             const double value = gcode::is_rotary(n) ? from_degrees(at_[n]) : at_[n];
-            Survey::Range& range = found_.ranges[n];
+            Survey::Range& range = ranges[n];
             if (value < range.min) {
                 range.min = value;
                 range.min_line = line;
@@ -139,7 +149,7 @@ private:
         for (double angle = std::ceil(low / step) * step; angle <= high; angle += step) {
             point[first] = move.centre_1 + radius * std::cos(angle);
             point[second] = move.centre_2 + radius * std::sin(angle);
-            go(point, move.source.line);
+            go(point, move.source.line, true);
         }
     }
 };

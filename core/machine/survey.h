@@ -34,6 +34,7 @@ struct Survey {
     };
 
     std::array<Range, gcode::axis_count> ranges; ///< of moves, arcs by their whole way, machine coordinates
+    std::array<Range, gcode::axis_count> cuts;   ///< the same of feed moves alone, from where they begin
     /// Where the machine stands before, mm and rad; only for axes whose place SurveySettings::start tells.
     std::array<std::optional<double>, gcode::axis_count> start;
     bool probes = false;        ///< so that nobody knows beforehand where some of its moves end

@@ -55,7 +55,7 @@ private:
         } else if (name == "plunge") {
             level_.plunging = from_mm_per_min(number(value));
         } else if (name == "order") {
-            level_.order = whole(value, -1'000'000);
+            level_.order = whole(value, 1) - 1; // as the window counts
         } else if (name == "tool") {
             level_.tool = whole(value, 0);
         } else if (name == "side") {

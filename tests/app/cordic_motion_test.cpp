@@ -41,7 +41,7 @@ Motion motion_of(std::vector<std::string> words) {
     const auto answer = nlohmann::json::parse(ended.out);
     const auto& motion = answer.at("motion");
     return {motion.at("max_acceleration_mm_s2").get<double>(),
-            motion.at("seconds").get<double>(),
+            motion.at("time_s").get<double>(),
             answer.at("warnings").dump()};
 }
 

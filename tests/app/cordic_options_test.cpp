@@ -22,7 +22,7 @@ using CordicOptions = ScratchFiles;
 
 TEST_F(CordicOptions, RefuseArcsThatTheFormatCannotKeepWithinTheTolerance) {
     const std::string file = written("f10.ngc", "G21 G90\nF60\nG2 X0 Y0 I10 J0\nM2\n");
-    const Ended coarse = run({"cordic", "run", file, "--format", "q24.8", "--tolerance", "1e-7"});
+    const Ended coarse = run({"cordic", "run", file, "--format", "q24.8", "--arc-tolerance", "1e-7"});
     EXPECT_EQ(coarse.exit_code, 1);
     EXPECT_EQ(coarse.out, "");
     EXPECT_THAT(coarse.err, HasSubstr("f10.ngc:3:1: q24.8 holds the end of a chord 0.00"));
@@ -56,7 +56,7 @@ TEST_F(CordicOptions, TellTheWayOfRoundingThatTheProcessorUses) {
 TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
     const std::vector<std::vector<std::string>> uses{
         {"cordic", "run", thesis_arc, "--clock"},
-        {"cordic", "run", thesis_arc, "--tolerance"},
+        {"cordic", "run", thesis_arc, "--arc-tolerance"},
         {"cordic", "run", thesis_arc, "--rapid"},
         {"cordic", "run", thesis_arc, "--acceleration"},
         {"cordic", "run", thesis_arc, "--profile", "s-curve", "--jerk"},
@@ -149,9 +149,9 @@ TEST_F(CordicOptions, OfGCodeAreRefusedForProgramsThatAreMadeAlready) {
         const Ended other = run({"cordic", "run", file, "--format", "f64"});
         EXPECT_EQ(other.exit_code, 1);
         EXPECT_THAT(other.err, HasSubstr("the program is in q10.22, not in f64"));
-        const Ended chords = run({"cordic", "run", file, "--tolerance", "0.1"});
+        const Ended chords = run({"cordic", "run", file, "--arc-tolerance", "0.1"});
         EXPECT_EQ(chords.exit_code, 1);
-        EXPECT_THAT(chords.err, HasSubstr("--tolerance is for G-code"));
+        EXPECT_THAT(chords.err, HasSubstr("--arc-tolerance is for G-code"));
     }
 }
 

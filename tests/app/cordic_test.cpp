@@ -38,7 +38,7 @@ TEST(Cordic, VectorAnswersWithLengthAndDegrees) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const auto answer = nlohmann::json::parse(ended.out);
     EXPECT_NEAR(answer.at("magnitude").get<double>(), 5.0, 1e-6);
-    EXPECT_NEAR(answer.at("degrees").get<double>(), 126.8698976458, 1e-5);
+    EXPECT_NEAR(answer.at("angle_deg").get<double>(), 126.8698976458, 1e-5);
     EXPECT_EQ(answer.at("clocks"), 25);
     const int shift = answer.at("shift").get<int>();
     EXPECT_EQ(shift, -2); // to the right: its gain must not overflow
@@ -133,7 +133,8 @@ TEST(Cordic, AssemblesAndDisassemblesToTheSame) {
 TEST(Cordic, WritesWaves) {
     const ScratchFolder folder;
     const auto waves = folder.path() / "arc.vcd";
-    EXPECT_EQ(run({"cordic", "run", thesis_arc, "--trace", waves.string(), "--tolerance", "1"}).exit_code, 0);
+    EXPECT_EQ(run({"cordic", "run", thesis_arc, "--trace", waves.string(), "--arc-tolerance", "1"}).exit_code,
+              0);
     EXPECT_THAT(content_of(waves), HasSubstr("$enddefinitions $end"));
 }
 
@@ -256,7 +257,7 @@ TEST(Cordic, WritesServoSetPointsThatAgreeWithOneAnother) {
                              "0.01",
                              "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    const double seconds = nlohmann::json::parse(ended.out).at("motion").at("seconds").get<double>();
+    const double seconds = nlohmann::json::parse(ended.out).at("motion").at("time_s").get<double>();
     std::istringstream lines(content_of(servo));
     std::string line;
     std::getline(lines, line);

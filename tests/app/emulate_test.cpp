@@ -130,6 +130,13 @@ TEST_F(Emulate, AStopThatResetTheBoardSaysSo) {
     EXPECT_EQ(stopped.exit_code, 1);
     EXPECT_THAT(stopped.err, HasSubstr("opening the port reset the controller"));
     EXPECT_THAT(stopped.err, HasSubstr("its position is lost"));
+    // The next job asks first, although a Grbl that was found at zero needs no word.
+    const std::string file = (scratch / "next.ngc").string();
+    write_content(file, "G21 G90\nG1 X1 F600\nM30\n");
+    const std::vector<std::string> next{
+        "send", file, "--driver", "grbl", "--port", stop[4], "--log", logs, "--yes"};
+    EXPECT_EQ(run(next).exit_code, 1);
+    EXPECT_THAT(run(next).err, HasSubstr("--trust-position"));
 }
 
 TEST_F(Emulate, AMachineGoesWhereACoordinateStreamSaysAndTellsAtItsEnd) {

@@ -215,7 +215,7 @@ TEST(PictureCommand, TraceToSvgLeavesNothingOutWithoutAWord) {
     const ScratchFolder folder;
     const std::string boat = "assets/samples/pictures/boat.png";
     for (const std::vector<std::string>& option :
-         {std::vector<std::string>{"--hatch", "2"}, {"--chords", "0.1"}, {"--depth", "3"}}) {
+         {std::vector<std::string>{"--hatch", "2"}, {"--arc-tolerance", "0.1"}, {"--depth", "3"}}) {
         std::vector<std::string> words{"picture", "trace", boat, "--out", folder / "boat.svg"};
         words.insert(words.end(), option.begin(), option.end());
         const Ended ended = run(words);

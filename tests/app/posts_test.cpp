@@ -45,6 +45,17 @@ TEST_F(Posts, ConvertWritesAProgramForAnotherControl) {
 }
 
 /// A tilt by 40 degrees 60 mm beside the axis: 60 mm (1 - cos 20 degrees) is 3.6 mm.
+TEST_F(Posts, ConvertSaysWhatTheControlHasToHave) {
+    const std::string file = (scratch / "length.ngc").string();
+    write_content(file, "G21 G90 G54\nT1 M6\nG43 H1\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG49\nM2\n");
+    const Ended plain = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "linuxcnc-xyz"});
+    EXPECT_EQ(plain.exit_code, 0);
+    EXPECT_THAT(plain.err, HasSubstr("length.ngc:3:5: the tool has no length here"));
+    const Ended placed = run(
+        {"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--origin", "100,100,-50"});
+    EXPECT_THAT(placed.err, HasSubstr("with a work offset (G54) of zero"));
+}
+
 TEST_F(Posts, ConvertCutsFeedsUntilTheTipStaysOnTheProgramsWay) {
     write_content(part, "G21 G90 G94\nG0 X0 Y60 Z50\nG0 A0 C0\nG1 Z0 F600\nG1 X30 A40\nM2\n");
     const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };

@@ -49,6 +49,51 @@ struct Send : testing::Test {
     }
 };
 
+TEST_F(Send, LetsGrblReadAProgramBeforeItRuns) {
+    const std::string good = "G21 G90\nG0 X3\nG1 X10 F3000\nM30\n";
+    write_content(file, good);
+    Emulator emulator(port, {"--speed", "20"});
+    const auto with = [this](std::vector<std::string> more) {
+        std::vector<std::string> all = words();
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    const Ended read = with({"--check-only"});
+    EXPECT_EQ(read.exit_code, 0) << read.err;
+    EXPECT_THAT(read.out, HasSubstr("Grbl read all 4 lines in check mode and refuses none"));
+    EXPECT_TRUE(last_record(logs).is_null()) << "no job was done";
+    const Ended checked = with({"--check"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    EXPECT_THAT(checked.out, HasSubstr("All 4 blocks were executed"));
+
+    write_content(file, "G21 G90\nM6 T1\nG1 X10 F3000\nM30\n");
+    const Ended refused = with({"--check"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("line 2: error 20"));
+    EXPECT_THAT(with({"--check", "--trace-box"}).err, HasSubstr("--trace-box runs no program"));
+    EXPECT_EQ(with({"--check-only", "--continue"}).exit_code, 2);
+    (void)emulator.stop();
+}
+
+TEST_F(Send, TracesTheBoxOfTheCuts) {
+    write_content(file, "G21 G90 F3000\nG0 Z4\nG0 X40 Y40\nG1 X10 Y5\nG2 X20 I5 J0\nG0 X0 Y0\nM30\n");
+    Emulator emulator(port, {"--speed", "20"});
+    std::vector<std::string> trace = words();
+    trace.emplace_back("--trace-box");
+    const Ended ended = run(trace);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    std::string text;
+    for (const auto& entry : fs::directory_iterator(logs)) {
+        text += entry.path().extension() == ".ngc" || entry.path().extension() == ".jsonl"
+                    ? content_of(entry.path())
+                    : "";
+    }
+    EXPECT_THAT(text, HasSubstr("the box of "));
+    EXPECT_EQ(last_record(logs).at("end"), "done");
+    EXPECT_DOUBLE_EQ(last_record(logs).at("position").at(2).get<double>(), 4.0);
+    (void)emulator.stop();
+}
+
 TEST_F(Send, SendsAFileToAnEmulatedController) {
     write_content(file, zigzag(20));
     Emulator emulator(port, {"--speed", "20", "--line-numbers"});

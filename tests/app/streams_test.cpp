@@ -113,7 +113,17 @@ TEST_F(Streams, HelpThatCannotBePrintedFails) {
 
 TEST_F(Streams, EverySignalThatEndsAProgramStopsTheMachineAndEndsTheLog) {
     write_content(file, back_and_forth(4000));
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU, SIGPWR}) {
+    for (const int signal : {SIGINT,
+                             SIGTERM,
+                             SIGHUP,
+                             SIGQUIT,
+                             SIGUSR1,
+                             SIGUSR2,
+                             SIGALRM,
+                             SIGXCPU,
+                             SIGPWR,
+                             SIGSTKFLT,
+                             SIGRTMIN}) {
         fs::remove_all(logs);
         Emulator emulator(port, {"--speed", "5"});
         Program sender(words());

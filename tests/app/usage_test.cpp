@@ -168,6 +168,15 @@ TEST(Usage, HelpSpeaksPlainly) {
         std::smatch found;
         EXPECT_FALSE(std::regex_search(help, found, leftover))
             << testing::PrintToString(command) << ": " << found.str();
+        static const std::regex of_names(R"([a-z]\|[a-z][a-z|-]* \([^)]*default [0-9])");
+        EXPECT_FALSE(std::regex_search(help, found, of_names))
+            << testing::PrintToString(command) << ": " << found.str();
+        static const std::regex of_range(R"(\(([-0-9.]+) to ([-0-9.]+); default ([-0-9.]+))");
+        for (std::sregex_iterator at(help.begin(), help.end(), of_range), end; at != end; ++at) {
+            const double value = std::stod((*at)[3]);
+            EXPECT_TRUE(value >= std::stod((*at)[1]) && value <= std::stod((*at)[2]))
+                << testing::PrintToString(command) << ": " << at->str();
+        }
     }
     EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--largest-step NUMBER (0 to 180)"));
     EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--sequencing nearest|travel|error|time"));

@@ -1,4 +1,5 @@
 #include "core/base/error.h"
+#include "core/machine/box_trace.h"
 #include "core/machine/driver.h"
 #include "core/machine/job_queue.h"
 #include "ui/actions/arm_bench.h"
@@ -306,6 +307,38 @@ void start_asked(Hands& hands) {
     }
 }
 
+Permission can_check_there(const Workbench& now) {
+    const bool reads = now.session.start && now.session.start->job->listing && now.controller.can.check_mode;
+    return reads ? machine_ready(now) : Permission::refused("This controller has no check mode.");
+}
+
+void check_there(Hands& hands) {
+    hands.workshop.controller().tell([&hands](machine::Driver& driver) {
+        hands.session.start_answer = driver.check_there(*hands.session.start->job->listing);
+    });
+}
+
+Permission can_trace(const Workbench& now) {
+    return now.controller.can.plans && now.controller.can.dialect
+               ? can_start(now)
+               : Permission::refused("This controller executes no G-code of its own.");
+}
+
+/// The job stays as it is: it is asked for again afterwards.
+void trace_box(Hands& hands) {
+    machine::Job trace = machine::box_trace_job(*hands.session.start->job, hands.now.start_check->survey);
+    hands.session.start.reset();
+    start_job(hands, std::move(trace));
+}
+
+void leave_start(Hands& hands) {
+    const auto& status = hands.now.controller.status;
+    if (status.activity == machine::Activity::check && status.answer.number == hands.session.start_answer) {
+        hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
+    }
+    hands.session.start.reset();
+}
+
 Permission can_stop_at_once(const Workbench& now) {
     const bool moves = now.job.running || now.controller.connected() || now.plot.table().playing();
     return moves ? Permission{} : Permission::refused("No machine is connected.");
@@ -371,9 +404,27 @@ void add_machine_actions(Actions& actions) {
         {"start.go", dialog_menu, "Start", "The machine moves. Enter does the same.", "", icons::play},
         can_start,
         start_asked);
-    add(actions, {"start.cancel", dialog_menu, "Cancel", "Nothing moves.", "", ""}, always, [](Hands& hands) {
-        hands.session.start.reset();
-    });
+    add(actions,
+        {"start.check",
+         dialog_menu,
+         "Check at the controller",
+         "The controller reads the program in its check mode and says what it refuses. Nothing moves.",
+         "",
+         icons::check},
+        can_check_there,
+        check_there);
+    add(actions,
+        {"start.trace",
+         dialog_menu,
+         "Trace the box",
+         "The machine goes once around the box of the cuts, at the program's greatest height and with the "
+         "spindle "
+         "off: look whether clamps are in the way.",
+         "",
+         icons::fit_view},
+        can_trace,
+        trace_box);
+    add(actions, {"start.cancel", dialog_menu, "Cancel", "Nothing moves.", "", ""}, always, leave_start);
     add(actions,
         {"machine.hold",
          "Machine",

@@ -196,7 +196,8 @@ struct Session {
     std::optional<Replacing> replacing; ///< waits for the person's word
     bool gouges_asked = false;          ///< is a program written that gouges the part?
     HelpPage help = HelpPage::none;
-    std::shared_ptr<const StartWish> start;          ///< a job that waits for a person's word; null: none
+    std::shared_ptr<const StartWish> start; ///< a job that waits for a person's word; null: none
+    int start_answer = 0; ///< CommandAnswer::number of the controller's own check of it; 0: not asked for
     bool search_wanted = false;                      ///< open the palette in the next frame
     bool fit_wanted = true;                          ///< fit the view in the next frame
     std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame

@@ -275,6 +275,7 @@ void Workshop::follow_begin() {
 
 void Workshop::ask_to_start(StartWish wish) {
     session_.start = std::make_shared<const StartWish>(std::move(wish));
+    session_.start_answer = 0;
     start_->want(session_.start);
 }
 

@@ -324,9 +324,9 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const std::shared_ptr<const project::PlotResult> made = now.plot.latest();
         picture_fields(ui, ask, now.plot.settings(), made.get());
     } else if (const auto made = now.plot.latest(); made && made->points) {
-        ui.note("Points of a table: it plays them as they are, one per period. A program of them has the "
-                "feeds that "
-                "are set here.");
+        ui.note(
+            "Points of a table: it plays them as they are, one per period. A program of them has the feeds "
+            "that are set under Work.");
     } else if (project::is_path_file(now.plot.file())) {
         ui.note("A path that was made before: it is cut as it stands.");
     } else if (project::is_gcode_file(now.plot.file())) {
@@ -402,7 +402,10 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const PlotSettings& set = now.plot.settings();
     {
-        const auto permitted = ui.permitted(unless_path(now, "The file has its own speeds and heights."));
+        const bool has_feeds = stands_as_it_is(now) && !project::is_point_file(now.plot.file());
+        const auto permitted =
+            ui.permitted(has_feeds ? widgets::Permission::refused("The file has its own speeds and heights.")
+                                   : widgets::Permission{});
         speed_of_all(ui, ask, set, "feed_mm_per_min", "Along strokes and rows, of all pens");
         speed_of_all(ui, ask, set, "plunge_mm_per_min", "Into the work, of all pens");
         numbers(ui, ask, set, {"safe_height_mm"});

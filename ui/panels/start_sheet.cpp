@@ -104,6 +104,22 @@ void draw_check_result(Ui& ui,
     (void)widgets::banner(ui, id, {severity, where + first.message + hint + more, {}});
 }
 
+/// What the controller said of the program in its check mode.
+void draw_answer(Ui& ui, const machine::CommandAnswer& answer) {
+    using State = machine::CommandAnswer::State;
+    using widgets::Severity;
+    if (answer.state == State::pending) {
+        ui.note("The controller is reading the program in check mode \u2026");
+        return;
+    }
+    const std::size_t end = answer.text.find('\n');
+    const auto more = std::ranges::count(answer.text, '\n');
+    const std::string text =
+        answer.text.substr(0, end) + (more > 0 ? fmt::format(", and {} more", more) : "");
+    (void)widgets::banner(
+        ui, "answer", {answer.state == State::done ? Severity::good : Severity::danger, text, {}});
+}
+
 std::string axis_values_text(const actions::ControllerView& machine) {
     std::string text;
     const auto& position = machine.status.position;
@@ -156,7 +172,15 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         draw_check_result(ui, "faults", widgets::Severity::danger, now.start_check->faults);
         draw_check_result(ui, "warnings", widgets::Severity::warning, now.start_check->warnings);
     }
+    if (now.session.start_answer > 0 && status.answer.number == now.session.start_answer) {
+        draw_answer(ui, status.answer);
+    }
     ui.gap();
+    {
+        const auto looks = ui.row(2);
+        action_button(ui, now, ask, catalogue_, "start.check");
+        action_button(ui, now, ask, catalogue_, "start.trace");
+    }
     const auto row = ui.row(2);
     action_button(ui, now, ask, catalogue_, "start.cancel");
     action_button(ui, now, ask, catalogue_, "start.go", widgets::Rank::primary);

@@ -115,5 +115,38 @@ TEST_F(PositionMemoryOf, ADoubtIsRememberedAsWhatItWas) {
     }
 }
 
+/// As after a broken link or a kill: the program that ran there has no end.
+TEST_F(PositionMemoryOf, AControllerThatWasResetWhileAProgramRanHasLostItsPosition) {
+    trust();
+    wire.start("G1 X50 F100\n");
+    PositionMemory before = memory();
+    before.keep(driver.status());
+    wire.cut();
+    wire.run_until([] { return false; }, 0.5);
+    before.keep(driver.status()); // the link is lost
+    test::GrblWire fresh;         // at zero, as after it was switched on
+    test::WireDriver found(fresh);
+    ASSERT_FALSE(fresh.session.status().position_lost);
+    memory().remind(found);
+    EXPECT_THAT(fresh.session.status().position_doubt,
+                HasSubstr("a program was running when it was last seen here"));
+    EXPECT_TRUE(fresh.session.status().position_lost);
+}
+
+TEST_F(PositionMemoryOf, AProgramThatCameToItsEndLeavesNothing) {
+    trust();
+    PositionMemory now = memory();
+    wire.start("G1 X5 F1000\n");
+    now.keep(driver.status());
+    EXPECT_FALSE(std::filesystem::is_empty(folder));
+    wire.run_to_end();
+    now.keep(driver.status());
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+    wire.start("G1 X9 F100\n");
+    now.keep(driver.status());
+    memory().remind(driver); // it is found where it was, and its position is right
+    EXPECT_THAT(doubt(), IsEmpty());
+}
+
 } // namespace
 } // namespace millwright::machine

@@ -14,9 +14,9 @@ TEST(LevelText, ChangesWhatItNames) {
     like.tool = 3;
     EXPECT_EQ(parse_level("4", like), (Level{.pen = 4, .depth = 2.0, .tool = 3}));
     EXPECT_EQ(
-        parse_level("2:depth=1.5,passes=3,feed=600,plunge=60,order=-1,tool=2", like),
+        parse_level("2:depth=1.5,passes=3,feed=600,plunge=60,order=3,tool=2", like),
         (Level{
-            .pen = 2, .order = -1, .depth = 1.5, .passes = 3, .cutting = 10.0, .plunging = 1.0, .tool = 2}));
+            .pen = 2, .order = 2, .depth = 1.5, .passes = 3, .cutting = 10.0, .plunging = 1.0, .tool = 2}));
     EXPECT_FALSE(parse_level("1:off", like).enabled);
     EXPECT_EQ(parse_level("1:tabs=4", like).tabs.count, 4);
     EXPECT_EQ(parse_level("0", like).pen, 0);
@@ -24,6 +24,8 @@ TEST(LevelText, ChangesWhatItNames) {
 
 TEST(LevelText, QuotesWhatIsWrong) {
     for (const char* text : {"",
+                             "1:order=0",
+                             "1:order=-1",
                              "x",
                              "1:",
                              "1:depth",

@@ -108,6 +108,46 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
     ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().job.running; }));
 }
 
+TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
+    open("G21 G90 G94\nG1 X40 F60\nM6 T1\nM2\n");
+    show_machine();
+    person.press_key(render::Key::f9);
+    wait_for_check();
+    person.click("dialogs/start/start_check");
+    const std::string answer = "dialogs/start/answer";
+    ASSERT_TRUE(person.live_until([&] { return person.sees(answer); }));
+    person.frames(2);
+    EXPECT_THAT(person.workshop().look().controller.status.answer.text, HasSubstr("line 3: "));
+    EXPECT_TRUE(is_asked());
+    EXPECT_LT(grbl.last_motion(), 0.0);
+    person.keep("machine-start-check");
+    person.press_key(render::Key::escape);
+    person.frames(5);
+    person.press_key(render::Key::f9);
+    wait_for_check();
+    EXPECT_FALSE(person.sees(answer)) << "of another question";
+    EXPECT_FALSE(has_job());
+}
+
+TEST_F(StartSheetAtGrbl, TracesTheBoxInPlaceOfTheJob) {
+    open("G21 G90 G94\nG0 X2 Y2\nG1 X4 F3000\nY5\nM2\n");
+    show_machine();
+    person.press_key(render::Key::f9);
+    wait_for_check();
+    person.workshop().run("machine.trust_position");
+    person.frames(2);
+    person.click("dialogs/start/start_trace");
+    ASSERT_TRUE(person.live_until([this] {
+        const auto job = person.workshop().look().job;
+        return !job.running && job.outcome;
+    }));
+    EXPECT_FALSE(is_asked());
+    const auto now = person.workshop().look();
+    EXPECT_EQ(now.job.outcome->end, machine::JobEnd::done) << now.job.outcome->sentence;
+    EXPECT_NEAR(now.controller.status.position[0], 2.0, 0.01); // back where it began
+    EXPECT_NEAR(now.controller.status.position[1], 2.0, 0.01);
+}
+
 TEST_F(StartSheetAtGrbl, EnterThatIsHeldFromBeforeStartsNothing) {
     open(square);
     show_machine();

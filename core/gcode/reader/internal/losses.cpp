@@ -84,6 +84,13 @@ void Losses::command(const Command& command, std::string_view line) {
     case CommandKind::enable_adaptive_feed:
     case CommandKind::disable_feed_hold:
         return simplify('M', "overrides and holds stay possible throughout (M49 to M53, G74, G84)");
+    case CommandKind::use_tool_length_offset:
+        if (is_zero(command.axes) && line.find_first_of("Hh") != std::string_view::npos) {
+            simplify('H',
+                     "the tool has no length here, so that of G43 is taken for 0: a tool table (--tools) "
+                     "says the lengths");
+        }
+        return;
     case CommandKind::set_g5x_offset:
         if (command.index > 1 && command.mode == 0 && is_zero(command.axes)) {
             note(Kind::simplified,

@@ -40,6 +40,7 @@ Capabilities GrblDriver::capabilities() const {
             .home = homes,
             .why_no_home = homes ? "" : "Homing is switched off in this controller ($22=0).",
             .command = true,
+            .check_mode = true,
             .probe = true,
             .settings = true,
             .single_block = true,
@@ -78,6 +79,12 @@ int GrblDriver::command(const std::string& lines) {
     grbl::ProgramLines ready = grbl::command_lines(lines);
     const Turn turn(*this);
     return talk().command(std::move(ready), turn.now());
+}
+
+int GrblDriver::check_there(const gcode::Listing& listing) {
+    grbl::ProgramLines lines = grbl::program_lines(listing, {});
+    const Turn turn(*this);
+    return talk().check(std::move(lines), turn.now());
 }
 
 void GrblDriver::set_single_block(bool on) {

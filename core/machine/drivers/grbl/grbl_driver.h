@@ -57,6 +57,10 @@ public:
     void start(Work work) override;
     /// G-code, settings ($110=500) and questions ($N). Throws Error for lines that must not be sent.
     int command(const std::string& lines) override;
+    /// Check mode ($C). Its end resets the controller, and modes are set as they were before. Throws Error
+    /// also for lines that store offsets, which Grbl does in check mode too, and while G92 or a tool length
+    /// is in force.
+    int check_there(const gcode::Listing& listing) override;
     /// Lines that the controller has already, up to 20, are executed first.
     void set_single_block(bool on) override;
     /// Travel is known of a machine that homes: machine coordinates go from -travel to 0, or as its firmware

@@ -20,6 +20,8 @@ struct ProgramLine {
     bool moves_zero = false;    ///< it may change the work offset
 
     [[nodiscard]] bool is_setting() const { return text.starts_with('$'); }
+    /// Nothing is sent from before it until its answer: what follows would be lost.
+    [[nodiscard]] bool goes_alone() const { return writes_eeprom || text == "$C"; }
 };
 
 struct ProgramLines {

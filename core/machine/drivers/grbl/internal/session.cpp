@@ -63,7 +63,7 @@ void Session::lost(const std::string& why) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
-    const bool moving = active() || stage_ == Stage::braking;
+    const bool moving = (active() || stage_ == Stage::braking) && !checks();
     const bool in_program =
         at_ == Activity::program && (stage_ == Stage::running || stage_ == Stage::braking);
     link_lost_ = true;
@@ -236,11 +236,11 @@ void Session::finish_ending(double now) {
     }
 }
 
-/// What a program, a command or a reset has changed: stored offsets and modes.
-void Session::ask_again(Stage then, double now, bool settings) {
+/// What a program, a command or a reset has changed: stored offsets and modes; `first` goes before.
+void Session::ask_again(Stage then, double now, const std::string& first) {
     questions_ = {"$G", "$#"}; // the last comes first
-    if (settings) {
-        questions_.emplace_back("$$");
+    if (!first.empty()) {
+        questions_.push_back(first);
     }
     after_asking_ = then;
     stage_ = Stage::asking_again;
@@ -270,8 +270,13 @@ void Session::watch_hold(double now) {
 void Session::watch_answers(double now) {
     const bool expects_answers =
         stage_ == Stage::running || stage_ == Stage::asking_again || stage_ == Stage::jogging;
-    if (!expects_answers || window_.empty() || hold_wanted_ || held_ || !report_ ||
-        report_->state != MachineState::idle) {
+    constexpr int reports_to_greet = 20; // two seconds
+    if (leaves_check_mode() && idle_unanswered_ >= reports_to_greet) {
+        fail("the controller does not leave check mode", now);
+        return;
+    }
+    const bool waits_for_more = report_ && report_->state != MachineState::idle && !checks();
+    if (!expects_answers || window_.empty() || hold_wanted_ || held_ || !report_ || waits_for_more) {
         last_answer_ = now;
         idle_unanswered_ = 0;
         return;
@@ -294,8 +299,8 @@ bool Session::may_send(const ProgramLine& line) const {
     if ((sent_alone_ && !window_.empty()) || zero_moves_) {
         return false;
     }
-    const bool needs_rest = line.moves_zero && reports_work_;
-    return !(line.writes_eeprom || needs_rest) || (window_.empty() && (!needs_rest || proof_.settled()));
+    const bool needs_rest = line.moves_zero && reports_work_ && at_ != Activity::check;
+    return !(line.goes_alone() || needs_rest) || (window_.empty() && (!needs_rest || proof_.settled()));
 }
 
 /// Sends as much of the program as the controller has room for.
@@ -312,8 +317,8 @@ void Session::pump() {
         if (!window_.has_room_for(text.size()) || !ahead_.allows(line.block) || !may_send(line)) {
             return;
         }
-        zero_moves_ = line.moves_zero && reports_work_;
-        sent_alone_ = line.writes_eeprom || zero_moves_;
+        zero_moves_ = line.moves_zero && reports_work_ && at_ != Activity::check;
+        sent_alone_ = line.goes_alone() || zero_moves_;
         output_ += text;
         window_.push({LineKind::program, std::move(text), next_line_, line.dwell});
         ++next_line_;

@@ -87,6 +87,8 @@ public:
     void stop_jog(double now) override;
     /// The number of the answer that DriverStatus will show.
     int command(ProgramLines lines, double now);
+    /// The same of a program in check mode, in which nothing moves.
+    int check(ProgramLines program, double now);
     void set_single_block(bool on);
     [[nodiscard]] internal::Ahead* ahead() override { return &ahead_; }
     void set_overrides(const Overrides& wanted) override;
@@ -124,7 +126,7 @@ private:
     void send_reset(double now);
     void end(bool fault, std::string message, double now);
     void finish_ending(double now);
-    void ask_again(Stage then, double now, bool settings = false);
+    void ask_again(Stage then, double now, const std::string& first = {});
     [[nodiscard]] std::string what_it_may_execute(bool in_program) const;
     void fail(const std::string& message, double now);
     void begin(ProgramLines program, Activity activity, double now);
@@ -173,6 +175,12 @@ private:
     [[nodiscard]] double report_unit() const;
     [[nodiscard]] Axes scaled(Axes axes) const;
     [[nodiscard]] double feed() const; ///< mm/s, as reported
+
+    // session_check.cpp: check mode
+    [[nodiscard]] bool checks() const;
+    [[nodiscard]] bool leaves_check_mode() const;
+    void refused_in_check(const SentLine& line, const std::string& why, double now);
+    void finish_check(double now);
 
     // session_identity.cpp: who answers, and what it has
     void identify(const GrblIdentity& who);
@@ -230,6 +238,8 @@ private:
     bool single_block_ = false;
     bool block_wait_ = false; ///< the next line waits for resume()
     CommandAnswer answer_;
+    std::string modes_before_check_; ///< a line that brings them back
+    int checked_lines_ = 0, refused_in_check_ = 0;
 
     std::optional<StatusMessage> report_; ///< the last
     internal::OwnPause own_pause_;

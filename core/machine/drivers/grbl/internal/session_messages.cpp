@@ -83,7 +83,7 @@ void Session::finish(double now) {
     }
     overrides_.forget(); // they outlast no program, and M2 and M30 have brought them back
     const bool sets = std::ranges::any_of(program_.lines, &ProgramLine::is_setting);
-    ask_again(Stage::ready, now, at_ == Activity::command && sets);
+    ask_again(Stage::ready, now, at_ == Activity::command && sets ? "$$" : "");
 }
 
 /// A refused command is no longer pending when it comes to its end.
@@ -171,6 +171,8 @@ void Session::refused(const SentLine& line, const std::string& why, double now) 
         answer_.state = CommandAnswer::State::refused;
         answer_.text = fmt::format("{}: {}", one_line(line.text), why);
         next_line_ = static_cast<int>(std::ssize(program_.lines)); // what was planned before comes to its end
+    } else if (line.kind == LineKind::program && checks()) {
+        refused_in_check(line, why, now);
     } else if (line.kind == LineKind::program) {
         const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
         fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);
@@ -224,7 +226,11 @@ void Session::handle(const ErrorAnswer& error, double now) {
 
 void Session::handle(const AlarmMessage& alarm, double now) {
     proof_.disturbed();
-    const std::string why = explain_grbl_alarm(alarm.number, readout_.firmware);
+    std::string why = explain_grbl_alarm(alarm.number, readout_.firmware);
+    if (checks() && !window_.empty() && window_.lines().front().index >= 0) {
+        const ProgramLine& at = program_.lines[static_cast<std::size_t>(window_.lines().front().index)];
+        why = fmt::format("at line {}, {}", at.line, why);
+    }
     if (grbl_alarm_loses_position(alarm.number, readout_.firmware)) {
         doubt_.arise(fmt::format("after alarm {}", alarm.number));
     }
@@ -278,6 +284,11 @@ void Session::handle(const Welcome& welcome, double now) {
     }
     proof_.disturbed();
     input_.clear();
+    if (leaves_check_mode()) {
+        report_.reset();
+        finish_check(now);
+        return;
+    }
     const bool expected = resets_due_ > 0 || spare_welcomes_ > 0;
     spare_welcomes_ = resets_due_ > 0 ? resets_due_ - 1 : std::max(0, spare_welcomes_ - 1);
     resets_due_ = 0;

@@ -138,9 +138,13 @@ void Session::watch_state(const StatusMessage& report, double now) {
         }
         return;
     }
-    if (report.state == MachineState::sleep || report.state == MachineState::check) {
+    const bool strays = report.state == MachineState::check && !checks();
+    if (report.state == MachineState::sleep || strays) {
         fail("the controller was put to sleep or into check mode", now);
         return;
+    }
+    if (checks()) {
+        return; // its greeting ends it
     }
     if (stage_ == Stage::running) {
         watch_motion(report, now);

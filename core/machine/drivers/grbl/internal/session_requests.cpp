@@ -47,7 +47,9 @@ void Session::begin(ProgramLines program, Activity activity, double now) {
     program_ = std::move(program);
     at_ = activity;
     proof_ = Proof(program_, readout_.planner_blocks, readout_.segment_blocks);
-    window_ = Window(readout_.buffer_bytes, settings_.one_by_one || activity == Activity::command);
+    window_ = Window(readout_.buffer_bytes,
+                     settings_.one_by_one || activity == Activity::command ||
+                         (activity == Activity::check && facts().errors_stick));
     proof_closed_ = false;
     next_line_ = 0;
     stage_ = Stage::running;
@@ -76,6 +78,9 @@ bool Session::waits_between_blocks() const {
 }
 
 void Session::hold(double now) {
+    if (checks()) {
+        return; // nothing moves
+    }
     if ((stage_ == Stage::running || stage_ == Stage::foreign) && !hold_wanted_) {
         hold_wanted_ = true;
         held_ = false;
@@ -138,7 +143,7 @@ void Session::emergency_stop(double now) {
     if (link_lost_) {
         return;
     }
-    if (active() || stage_ == Stage::braking || (report_ && report_->moving())) {
+    if (((active() || stage_ == Stage::braking) && !checks()) || (report_ && report_->moving())) {
         doubt_.arise("an emergency stop cut the motion off");
     }
     stage_ = Stage::flushing;

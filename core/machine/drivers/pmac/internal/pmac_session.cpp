@@ -21,8 +21,7 @@ constexpr double poll_interval = 0.02;    // s
 constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
 constexpr int most_tries = 3;             // of a line that moves, each after a look at the card
 constexpr char repeats_or_not = '\x14';   // ^T
-constexpr int most_motors = 8;
-constexpr double greeting_pause = 0.1; // s: an answer in whatever mode the card is in
+constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
 
 bool starts_with_word(const std::string& line, std::string_view word) {
     std::string tight;
@@ -328,7 +327,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         next_command();
         break;
     case Kind::definitions:
-        finish(Stage::ready, run_refusal_ + loop_advice(lines));
+        explain_open_loop(run_refusal_ + loop_advice(lines));
         break;
     case Kind::run:
         stage_ = stage_ == Stage::loading ? Stage::running : stage_;
@@ -362,6 +361,19 @@ void PmacSession::refused(const Request& request, int error) {
         next_command();
         return;
     }
+    constexpr int loop_is_open = 12;
+    if (request.kind == Kind::command && error == loop_is_open) {
+        command_lines_.clear();
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        ask_whose_loop_is_open(why);
+        return;
+    }
+    if (request.kind == Kind::definitions) { // a card that does not tell
+        explain_open_loop(run_refusal_);
+        return;
+    }
     if (request.kind == Kind::command) {
         answer_.text += (answer_.text.empty() ? "" : "\n") + why;
         command_lines_.clear();
@@ -378,14 +390,8 @@ void PmacSession::refused(const Request& request, int error) {
         }
         return;
     }
-    constexpr int loop_is_open = 12;
     if (request.kind == Kind::run && error == loop_is_open && stage_ == Stage::loading) {
-        run_refusal_ = why;
-        std::string question = fmt::format("&{}", settings_.system);
-        for (int motor = 1; motor <= most_motors; ++motor) {
-            question += fmt::format("#{}->", motor);
-        }
-        ask(std::move(question), Kind::definitions);
+        ask_whose_loop_is_open(why);
         return;
     }
     if (request.kind == Kind::program || stage_ == Stage::loading) {

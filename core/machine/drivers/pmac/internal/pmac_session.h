@@ -21,6 +21,8 @@
 
 namespace millwright::machine::pmac {
 
+constexpr int most_motors = 8; ///< of a card
+
 class PmacSession final : public internal::ControllerSession {
 public:
     explicit PmacSession(PmacSettings settings)
@@ -236,6 +238,8 @@ private:
     [[nodiscard]] DriverState state() const;
     [[nodiscard]] Activity activity() const;
     [[nodiscard]] int sent_lines() const;
+    void ask_whose_loop_is_open(const std::string& refusal);
+    void explain_open_loop(const std::string& sentence);
     [[nodiscard]] std::string loop_advice(const std::vector<std::string>& definitions) const;
 
     PmacSettings settings_;

@@ -127,4 +127,23 @@ std::string PmacSession::loop_advice(const std::vector<std::string>& definitions
                              others);
 }
 
+/// A program or a command waits for the answer.
+void PmacSession::ask_whose_loop_is_open(const std::string& refusal) {
+    run_refusal_ = refusal;
+    std::string question = fmt::format("&{}", settings_.system);
+    for (int motor = 1; motor <= most_motors; ++motor) {
+        question += fmt::format("#{}->", motor);
+    }
+    ask(std::move(question), Kind::definitions);
+}
+
+void PmacSession::explain_open_loop(const std::string& sentence) {
+    if (stage_ == Stage::loading) {
+        finish(Stage::ready, sentence);
+        return;
+    }
+    answer_.text += (answer_.text.empty() ? "" : "\n") + sentence;
+    finish_command(CommandAnswer::State::refused);
+}
+
 } // namespace millwright::machine::pmac

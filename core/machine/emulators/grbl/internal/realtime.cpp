@@ -396,7 +396,8 @@ void Controller::report_status() {
                           ? planner_.first().move.line_number
                           : 0;
     now.feed = stepper_.speed() * seconds_per_minute;
-    const bool turning = modes_.spindle != 50 && !spindle_stopped_ && state_ != State::door;
+    const bool checks = state_ == State::check; // nothing is switched
+    const bool turning = modes_.spindle != 50 && !spindle_stopped_ && state_ != State::door && !checks;
     constexpr double percent = 0.01;
     constexpr int most_rpm = 30, least_rpm = 31; // settings
     const double asked = modes_.spindle_rpm * overrides_.spindle * percent;
@@ -408,8 +409,8 @@ void Controller::report_status() {
     now.pins.append(door_open_ ? 1 : 0, 'D');
     now.overrides = overrides_;
     now.accessories.append(turning ? 1 : 0, modes_.spindle == 30 ? 'S' : 'C');
-    now.accessories.append(modes_.flood ? 1 : 0, 'F');
-    now.accessories.append(modes_.mist ? 1 : 0, 'M');
+    now.accessories.append(modes_.flood && !checks ? 1 : 0, 'F');
+    now.accessories.append(modes_.mist && !checks ? 1 : 0, 'M');
     now.alarm = last_alarm_;
     now.all = std::exchange(all_asked_, false);
     now.homed = homed_;

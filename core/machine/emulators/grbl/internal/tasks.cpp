@@ -6,14 +6,22 @@
 
 namespace millwright::machine::emulated {
 
+namespace {
+
+/// Nothing moves in check mode ($C). The real one looks at its soft limits all the same, stores offsets, and
+/// ends programs.
+bool acts_in_check_mode(const Task& task) {
+    return task.action == Action::move || task.action == Action::store || task.action == Action::end;
+}
+
+} // namespace
+
 void Controller::take_over(const Parsed& parsed) {
-    const Axes position = modes_.position;
     modes_ = parsed.modes;
-    if (state_ == State::check) {
-        modes_.position = position;
-        return;
-    }
     for (const Task& task : parsed.tasks) {
+        if (state_ == State::check && !acts_in_check_mode(task)) {
+            continue;
+        }
         tasks_.push_back(task);
         if (task.action == Action::store) {
             pending_eeprom_ = parsed.eeprom; // nothing is read before this line is done
@@ -142,6 +150,10 @@ bool Controller::do_move(Task& task) {
             trip_ = soft_limit;
             stepper_.hold();
             return false;
+        }
+        if (state_ == State::check) {
+            ++task.next;
+            continue;
         }
         if (planner_.free_blocks() == 0) {
             return false;

@@ -79,6 +79,15 @@ TEST(PmacSession, AProgramThatAnOpenLoopRefusesNamesItsMotor) {
     EXPECT_THAT(wire.session.status().message,
                 HasSubstr("also motor 5 (71.1111B), which is not driven here"));
     EXPECT_EQ(wire.card.command(1), 0.0);
+    // The same of a line that a person types: the program is in the card.
+    const int number = wire.session.command({"#2?", "&1B1R"}, false);
+    ASSERT_TRUE(wire.run_until(
+        [&] { return wire.session.status().answer.state != CommandAnswer::State::pending; }, 5.0));
+    EXPECT_EQ(wire.session.status().answer.number, number);
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::refused);
+    EXPECT_THAT(wire.session.status().answer.text,
+                HasSubstr("also motor 5 (71.1111B), which is not driven here"));
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
 }
 
 TEST(PmacSession, KnowsNoPositionBeforeHoming) {
