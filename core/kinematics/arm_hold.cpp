@@ -218,13 +218,15 @@ ArmHold out_of_reach(const JointPositions& previous, const ArmSolverResult& near
         {.tip = nearest.tip_error, .axis = angle});
 }
 
-/// What keeps an arm without a closed form from a goal that no solution was found for, `nearest` being where
-/// the search ended: limits of joints, the direction of the tool, or its reach.
+/// What keeps an arm without a closed form from a goal that no solution was found for: limits of joints, the
+/// direction of the tool, or its reach. `nearest`: where the search ended; `turned`: with the tip alone in
+/// its place, if that is possible.
 ArmHold explained(const ArmModel& arm,
                   const Frame& goal,
                   const ArmAim& aim,
                   const JointPositions& previous,
-                  const JointPositions& nearest) {
+                  const JointPositions& nearest,
+                  const std::optional<ArmSolverResult>& turned) {
     const ArmSolverResult directed = solve_beside(arm, goal, aim.demand, nearest, weighing(100.0));
     if (is_too_far(arm, goal)) {
         return out_of_reach(previous, directed);
@@ -235,16 +237,14 @@ ArmHold explained(const ArmModel& arm,
         return arm.joint_outside(found) < 0 ? kept_in_zone(arm, previous, found, 0.0)
                                             : at_a_limit(arm, previous, found);
     }
-    if (aim.demand != ArmDemand::tip && directed.angle_error > kept_direction) {
-        if (const auto turned = least_turned(arm, goal, aim.demand, previous)) {
-            return not_held(
-                previous,
-                ArmTrouble::tool_axis,
-                fmt::format("the tip comes there, but not with the tool in this direction: the nearest one "
-                            "found is {:.3f} deg off",
-                            to_degrees(turned->angle_error)),
-                {.axis = turned->angle_error});
-        }
+    if (turned && directed.angle_error > kept_direction) {
+        return not_held(
+            previous,
+            ArmTrouble::tool_axis,
+            fmt::format("the tip comes there, but not with the tool in this direction: the nearest one found "
+                        "is {:.3f} deg off",
+                        to_degrees(turned->angle_error)),
+            {.axis = turned->angle_error});
     }
     return out_of_reach(previous, directed);
 }
@@ -254,13 +254,14 @@ ArmHold by_search(const ArmModel& arm, const Frame& goal, const ArmAim& aim, con
     if (found.converged) {
         return kept_in_zone(arm, previous, found.positions, 0.0);
     }
-    if (aim.demand == ArmDemand::tip_and_axis && aim.most_tilt > 0.0 && !is_too_far(arm, goal)) {
-        const auto turned = least_turned(arm, goal, aim.demand, previous);
-        if (turned && turned->angle_error <= aim.most_tilt) {
-            return kept_in_zone(arm, previous, turned->positions, turned->angle_error);
-        }
+    std::optional<ArmSolverResult> turned;
+    if (aim.demand != ArmDemand::tip && !is_too_far(arm, goal)) {
+        turned = least_turned(arm, goal, aim.demand, previous);
     }
-    return explained(arm, goal, aim, previous, found.positions);
+    if (turned && aim.demand == ArmDemand::tip_and_axis && turned->angle_error <= aim.most_tilt) {
+        return kept_in_zone(arm, previous, turned->positions, turned->angle_error);
+    }
+    return explained(arm, goal, aim, previous, found.positions, turned);
 }
 
 } // namespace
