@@ -81,7 +81,8 @@ bool are_rows(const std::vector<Vec3>& points, std::size_t length) {
 
 /// Of rows that no blank line ends: the longest that fit; 0 if none do.
 std::size_t row_length(const std::vector<Vec3>& points) {
-    for (std::size_t rows = 2; 2 * rows <= points.size(); ++rows) {
+    constexpr std::size_t shortest_row = 3; // two points are always in a row
+    for (std::size_t rows = 2; shortest_row * rows <= points.size(); ++rows) {
         if (points.size() % rows == 0 && are_rows(points, points.size() / rows)) {
             return points.size() / rows;
         }

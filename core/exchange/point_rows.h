@@ -21,10 +21,11 @@ struct PointGrid {
     }
 };
 
-/// Blank lines of the file end a row; without them a row ends where the points turn back to begin the next
-/// one, or, measured to and fro, to go along it. Rows that were measured backwards are turned round. Nothing
-/// if there are no rows: then the points are a cloud. Throws Error with file and line for rows between blank
-/// lines that differ in length, fewer than two points in them, and a point that is there twice.
+/// Blank lines of the file end a row. Without them a row of three points or more ends where the points turn
+/// back to begin the next one, or, measured to and fro, to go along it. Rows that were measured backwards are
+/// turned round. Nothing if there are no rows: then the points are a cloud. Throws Error with file and line
+/// for rows between blank lines that differ in length, fewer than two points in them, and a point that is
+/// there twice.
 [[nodiscard]] std::optional<PointGrid> rows_of(const MeasuredPoints& measured,
                                                const std::filesystem::path& file);
 
