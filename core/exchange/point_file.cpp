@@ -103,7 +103,8 @@ private:
         const std::string_view line = whole_line(words);
         const bool at_words = std::ranges::any_of(
             words, [](std::string_view word) { return word.starts_with(',') || word.ends_with(','); });
-        const bool commas = line.find(',') != std::string_view::npos && (words.size() == 1 || at_words);
+        const bool between = words.size() == 1 || at_words || std::ranges::none_of(words, has_decimal_comma);
+        const bool commas = line.find(',') != std::string_view::npos && between;
         separator_ = line.find(';') != std::string_view::npos ? ';' : commas ? ',' : ' ';
         return separator_ == ' ' ? words : split_at(line, separator_);
     }

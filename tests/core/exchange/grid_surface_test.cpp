@@ -51,7 +51,7 @@ TEST(GridSurface, GoesThroughFourByFourPointsWithAFairNet) {
     const Box3& box = made.face.patches[0].control_box();
     EXPECT_GE(box.min().minCoeff(), -30.0 - 1e-9);
     EXPECT_LE(box.max().head<2>().maxCoeff(), 30.0 + 1e-9);
-    EXPECT_LE(box.max().z(), 20.0);
+    EXPECT_LE(box.max().z(), 23.0); // the crown of the surface is above its highest points
     EXPECT_GT(made.face.patches[0].unit_normal(0.5, 0.5)->z(), 0.99);
 }
 
@@ -180,7 +180,7 @@ TEST(CloudFit, KeepsItsNetNearFewAndNoisyPoints) {
             const std::vector<Vec3> points = scattered(count, 0.5);
             const MeshFit fit = fit_cloud(points, settings, {});
             EXPECT_TRUE(stays_near(fit.patch, points, 0.1)) << count << " " << degree;
-            EXPECT_LT(fit.deviation.max, 3.0) << count << " " << degree;
+            EXPECT_LT(fit.deviation.max, 5.0) << count << " " << degree;
         }
     }
 }
