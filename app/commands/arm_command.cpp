@@ -9,18 +9,18 @@
 #include "app/commands/arm_service.h"
 #include "app/commands/arm_stream.h"
 #include "core/base/counted.h"
+#include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/units.h"
 #include "core/kinematics/arm_motion_file.h"
-#include "core/kinematics/arm_motion_ways.h"
-#include "core/kinematics/arm_path.h"
 #include "core/kinematics/arm_simulation.h"
-#include "core/motion/arm_motion.h"
-#include "core/motion/planner.h"
+#include "ui/actions/motion_file_bench.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,33 +36,38 @@ struct ArmSimulationOptions {
     std::string file;
     std::string out;
     double step_mm = 5.0;
+    std::vector<double> start; ///< degrees or mm; empty: the arm's home
 };
 
-/// What the arm takes, s. Throws Error where it cannot go on without another branch.
-double planned_motion_time(const ArmModel& arm,
-                           const std::vector<kinematics::ArmWay>& ways,
-                           const std::string& file) {
-    kinematics::ArmPathSettings settings;
-    settings.aim.demand = kinematics::ArmDemand::tip; // the tool axis comes into the plane of the arm
-    const auto path = kinematics::follow_path(arm, ways, kinematics::arm_home(), settings, {});
-    motion::ArmMotion motion(arm, kinematics::arm_home());
-    motion.follow(ways, path, file);
-    return motion::plan(motion.program(), arm, {}, {}).duration();
+kinematics::JointPositions start_of(const ArmModel& arm, const ArmSimulationOptions& options) {
+    if (options.start.empty()) {
+        return arm.home();
+    }
+    kinematics::JointPositions start = given_joints(arm, options.start);
+    if (const int outside = arm.joint_outside(start); outside >= 0) {
+        throw Error(fmt::format("--start is outside of the limits of joint {}", arm.joint(outside).name));
+    }
+    return start;
 }
 
 int simulate(const ArmSimulationOptions& options) {
     const ArmModel arm = arm_of(options.arm);
-    const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
-    const auto records =
-        kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file);
-    const double seconds = planned_motion_time(
-        arm, kinematics::ways_of(arm, blocks, kinematics::arm_home(), options.file), options.file);
-    write_file(options.out, kinematics::arm_result_text(records));
-    fmt::print("{}, {} in {}\nplanned for the arm: {:.2f} s\n",
+    const kinematics::JointPositions start = start_of(arm, options);
+    const std::string text = read_file(options.file);
+    const auto blocks = kinematics::parse_arm_motion(text, options.file);
+    const auto records = kinematics::simulate_arm(arm, blocks, start, options.step_mm, options.file);
+    const double seconds = actions::motion_of_file(arm, text, start, options.file).duration();
+    write_file(options.out, kinematics::arm_result_text(arm, records));
+    double most_tilt = 0.0;
+    for (const kinematics::ArmRecord& record : records) {
+        most_tilt = std::max(most_tilt, record.tilt);
+    }
+    fmt::print("{}, {} in {}\nplanned for the arm: {:.2f} s\ntool axis turned by at most {:.3f} deg\n",
                counted(blocks.size(), "block"),
                counted(records.size(), "point"),
                options.out,
-               seconds);
+               seconds,
+               to_degrees(most_tilt));
     return 0;
 }
 
@@ -74,12 +79,20 @@ void add_arm_command(CLI::App& app, Command& chosen) {
     add_arm_pose_commands(group, chosen);
     add_arm_drives_command(group, chosen);
     const auto options = std::make_shared<ArmSimulationOptions>();
-    CLI::App& path = *group.add_subcommand("simulate", "Work off a motion file, from the home of the thesis");
+    CLI::App& path =
+        *group.add_subcommand("simulate", "Joints along a motion file, for any arm, from its home");
     add_arm_option(path, options->arm);
     path.add_option("FILE", options->file, "Motion file: blocks of words that end with ;")->required();
     path.add_option("--step", options->step_mm, "Distance of the points, mm")
         ->check(CLI::Range(0.001, 1000.0))
         ->capture_default_str();
+    path.add_option("--start",
+                    options->start,
+                    "Where the joints begin, degrees or mm; without it at the home of the arm")
+        ->delimiter(',')
+        ->expected(1, static_cast<int>(kinematics::most_arm_joints))
+        ->allow_extra_args(false)
+        ->type_name("J1,J2,...");
     path.add_option("--out", options->out, "File for the positions and joints")->required();
     path.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
     add_arm_bodies_command(group, chosen);

@@ -39,6 +39,7 @@ namespace {
 using kinematics::ArmHole;
 using kinematics::ArmModel;
 using kinematics::ArmReach;
+using kinematics::ArmReachPoint;
 using kinematics::ArmWay;
 using kinematics::MachineModel;
 
@@ -144,13 +145,50 @@ std::string line_text(int line) {
     return line == 0 ? "where the program begins" : fmt::format("line {}", line);
 }
 
+std::string from_to(const char* one, const char* many, std::size_t first, std::size_t last) {
+    return first == last ? fmt::format("{} {}", one, first) : fmt::format("{} {} to {}", many, first, last);
+}
+
 std::string lines_of(const ArmHole& hole) {
-    return hole.first_line == hole.last_line ? line_text(hole.first_line)
-                                             : fmt::format("lines {} to {}", hole.first_line, hole.last_line);
+    const int first = hole.first().line, last = hole.last().line;
+    return first == last
+               ? line_text(first)
+               : from_to("line", "lines", static_cast<std::size_t>(first), static_cast<std::size_t>(last));
 }
 
 double share_of(const ArmReach& reach) {
     return reach.length > 0.0 ? reach.reached / reach.length : reach.holes.empty() ? 1.0 : 0.0;
+}
+
+void print_point(
+    const char* which, const ArmHole& hole, const ArmReachPoint& at, const ArmModel& arm, const Frame& part) {
+    const Vec3 place = part.inverse() * at.tip;
+    const std::string off = to_text(arm, hole.trouble, at.off);
+    fmt::print("    {} point {}, {}, X{:.3f} Y{:.3f} Z{:.3f}, {:.1f} mm along the path{}{}\n",
+               which,
+               at.point,
+               line_text(at.line),
+               rounded(place.x()),
+               rounded(place.y()),
+               rounded(place.z()),
+               at.along,
+               off.empty() ? "" : ": ",
+               off);
+}
+
+/// Where the stretch begins, where it is worst and where it ends, in the coordinates of the program.
+void print_hole(const ArmHole& hole, const ArmModel& arm, const Frame& part) {
+    fmt::print("  {}, {}, {:.1f} mm, {}: {}\n",
+               lines_of(hole),
+               from_to("point", "points", hole.first().point, hole.last().point),
+               hole.length,
+               name_of(hole.trouble),
+               hole.why);
+    print_point("first", hole, hole.first(), arm, part);
+    if (hole.points.size() > 1) {
+        print_point("worst", hole, hole.worst(), arm, part);
+        print_point("last ", hole, hole.last(), arm, part);
+    }
 }
 
 void print_text(const ArmReachOptions& options,
@@ -163,8 +201,7 @@ void print_text(const ArmReachOptions& options,
                reach.length,
                100.0 * share_of(reach));
     for (std::size_t n = 0; n < reach.holes.size() && n < most_holes_shown; ++n) {
-        const ArmHole& hole = reach.holes[n];
-        fmt::print("  {}, {:.1f} mm, {}: {}\n", lines_of(hole), hole.length, name_of(hole.trouble), hole.why);
+        print_hole(reach.holes[n], arm, frame_of(options.frame));
     }
     if (reach.holes.size() > most_holes_shown) {
         fmt::print("  and {} more\n", reach.holes.size() - most_holes_shown);
@@ -191,18 +228,58 @@ void print_text(const ArmReachOptions& options,
     }
 }
 
-void print_reach_json(const ArmModel& arm, const ArmReach& reach, const std::optional<double>& planned) {
+nlohmann::ordered_json vector_json(const Vec3& v) {
+    return {rounded(v.x()), rounded(v.y()), rounded(v.z())};
+}
+
+nlohmann::ordered_json point_json(const ArmReachPoint& at, const ArmModel& arm, const Frame& part) {
+    nlohmann::ordered_json json{{"point", at.point},
+                                {"line", at.line},
+                                {"along_mm", at.along},
+                                {"part_mm", vector_json(part.inverse() * at.tip)},
+                                {"base_mm", vector_json(at.tip)}};
+    if (at.off.tip > 0.0) {
+        json["off_mm"] = at.off.tip;
+    }
+    if (at.off.axis > 0.0) {
+        json["off_degrees"] = to_degrees(at.off.axis);
+    }
+    if (at.off.joint.joint >= 0) {
+        const int joint = at.off.joint.joint;
+        const bool turns = arm.joint(joint).kind == kinematics::JointKind::revolute;
+        json["joint"] = arm.joint(joint).name;
+        json[turns ? "joint_degrees" : "joint_mm"] = from_joint(arm, joint, at.off.joint.beyond);
+    }
+    return json;
+}
+
+nlohmann::ordered_json hole_json(const ArmHole& hole, const ArmModel& arm, const Frame& part) {
+    nlohmann::ordered_json json{{"first_line", hole.first().line},
+                                {"last_line", hole.last().line},
+                                {"first_point", hole.first().point},
+                                {"last_point", hole.last().point},
+                                {"worst_point", hole.worst().point},
+                                {"length_mm", hole.length},
+                                {"trouble", name_of(hole.trouble)},
+                                {"why", hole.why},
+                                {"points", nlohmann::ordered_json::array()}};
+    for (const ArmReachPoint& at : hole.points) {
+        json["points"].push_back(point_json(at, arm, part));
+    }
+    return json;
+}
+
+void print_reach_json(const ArmReachOptions& options,
+                      const ArmModel& arm,
+                      const ArmReach& reach,
+                      const std::optional<double>& planned) {
     nlohmann::ordered_json answer;
     answer["whole"] = reach.holes.empty();
     answer["length_mm"] = reach.length;
     answer["reached_mm"] = reach.reached;
     answer["findings"] = nlohmann::ordered_json::array();
     for (const ArmHole& hole : reach.holes) {
-        answer["findings"].push_back({{"first_line", hole.first_line},
-                                      {"last_line", hole.last_line},
-                                      {"length_mm", hole.length},
-                                      {"trouble", name_of(hole.trouble)},
-                                      {"why", hole.why}});
+        answer["findings"].push_back(hole_json(hole, arm, frame_of(options.frame)));
     }
     answer["joints"] = nlohmann::ordered_json::array();
     for (Eigen::Index n = 0; n < reach.lowest.size(); ++n) {
@@ -234,7 +311,7 @@ int reach(const ArmReachOptions& options) {
     work.finish();
     const ArmReach found = reach_of(path, ways);
     if (options.json) {
-        print_reach_json(arm, found, planned);
+        print_reach_json(options, arm, found, planned);
     } else {
         print_text(options, arm, found, planned);
     }
@@ -267,7 +344,7 @@ void add_arm_reach_command(CLI::App& group, Command& chosen) {
     command
         .add_option("--tilt",
                     options->tilt_deg,
-                    "By how much the tool may be turned into the plane of an arm with five joints, degrees")
+                    "By how much the tool may be turned where the arm cannot hold it, degrees")
         ->check(CLI::Range(0.0, 90.0))
         ->capture_default_str();
     command.add_flag("--json", options->json, "Print the answer as JSON");

@@ -42,9 +42,8 @@ struct StreamedFile {
 StreamedFile streamed_file(const StreamOptions& options) {
     const kinematics::ArmModel arm = arm_of(options.arm);
     const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
-    return {kinematics::first_turns_deg(
-                kinematics::simulate_arm(arm, blocks, kinematics::arm_home(), options.step_mm, options.file)),
-            kinematics::sets_feed(blocks)};
+    const auto records = kinematics::simulate_arm(arm, blocks, arm.home(), options.step_mm, options.file);
+    return {kinematics::first_turns_deg(arm, records), kinematics::sets_feed(blocks)};
 }
 
 std::string row_of(const SharedMemoryBuffer& now) {

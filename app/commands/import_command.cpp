@@ -8,6 +8,7 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/exchange/mesh_file.h"
+#include "core/exchange/point_rows.h"
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
 
@@ -39,6 +40,7 @@ struct ImportOptions {
     std::string along;                 ///< empty: found
     std::optional<double> mm_per_unit; ///< of a mesh
     int face = 0;
+    bool cloud = false;
     bool json = false;
 };
 
@@ -72,7 +74,8 @@ std::string fault_of_degrees(const std::string& text) {
 }
 
 project::ImportChoice choice_of(const ImportOptions& options) {
-    project::ImportChoice choice{.face = options.face, .mm_per_unit = options.mm_per_unit.value_or(1.0)};
+    project::ImportChoice choice{
+        .face = options.face, .mm_per_unit = options.mm_per_unit.value_or(1.0), .cloud = options.cloud};
     if (!options.degrees.empty()) {
         choice.degrees = degrees_from(options.degrees);
     }
@@ -172,42 +175,88 @@ void print_mesh(const ordered_json& mesh) {
                size(2));
 }
 
+ordered_json points_json(const exchange::MeasuredPoints& read, const ImportOptions& options) {
+    const auto grid = options.cloud ? std::nullopt : exchange::rows_of(read, options.file);
+    const double unit = options.mm_per_unit.value_or(1.0);
+    Box3 box;
+    for (const Vec3& point : read.points) {
+        box.extend(unit * point);
+    }
+    const Vec3 size = box.sizes();
+    return {{"points", read.points.size()},
+            {"rows", grid ? grid->rows : 0},
+            {"columns", grid ? grid->columns : 0},
+            {"size_mm", {size.x(), size.y(), size.z()}},
+            {"notes", with_doubt(read.notes, project::doubt_of_size(size.maxCoeff(), unit))}};
+}
+
+std::string rows_text(int rows, int columns) {
+    return rows == 0 ? "no rows: a cloud"
+                     : fmt::format("{} of {}", counted(rows, "row"), counted(columns, "point"));
+}
+
+void print_points(const ordered_json& points) {
+    const auto size = [&](int axis) { return fixed(points["size_mm"][axis].get<double>(), 3); };
+    fmt::print("{}, {}\n{} x {} x {} mm\n",
+               counted(points["points"].get<std::size_t>(), "point"),
+               rows_text(points["rows"].get<int>(), points["columns"].get<int>()),
+               size(0),
+               size(1),
+               size(2));
+}
+
 int tell_of(const ImportOptions& options) {
     WatchedWork work;
     const bool is_mesh = exchange::is_mesh_file(options.file);
+    const bool is_points = exchange::is_measured_point_file(options.file);
     const double unit = options.mm_per_unit.value_or(1.0);
-    const ordered_json told = is_mesh
-                                  ? mesh_json(exchange::read_mesh(options.file, unit, work.progress()), unit)
-                                  : model_json(exchange::read_cad(options.file, work.progress()));
+    const ordered_json told =
+        is_mesh     ? mesh_json(exchange::read_mesh(options.file, unit, work.progress()), unit)
+        : is_points ? points_json(exchange::read_measured_points(options.file, work.progress()), options)
+                    : model_json(exchange::read_cad(options.file, work.progress()));
     work.finish();
     print_import_notes(told["notes"].get<std::vector<std::string>>());
     if (options.json) {
         fmt::print("{}\n", told.dump(2));
     } else if (is_mesh) {
         print_mesh(told);
+    } else if (is_points) {
+        print_points(told);
     } else {
         print_model(told);
     }
     return 0;
 }
 
-std::string deviation_csv(const exchange::MeshFit& fit) {
+/// Of the points of the file, or of a mesh or face.
+std::string deviation_csv(const project::ImportedSurface& imported) {
+    const std::vector<Vec3>& points = imported.points ? imported.points->points : imported.fit->side.points;
+    const exchange::Deviation& deviation =
+        imported.points ? imported.points->deviation : imported.fit->deviation;
     std::string text = "x_mm,y_mm,z_mm,deviation_mm\n";
-    for (std::size_t n = 0; n < fit.side.points.size(); ++n) {
-        const Vec3& at = fit.side.points[n];
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        const Vec3& at = points[n];
         fmt::format_to(std::back_inserter(text),
                        "{:.6f},{:.6f},{:.6f},{:.6f}\n",
                        at.x(),
                        at.y(),
                        at.z(),
-                       fit.deviation.at_points[n]);
+                       deviation.at_points[n]);
     }
     return text;
 }
 
 ordered_json imported_json(const project::ImportedSurface& imported) {
     ordered_json json{{"patches", imported.surface.patches.size()}, {"notes", imported.notes}};
-    if (const auto& fit = imported.fit) {
+    if (const auto& points = imported.points) {
+        json["points"] = {{"count", points->points.size()},
+                          {"rows", points->rows},
+                          {"columns", points->columns},
+                          {"max_mm", points->deviation.max},
+                          {"mean_mm", points->deviation.mean},
+                          {"rms_mm", points->deviation.rms},
+                          {"worst_line", points->worst_line()}};
+    } else if (const auto& fit = imported.fit) {
         json["fit"] = {{"degree", {fit->patch.degree_u(), fit->patch.degree_v()}},
                        {"rounds", fit->rounds},
                        {"follows_outline", fit->follows_outline},
@@ -220,13 +269,32 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
     return json;
 }
 
+void print_points_off(const project::PointFit& points, const project::SurfaceInput& surface) {
+    const geometry::ControlNet& net = surface.patches.front();
+    const exchange::Deviation& off = points.deviation;
+    fmt::print("{}, {}\n"
+               "{} of degree {} x {}\n"
+               "points to surface: at most {:.4g} mm (line {}), {:.4g} mm on average, {:.4g} mm rms\n",
+               counted(points.points.size(), "point"),
+               rows_text(points.rows, points.columns),
+               surface.patches.size() == 1 ? "patch" : "patches",
+               net.rows - 1,
+               net.columns - 1,
+               off.max,
+               points.worst_line(),
+               off.mean,
+               off.rms);
+}
+
 void print_imported(const project::ImportedSurface& imported, const ImportOptions& options) {
     print_import_notes(imported.notes);
     if (options.json) {
         fmt::print("{}\n", imported_json(imported).dump(2));
         return;
     }
-    if (const auto& fit = imported.fit) {
+    if (const auto& points = imported.points) {
+        print_points_off(*points, imported.surface);
+    } else if (const auto& fit = imported.fit) {
         const char* source = exchange::is_mesh_file(options.file) ? "mesh" : "face";
         fmt::print("patch of degree {} x {}\n"
                    "{} to patch: at most {} mm, {} mm on average, {} mm rms\n"
@@ -249,10 +317,14 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
 
 int import_file(const ImportOptions& options) {
     if (!project::is_importable(options.file)) {
-        throw Error("this kind of file is not imported", options.file, "STEP, IGES, STL, OBJ and PLY are");
+        throw Error("this kind of file is not imported", options.file, project::importable_kinds);
     }
-    if (options.mm_per_unit && !exchange::is_mesh_file(options.file)) {
-        throw UsageError("--unit is of a mesh", options.file, "a STEP or IGES file tells its unit itself");
+    if (options.mm_per_unit && exchange::is_cad_file(options.file)) {
+        throw UsageError(
+            "--unit is of a mesh or of points", options.file, "a STEP or IGES file tells its unit itself");
+    }
+    if (options.cloud && !exchange::is_measured_point_file(options.file)) {
+        throw UsageError("--cloud is of a file of points", options.file);
     }
     if (options.out.empty()) {
         return tell_of(options);
@@ -261,7 +333,7 @@ int import_file(const ImportOptions& options) {
     const project::ImportedSurface imported =
         project::import_surface(options.file, choice_of(options), work.progress());
     work.finish();
-    if (!options.deviation.empty() && !imported.fit) {
+    if (!options.deviation.empty() && !imported.fit && !imported.points) {
         throw Error("--deviation is of a fitted patch", options.file, "give --degree");
     }
     project::Project made;
@@ -269,7 +341,7 @@ int import_file(const ImportOptions& options) {
     made.surface = imported.surface;
     project::write_project(made, options.out);
     if (!options.deviation.empty()) {
-        write_file(options.deviation, deviation_csv(*imported.fit));
+        write_file(options.deviation, deviation_csv(imported));
     }
     print_imported(imported, options);
     return 0;
@@ -281,7 +353,10 @@ void add_import_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<ImportOptions>();
     CLI::App& command = *app.add_subcommand(
         "import", "Make a project from a surface of another program, or list the faces of its file");
-    command.add_option("FILE", options->file, "STEP, IGES, STL, OBJ or PLY file")->required();
+    command
+        .add_option(
+            "FILE", options->file, "STEP, IGES, STL, OBJ or PLY file, or points: CSV, XYZ, ASC, PTS or TXT")
+        ->required();
     CLI::Option& out =
         *command
              .add_option("--out", options->out, "Project file to write; without it the file is only told of")
@@ -291,7 +366,9 @@ void add_import_command(CLI::App& app, Command& chosen) {
     command
         .add_option("--degree",
                     options->degrees,
-                    "Fit one patch of this degree; without it a face is taken as it is, a mesh with 5")
+                    "Fit one patch of this degree; without it a face is taken as it is, a mesh with 5, and "
+                    "rows of points "
+                    "are interpolated")
         ->check(CLI::Validator(fault_of_degrees, "P or PxQ"))
         ->needs(&out);
     std::vector<std::string> names;
@@ -300,18 +377,20 @@ void add_import_command(CLI::App& app, Command& chosen) {
     }
     command
         .add_option(
-            "--along", options->along, "The side of a mesh that is fitted; without it the side it shows")
+            "--along", options->along, "The side of a mesh or of points; without it the side that shows")
         ->check(CLI::IsMember(names))
         ->needs(&out);
     const std::map<std::string, double> units{{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"inch", 25.4}};
     command
-        .add_option("--unit", options->mm_per_unit, "Unit of a mesh, whose file does not tell (default mm)")
+        .add_option("--unit",
+                    options->mm_per_unit,
+                    "Unit of a mesh or of points, whose file does not tell (default mm)")
         ->transform(one_of(units))
         ->type_name(listed(units));
-    command
-        .add_option("--deviation", options->deviation, "Distance of each point from the fitted patch, as CSV")
+    command.add_option("--deviation", options->deviation, "Distance of each point from the surface, as CSV")
         ->needs(&out)
         ->type_name("FILE");
+    command.add_flag("--cloud", options->cloud, "Fit points as a cloud, whether they are in rows or not");
     command.add_flag("--json", options->json, "Print JSON");
     command.callback([&chosen, options] { chosen = [options] { return import_file(*options); }; });
 }

@@ -1,8 +1,9 @@
 #include "core/exchange/patch_fit.h"
 
 #include "core/base/error.h"
-#include "core/base/parallel.h"
+#include "core/exchange/cloud_fit.h"
 #include "core/exchange/internal/fit_deviation.h"
+#include "core/exchange/internal/fit_rounds.h"
 #include "core/exchange/internal/fit_target.h"
 #include "core/exchange/internal/least_squares.h"
 #include "core/exchange/internal/seen_side.h"
@@ -23,60 +24,6 @@ namespace millwright::exchange {
 namespace {
 
 using geometry::BezierPatch;
-
-/// Every direction alike.
-std::vector<Weighted> by_distance(const std::vector<Sample>& samples) {
-    std::vector<Weighted> result;
-    for (const Sample& sample : samples) {
-        result.push_back({sample, Mat3::Identity()});
-    }
-    return result;
-}
-
-/// Across the patch, and on its outline across that, too; along hardly, which holds the parameters in their
-/// places.
-std::vector<Weighted> by_tangents(const std::vector<Sample>& samples, const BezierPatch& patch) {
-    constexpr double along = 1e-3;
-    std::vector<Weighted> result;
-    for (const Sample& sample : samples) {
-        const auto at = patch.derivatives(sample.uv.x(), sample.uv.y());
-        const auto normal = patch.unit_normal(at);
-        Mat3 metric = Mat3::Identity();
-        if (sample.side) {
-            const Vec3 way = (*sample.side % 2 == 0 ? at.du : at.dv).normalized();
-            metric -= (1.0 - along) * way * way.transpose();
-        } else if (normal) {
-            metric = *normal * normal->transpose() + along * Mat3::Identity();
-        }
-        result.push_back({sample, metric});
-    }
-    return result;
-}
-
-Vec2 kept_on(int side, Vec2 uv) {
-    uv[side % 2 == 0 ? 1 : 0] = side == 1 || side == 2 ? 1.0 : 0.0;
-    return uv;
-}
-
-/// Each parameter goes to the nearest point of the patch. The root mean square of the distances, mm.
-double correct(std::vector<Sample>& samples, const BezierPatch& patch, const Progress& progress) {
-    std::vector<double> squares(samples.size());
-    parallel_for(std::ssize(samples), 256, [&](std::ptrdiff_t n) {
-        if (progress.cancelled()) {
-            return;
-        }
-        Sample& sample = samples[static_cast<std::size_t>(n)];
-        const geometry::ClosestPoint nearest = geometry::closest_point_near(patch, sample.point, sample.uv);
-        sample.uv = sample.side ? kept_on(*sample.side, nearest.parameters) : nearest.parameters;
-        squares[static_cast<std::size_t>(n)] = nearest.distance * nearest.distance;
-    });
-    progress.check();
-    double sum = 0.0;
-    for (const double square : squares) {
-        sum += square;
-    }
-    return std::sqrt(sum / static_cast<double>(samples.size()));
-}
 
 void check(const FitSettings& settings) {
     const auto fits = [](int degree) { return degree >= 1 && degree <= max_fit_degree; };
@@ -114,34 +61,29 @@ std::vector<Sample> samples_in(const Rectangle& rectangle, const FitTarget& targ
     return samples;
 }
 
-struct Approach {
-    BezierPatch patch;
-    int rounds = 0;
-};
-
 /// Least squares and corrected parameters in turn, as long as each round brings a hundredth and folds no more
 /// than the round before: points that slide along the sides can turn a corner over.
-Approach approach(const LeastSquares& squares,
-                  std::vector<Sample> samples,
-                  const FitComparison& comparison,
-                  int rounds,
-                  const Progress& progress) {
+FitRounds approach(const LeastSquares& squares,
+                   std::vector<Sample> samples,
+                   const FitComparison& comparison,
+                   int rounds,
+                   const Progress& progress) {
     constexpr double worth_going_on = 0.99; // of the distance of the round before
-    Approach best{squares.solve(by_distance(samples), progress), 1};
+    FitRounds best{squares.solve(by_distance(samples), progress), 1};
     double folded = comparison.fold_of(best.patch, progress).share;
-    double rms = correct(samples, best.patch, progress);
+    best.rms = correct_parameters(samples, best.patch, progress);
     for (; best.rounds < rounds; ++best.rounds) {
         progress.report(static_cast<double>(best.rounds) / rounds, "fitting the patch");
         BezierPatch next = squares.solve(by_tangents(samples, best.patch), progress);
-        const double smaller = correct(samples, next, progress);
+        const double smaller = correct_parameters(samples, next, progress);
         const double next_folded = comparison.fold_of(next, progress).share;
-        if (!(smaller < rms) || next_folded > folded) {
+        if (!(smaller < best.rms) || next_folded > folded) {
             break;
         }
-        const bool enough = smaller > worth_going_on * rms;
+        const bool enough = smaller > worth_going_on * best.rms;
         best.patch = std::move(next);
         folded = next_folded;
-        rms = smaller;
+        best.rms = smaller;
         if (enough) {
             break;
         }
@@ -153,6 +95,38 @@ Approach approach(const LeastSquares& squares,
 /// of a rectangle have to be held.
 constexpr double everywhere_filled = 1e-13;
 constexpr double partly_empty = 1e-8;
+
+/// Few triangles for many control points leave the net free to go anywhere: smoothing grows until it stays
+/// near the target, as long as that costs hardly any distance. A patch around a bend needs points far
+/// outside.
+FitRounds fair_fit(const std::vector<Sample>& samples,
+                   const std::vector<Vec3>& target,
+                   const FitSettings& settings,
+                   double smoothness,
+                   const FitComparison& comparison,
+                   const Progress& progress) {
+    constexpr double room = 0.25, more = 100.0, most_smoothness = 1e-4;
+    constexpr double costs = 1.5, hardly = 1e-5; // of the rms without; of the diagonal
+    const auto fit_with = [&](double weight) {
+        const LeastSquares squares(settings.degree_u, settings.degree_v, weight);
+        return approach(squares, samples, comparison, settings.rounds, progress);
+    };
+    Box3 box;
+    for (const Vec3& point : target) {
+        box.extend(point);
+    }
+    FitRounds fit = fit_with(smoothness);
+    const double most_rms = costs * fit.rms + hardly * box.diagonal().norm();
+    while (!stays_near(fit.patch, target, room) && smoothness < most_smoothness) {
+        smoothness *= more;
+        FitRounds smoother = fit_with(smoothness);
+        if (!(smoother.rms <= most_rms)) {
+            break;
+        }
+        fit = std::move(smoother);
+    }
+    return fit;
+}
 
 /// The loop on another patch near the face: each corner goes to the nearest point of that, and long edges get
 /// more corners, because they need not stay straight.
@@ -199,11 +173,13 @@ MeshFit fitted(FitTarget target,
         throw Error("the points of the mesh lie in a line");
     }
     progress.report(0.1, "fitting the patch");
-    const LeastSquares squares(
-        settings.degree_u, settings.degree_v, square ? everywhere_filled : partly_empty);
     const FitComparison comparison(target, seen_from);
-    Approach fit =
-        approach(squares, std::move(samples), comparison, settings.rounds, progress.part(0.1, 0.7));
+    FitRounds fit = fair_fit(samples,
+                             side.mesh.points,
+                             settings,
+                             square ? everywhere_filled : partly_empty,
+                             comparison,
+                             progress.part(0.1, 0.7));
     progress.report(0.7, "measuring the deviation");
     constexpr int denser = 4; // than what was fitted, and so other points
     geometry::Trim trim =

@@ -46,6 +46,11 @@ struct Deviation {
     [[nodiscard]] double largest() const { return std::max(max, patch_max); }
 };
 
+/// From each point to the patch; nothing of the other direction. Throws Cancelled.
+[[nodiscard]] Deviation deviation_of_points(const std::vector<Vec3>& points,
+                                            const geometry::BezierPatch& patch,
+                                            const Progress& progress);
+
 struct MeshFit {
     geometry::BezierPatch patch;
     geometry::Trim trim;        ///< the outline of a trimmed face on the patch

@@ -153,6 +153,33 @@ bodies(const JsonValue& value, const ArmModel& arm, bool has_drives, const std::
     return result;
 }
 
+/// Whether the rows have length and twist behind their joint.
+bool is_classical(const JsonValue& root) {
+    const auto convention = root.find("convention");
+    const std::string text = convention ? convention->text() : "modified";
+    if (text != "modified" && text != "classical") {
+        convention->fail(
+            fmt::format("'{}' is neither \"modified\" nor \"classical\"", text),
+            "modified (Craig): alpha and a of the link before a joint; classical (distal): of the "
+            "link behind it");
+    }
+    return text == "classical";
+}
+
+JointPositions home(const JsonValue& value, const std::vector<ArmJoint>& joints) {
+    JointPositions result(static_cast<Eigen::Index>(joints.size()));
+    const auto positions = value.items(joints.size());
+    for (std::size_t n = 0; n < joints.size(); ++n) {
+        const bool turns = joints[n].kind == JointKind::revolute;
+        const double at = turns ? angle(positions[n]) : length(positions[n]);
+        if (at < joints[n].min || at > joints[n].max) {
+            positions[n].fail(fmt::format("outside of the limits of joint {}", joints[n].name));
+        }
+        result[static_cast<Eigen::Index>(n)] = at;
+    }
+    return result;
+}
+
 ArmModel arm(const JsonValue& root) {
     ArmDescription description;
     description.name = root.at("name").text();
@@ -167,6 +194,13 @@ ArmModel arm(const JsonValue& root) {
     }
     const auto tip = root.at("tool_tip").items(3);
     description.tool_tip = {length(tip[0]), length(tip[1]), length(tip[2])};
+    const std::size_t count = description.joints.size();
+    if (const auto place = root.find("home"); place && count > 0 && count <= most_arm_joints) {
+        description.home = home(*place, description.joints);
+    }
+    if (is_classical(root)) {
+        description = from_classical(std::move(description));
+    }
     try {
         return ArmModel(std::move(description));
     } catch (const Error& error) {
@@ -209,8 +243,17 @@ ArmModel with_zone(const ArmModel& arm, std::shared_ptr<const ArmZone> zone) {
 
 ArmFile read_arm(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
-    root.expect_only(
-        {"format", "version", "name", "source", "joints", "tool_tip", "workspace", "actuators", "bodies"});
+    root.expect_only({"format",
+                      "version",
+                      "name",
+                      "source",
+                      "convention",
+                      "joints",
+                      "tool_tip",
+                      "home",
+                      "workspace",
+                      "actuators",
+                      "bodies"});
     if (root.at("format").text() != "millwright-arm") {
         root.at("format").fail("not an arm file");
     }

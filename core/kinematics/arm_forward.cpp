@@ -28,6 +28,15 @@ public:
         origin += d * z;
     }
 
+    /// Behind the last joint.
+    void end(const ArmDescription& arm) {
+        const double ca = std::cos(arm.end_alpha), sa = std::sin(arm.end_alpha);
+        origin += arm.end_a * x;
+        const Vec3 twisted = ca * y + sa * z;
+        z = ca * z - sa * y;
+        y = twisted;
+    }
+
     [[nodiscard]] Vec3 point(const Vec3& local) const {
         return origin + local.x() * x + local.y() * y + local.z() * z;
     }
@@ -54,6 +63,7 @@ Frame base_T_tool(const ArmModel& arm, const JointPositions& positions) {
     for (int n = 0; n < arm.joint_count(); ++n) {
         carried.step(arm.joint(n), positions[n]);
     }
+    carried.end(arm.description());
     return carried.frame_at(carried.point(arm.description().tool_tip));
 }
 
@@ -78,6 +88,7 @@ ArmJacobian arm_jacobian(const ArmModel& arm, const JointPositions& positions) {
         places.col(n) = carried.origin;
         jacobian.col(n).tail<3>() = carried.z;
     }
+    carried.end(arm.description());
     const Vec3 tip = carried.point(arm.description().tool_tip);
     for (int n = 0; n < arm.joint_count(); ++n) {
         const Vec3 z = jacobian.col(n).tail<3>();
@@ -99,7 +110,7 @@ double manipulability(const ArmJacobian& jacobian, double length_mm) {
 }
 
 double stretched_length(const ArmModel& arm) {
-    double length = arm.description().tool_tip.norm();
+    double length = arm.description().tool_tip.norm() + std::abs(arm.description().end_a);
     for (const ArmJoint& joint : arm.description().joints) {
         const bool slides =
             joint.kind == JointKind::prismatic && std::isfinite(joint.min) && std::isfinite(joint.max);

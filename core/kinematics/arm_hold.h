@@ -21,9 +21,21 @@ enum class ArmTrouble : std::uint8_t {
 
 struct ArmAim {
     ArmDemand demand = ArmDemand::tip_and_axis;
-    /// By how much the tool axis may be turned into the plane of an arm with five joints; it always is where
-    /// the tip alone is demanded.
+    /// By how much the tool axis may be turned where the arm cannot hold it: into the plane of an arm like
+    /// the L-3, of others by the smallest angle that is found. Where the tip alone is demanded an arm like
+    /// the L-3 turns it by any angle.
     double most_tilt = 1e-4;
+};
+
+/// What an arm is asked to keep along a path of its tool: with five joints or less the roll about the tool is
+/// free.
+[[nodiscard]] ArmAim aim_of(const ArmModel& arm, double most_tilt);
+
+/// How far an arm is from holding its tool somewhere. What is not in the way is 0.
+struct ArmShortfall {
+    double tip = 0.0;    ///< mm from the nearest place that is found, the tool in its direction
+    double axis = 0.0;   ///< rad between the direction of the tool and the nearest one that is found
+    JointExcess joint{}; ///< beyond its limits; of a jump: how far it would go
 };
 
 struct ArmHold {
@@ -31,6 +43,7 @@ struct ArmHold {
     ArmTrouble trouble = ArmTrouble::none;
     std::string why;   ///< a sentence about the trouble
     double tilt = 0.0; ///< by which the tool axis was turned
+    ArmShortfall off{};
 };
 
 /// `goal`: the tool, whose z is the tool axis. Throws Defect if it is no rigid motion.

@@ -86,8 +86,7 @@ double turned_inside(const ArmJoint& joint, double angle, double previous) {
     return fits ? std::clamp(lifted, joint.min, joint.max) : near;
 }
 
-std::string joint_limit_sentence(const ArmModel& arm, const JointPositions& positions) {
-    const int n = arm.joint_outside(positions);
+std::string joint_limit_sentence(const ArmModel& arm, const JointPositions& positions, int n) {
     const ArmJoint& joint = arm.joint(n);
     return fmt::format("joint {} would have to go to {:.3f} deg, outside of {:.3f} to {:.3f}",
                        joint.name,
@@ -117,25 +116,24 @@ WristSpan wrist_span(const ArmModel& arm, const PlanarElbow& lengths) {
             distance(everywhere || passes(0.0) ? 1.0 : std::max(std::cos(first), std::cos(last)))};
 }
 
-/// Empty where joint 3 allows it.
-std::string wrist_sentence(const ArmModel& arm, const PlanarElbow& lengths, double distance) {
+/// Of a wrist that joint 3 cannot bring so far from the shoulder or so near; unchanged where it can.
+void explain_wrist(ArmInverseSolution& found, const ArmModel& arm, double distance) {
     constexpr double rounding_mm = 1e-6;
-    const WristSpan span = wrist_span(arm, lengths);
-    return distance >= span.least - rounding_mm && distance <= span.most + rounding_mm
-               ? ""
-               : fmt::format(
-                     "the wrist would be {:.3f} mm from the shoulder; the arm reaches {:.3f} to {:.3f}",
-                     distance,
-                     span.least,
-                     span.most);
+    const WristSpan span = wrist_span(arm, *arm.planar_elbow());
+    const double beyond = std::max(span.least - distance, distance - span.most);
+    if (beyond > rounding_mm) {
+        found.beyond_reach = beyond;
+        found.why =
+            fmt::format("the wrist would be {:.3f} mm from the shoulder; the arm reaches {:.3f} to {:.3f}",
+                        distance,
+                        span.least,
+                        span.most);
+    }
 }
 
-InverseSolution unreachable(std::string why) {
-    return {.reach = Reach::unreachable, .branches = {}, .why = std::move(why)};
-}
-
-/// Angles about the joints' axes as positions, where the limits allow them; else why not.
-void add_branch(InverseSolution& found,
+/// Angles about the joints' axes as positions, where the limits allow them; else why not, of the branch that
+/// is nearest to its limits.
+void add_branch(ArmInverseSolution& found,
                 const ArmModel& arm,
                 const std::array<double, 5>& angles,
                 const JointPositions& previous) {
@@ -145,36 +143,41 @@ void add_branch(InverseSolution& found,
         const double angle = angles[static_cast<std::size_t>(n)] - joint.theta;
         positions[n] = turned_inside(joint, angle, previous[n]);
     }
-    if (arm.joint_outside(positions) < 0) {
+    const JointExcess excess = arm.farthest_outside(positions);
+    if (excess.joint < 0) {
         found.branches.push_back(positions);
-    } else if (found.why.empty()) {
-        found.why = joint_limit_sentence(arm, positions);
+    } else if (found.excess.joint < 0 || excess.beyond < found.excess.beyond) {
+        found.excess = excess;
+        found.why = joint_limit_sentence(arm, positions, excess.joint);
     }
 }
 
 /// `roll`: the angle of joint 5 for a given angle of the base.
 template <class Roll>
-InverseSolution
+ArmInverseSolution
 solve(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previous, Roll&& roll) {
     expects(arm.planar_elbow().has_value(), "an arm of three parallel joints between base and roll");
     expects(previous.size() == arm.joint_count() && previous.allFinite(), "a position for every joint");
     const BaseAngle front = base_angle(goal, previous[0] + arm.joint(0).theta);
     const Vec3 across(-std::sin(front.angle), std::cos(front.angle), 0.0);
     const double out_of_plane = std::asin(std::clamp(across.dot(goal.axis), -1.0, 1.0));
+    ArmInverseSolution found;
     if (std::abs(out_of_plane) > in_plane_tolerance) {
-        return unreachable(
+        found.out_of_plane = std::abs(out_of_plane);
+        found.why =
             fmt::format("the tool axis is {:.4f} deg out of the plane of the arm, which has five joints only",
-                        std::abs(to_degrees(out_of_plane))));
+                        to_degrees(found.out_of_plane));
+        return found;
     }
     const PlanarElbow& lengths = *arm.planar_elbow();
     const Vec3 axis = (goal.axis - across.dot(goal.axis) * across).normalized();
     const Vec3 wrist = goal.tip - lengths.tool * axis;
     const double cosine = elbow_cosine(lengths, wrist);
     if (!(std::abs(cosine) <= 1.0 + stretched)) {
-        return unreachable(wrist_sentence(arm, lengths, wrist.norm()));
+        explain_wrist(found, arm, wrist.norm());
+        return found;
     }
-    InverseSolution found{
-        .reach = front.is_free ? Reach::singular : Reach::reachable, .branches = {}, .why = {}};
+    found.reach = front.is_free ? Reach::singular : Reach::reachable;
     for (const double base : {front.angle, front.angle + pi}) {
         const double c1 = std::cos(base), s1 = std::sin(base);
         const double sum = std::atan2(c1 * axis.x() + s1 * axis.y(), axis.z());
@@ -184,18 +187,19 @@ solve(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previo
             add_branch(found, arm, {base, angles.shoulder, angles.elbow, flexion, roll(base)}, previous);
         }
     }
-    found.reach = found.branches.empty() ? Reach::outside_limits : found.reach;
-    if (!found.branches.empty()) {
+    if (found.branches.empty()) {
+        found.reach = Reach::outside_limits;
+        explain_wrist(found, arm, wrist.norm()); // whatever the other joints do
+    } else {
         found.why.clear();
-    } else if (std::string why = wrist_sentence(arm, lengths, wrist.norm()); !why.empty()) {
-        found.why = std::move(why); // whatever the other joints do
+        found.excess = {};
     }
     return found;
 }
 
 } // namespace
 
-InverseSolution arm_inverse(const ArmModel& arm, const Frame& goal, const JointPositions& previous) {
+ArmInverseSolution arm_inverse(const ArmModel& arm, const Frame& goal, const JointPositions& previous) {
     const Mat3 r = goal.linear();
     expects(is_finite(Vec3(goal.translation())) && r.isUnitary(rigid) && r.determinant() > 0.0,
             "a goal is a rigid motion");
@@ -206,7 +210,7 @@ InverseSolution arm_inverse(const ArmModel& arm, const Frame& goal, const JointP
     return solve(arm, {goal.translation(), r.col(2)}, previous, roll);
 }
 
-InverseSolution arm_inverse(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previous) {
+ArmInverseSolution arm_inverse(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previous) {
     expects(is_finite(goal.tip) && std::abs(goal.axis.norm() - 1.0) < rigid, "a tool axis is a unit vector");
     return solve(arm, goal, previous, [&](double) { return previous[4] + arm.joint(4).theta; });
 }

@@ -21,14 +21,21 @@ inline constexpr double in_plane_tolerance = 1e-7;
 /// A tip nearer than this to the base's axis leaves the base free to turn, mm.
 inline constexpr double base_axis_tolerance = 1e-9;
 
+struct ArmInverseSolution : InverseSolution {
+    // Where there is no branch:
+    double beyond_reach = 0.0; ///< of the wrist, mm: too far from the shoulder or too near; 0 if neither
+    JointExcess excess;        ///< of the branch that is nearest to its limits; no joint if there is none
+    double out_of_plane = 0.0; ///< of the tool axis, rad, where it is too much
+};
+
 /// Solves for a goal with its roll. Angles are the turns inside the limits next to `previous`; branches in
 /// the order elbow up and down to the front, then over the back. Where the goal leaves a joint free,
 /// `previous` tells it and the answer is Reach::singular. Out of reach is an answer with its reason. Throws
 /// Defect for an arm of another kind and for a goal that is no rigid motion.
-[[nodiscard]] InverseSolution
+[[nodiscard]] ArmInverseSolution
 arm_inverse(const ArmModel& arm, const Frame& goal, const JointPositions& previous);
 /// The same with the roll as in `previous`.
-[[nodiscard]] InverseSolution
+[[nodiscard]] ArmInverseSolution
 arm_inverse(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previous);
 
 /// The goal turned by the smallest angle so that its tool axis lies in the plane of the arm. Nothing if the

@@ -125,6 +125,7 @@ private:
         const bool turns = joint.kind == JointKind::revolute;
         ArmHold jumped = there.hold;
         jumped.trouble = ArmTrouble::jump;
+        jumped.off.joint = {most, step[most]};
         jumped.why = fmt::format("joint {} would have to go {:.1f} {} within {:.4f} mm of the way",
                                  joint.name,
                                  turns ? to_degrees(step[most]) : step[most],
@@ -157,8 +158,9 @@ private:
         if (goes_on) {
             path_.findings.back().last = point;
         } else {
-            path_.findings.push_back({point, point, hold.trouble, hold.why});
+            path_.findings.push_back({point, point, hold.trouble, hold.why, {}});
         }
+        path_.findings.back().off.push_back(hold.off);
     }
 
     const ArmModel& arm_;

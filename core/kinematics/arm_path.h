@@ -42,7 +42,8 @@ struct ArmPathPoint {
 struct ArmFinding {
     std::size_t first = 0, last = 0; ///< points
     ArmTrouble trouble = ArmTrouble::none;
-    std::string why; ///< at the first of them
+    std::string why;               ///< at the first of them
+    std::vector<ArmShortfall> off; ///< of each of them
 };
 
 struct ArmPath {

@@ -3,17 +3,32 @@
 
 #include "core/kinematics/arm_path.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace millwright::kinematics {
 
-/// A finding with its place in the program.
+/// A point of a path where the arm cannot be.
+struct ArmReachPoint {
+    std::size_t point = 0;   ///< its number in the path, from 1
+    int line = 0;            ///< of the program; 0: of none
+    double along = 0.0;      ///< from the beginning of the path, mm
+    Vec3 tip = Vec3::Zero(); ///< where the path has it, in the base's frame
+    ArmShortfall off;
+};
+
+/// A stretch of the path that the arm cannot go: points in a row with the same trouble.
 struct ArmHole {
-    int first_line = 0, last_line = 0; ///< 0: of no program
-    double length = 0.0;               ///< of the path
+    double length = 0.0; ///< of the path
     ArmTrouble trouble = ArmTrouble::none;
-    std::string why;
+    std::string why;                   ///< at its first point
+    std::vector<ArmReachPoint> points; ///< at least one
+
+    [[nodiscard]] const ArmReachPoint& first() const { return points.front(); }
+    [[nodiscard]] const ArmReachPoint& last() const { return points.back(); }
+    /// That is farthest off: by the tip, then by a joint, then by the direction of the tool.
+    [[nodiscard]] const ArmReachPoint& worst() const;
 };
 
 struct ArmReach {
@@ -31,5 +46,9 @@ struct ArmReach {
 
 /// "out of reach", "joint limit", "tool axis", "jump"; "none".
 [[nodiscard]] const char* name_of(ArmTrouble trouble);
+
+/// "12.500 mm off, joint 2 is 3.100 deg beyond its limit": all that is not 0; of a jump "joint 1 jumps by
+/// 180.000 deg".
+[[nodiscard]] std::string to_text(const ArmModel& arm, ArmTrouble trouble, const ArmShortfall& off);
 
 } // namespace millwright::kinematics

@@ -1,10 +1,12 @@
 #include "core/kinematics/arm_simulation.h"
 
+#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_inverse.h"
+#include "core/kinematics/arm_hold.h"
 #include "core/kinematics/arm_motion_ways.h"
+#include "core/kinematics/arm_reach.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace millwright::kinematics {
 
@@ -31,66 +34,101 @@ double in_single_precision(double value) {
     return std::ldexp(std::nearbyint(std::ldexp(fraction, digits)), exponent - digits);
 }
 
-/// The tool axis nearest to `wanted` in the plane of the arm.
-Vec3 axis_at(const Vec3& tip, const Vec3& wanted, const std::filesystem::path& file, int line) {
-    const auto projected = projected_axis({tip, wanted});
-    if (!projected) {
-        fail_in_simulation(file, line, "the tool axis is across the plane of the arm");
-    }
-    return *projected;
-}
-
 class Simulation {
 public:
     Simulation(const ArmModel& arm,
                const JointPositions& start,
                double step,
                const std::filesystem::path& file)
-        : arm_(arm), file_(file), step_(step), joints_(start) {}
+        : arm_(arm), file_(file), step_(step), aim_(aim_of(arm, quarter_turn)), joints_(start) {}
 
     void run(const ArmWay& way, int number) {
         if (way.length > 0.0) {
             const double du = step_ / std::ceil(way.length);
             for (double u = 0.0; u <= 1.0; u += du) {
-                add(way.at(u), way.line, number);
+                add(way, u, number);
             }
         }
-        const Frame target = way.at(1.0);
         if (records_.empty() || records_.back().block != number ||
-            single(target.translation()) != records_.back().tip) {
-            add(target, way.line, number);
+            single(way.at(1.0).translation()) != records_.back().tip) {
+            add(way, 1.0, number);
         }
+        before_ += way.length;
     }
-    [[nodiscard]] std::vector<ArmRecord> take() { return std::move(records_); }
+
+    /// Throws Error if the arm was not everywhere.
+    [[nodiscard]] std::vector<ArmRecord> take() {
+        if (!holes_.empty()) {
+            fail_in_simulation(file_, holes_.front().first().line, sentence_about(holes_.front()));
+        }
+        return std::move(records_);
+    }
 
 private:
+    static constexpr double quarter_turn = 0.5 * pi;
+
     static Vec3 single(const Vec3& point) { return point.unaryExpr(&in_single_precision); }
 
-    void add(const Frame& exact, int line, int number) {
+    void add(const ArmWay& way, double share, int number) {
         if (records_.size() >= most_records) {
             fail_in_simulation(
-                file_, line, fmt::format("more than {} points; take longer steps", most_records));
+                file_, way.line, fmt::format("more than {} points; take longer steps", most_records));
         }
-        const Vec3 tip = single(exact.translation());
-        const Vec3 axis = axis_at(tip, exact.linear().col(2), file_, line);
-        const InverseSolution found = arm_inverse(arm_, PointedGoal{tip, axis}, joints_);
-        if (found.branches.empty()) {
-            fail_in_simulation(
-                file_,
-                line,
-                fmt::format(
-                    "the arm does not reach {:.3f} {:.3f} {:.3f}: {}", tip.x(), tip.y(), tip.z(), found.why));
+        Frame goal = way.at(share);
+        goal.translation() = single(goal.translation());
+        ArmHold hold = hold_tool(arm_, goal, aim_, joints_);
+        joints_ = hold.joints;
+        records_.push_back({goal.translation(), joints_, number, hold.tilt});
+        if (hold.trouble != ArmTrouble::none) {
+            add_hole(std::move(hold), way, share);
         }
-        const auto distance = [&](const JointPositions& q) { return (q - joints_).cwiseAbs().maxCoeff(); };
-        joints_ = *std::ranges::min_element(found.branches, {}, distance);
-        records_.push_back({tip, joints_, number});
+    }
+
+    void add_hole(ArmHold hold, const ArmWay& way, double share) {
+        const std::size_t point = records_.size(); // from 1
+        const bool goes_on = !holes_.empty() && holes_.back().last().point + 1 == point &&
+                             holes_.back().trouble == hold.trouble;
+        if (!goes_on) {
+            holes_.push_back({0.0, hold.trouble, std::move(hold.why), {}});
+        }
+        holes_.back().points.push_back(
+            {point, way.line, before_ + share * way.length, records_.back().tip, hold.off});
+    }
+
+    [[nodiscard]] std::string sentence_about(const ArmHole& hole) const {
+        const auto place = [](const Vec3& tip) {
+            return fmt::format("{:.3f} {:.3f} {:.3f}", tip.x(), tip.y(), tip.z());
+        };
+        const std::string off = to_text(arm_, hole.trouble, hole.worst().off);
+        std::string text =
+            fmt::format("the arm does not reach {}, point {} of the path, {:.3f} mm along it: {}",
+                        place(hole.first().tip),
+                        hole.first().point,
+                        hole.first().along,
+                        hole.why);
+        if (hole.points.size() > 1) {
+            text += fmt::format("; nor the points after it up to point {}, {}, line {}",
+                                hole.last().point,
+                                place(hole.last().tip),
+                                hole.last().line);
+        }
+        if (!off.empty()) {
+            text += fmt::format("; at worst, at point {}, {}", hole.worst().point, off);
+        }
+        if (holes_.size() > 1) {
+            text += fmt::format("; {} follow", counted(holes_.size() - 1, "more stretch", "more stretches"));
+        }
+        return text;
     }
 
     const ArmModel& arm_;
     const std::filesystem::path& file_;
     double step_;
+    ArmAim aim_;
     JointPositions joints_;
+    double before_ = 0.0; ///< length of the ways that are behind, mm
     std::vector<ArmRecord> records_;
+    std::vector<ArmHole> holes_;
 };
 
 /// One line of a result after another.
@@ -139,22 +177,12 @@ private:
 
 } // namespace
 
-JointPositions arm_home() {
-    JointPositions home(5);
-    home << 0.0, -0.5 * pi, 0.5 * pi, 0.0, 0.0;
-    return home;
-}
-
 std::vector<ArmRecord> simulate_arm(const ArmModel& arm,
                                     const std::vector<ArmBlock>& blocks,
                                     const JointPositions& start,
                                     double step_mm,
                                     const std::filesystem::path& file) {
     expects(step_mm > 0.0 && std::isfinite(step_mm), "a step has a length");
-    if (!arm.planar_elbow()) {
-        throw Error(
-            "motion files are for arms like the Motoman L-3: three parallel joints between base and roll");
-    }
     Simulation simulation(arm, start, step_mm, file);
     int number = 0;
     for (const ArmWay& way : ways_of(arm, blocks, start, file)) {
@@ -163,7 +191,15 @@ std::vector<ArmRecord> simulate_arm(const ArmModel& arm,
     return simulation.take();
 }
 
-std::vector<std::array<double, 3>> first_turns_deg(const std::vector<ArmRecord>& records) {
+std::vector<std::array<double, 3>> first_turns_deg(const ArmModel& arm,
+                                                   const std::vector<ArmRecord>& records) {
+    constexpr int axes = 3;
+    for (int n = 0; n < axes; ++n) {
+        if (n >= arm.joint_count() || arm.joint(n).kind != JointKind::revolute) {
+            throw Error(
+                fmt::format("the card turns three joints; joint {} of {} does not turn", n + 1, arm.name()));
+        }
+    }
     std::vector<std::array<double, 3>> turns;
     for (const ArmRecord& record : records) {
         std::array<double, 3> turn{};
@@ -176,7 +212,7 @@ std::vector<std::array<double, 3>> first_turns_deg(const std::vector<ArmRecord>&
     return turns;
 }
 
-std::string arm_result_text(const std::vector<ArmRecord>& records) {
+std::string arm_result_text(const ArmModel& arm, const std::vector<ArmRecord>& records) {
     std::string text;
     for (const ArmRecord& record : records) {
         text += fmt::format("next position {} {} {} \n\n",
@@ -184,13 +220,16 @@ std::string arm_result_text(const std::vector<ArmRecord>& records) {
                             fixed(record.tip.y(), 5),
                             fixed(record.tip.z(), 5));
         for (Eigen::Index n = 0; n < record.joints.size(); ++n) {
-            text += fmt::format(" {} := {} \n", n + 1, fixed(to_degrees(record.joints[n]), 5));
+            const bool turns = arm.joint(static_cast<int>(n)).kind == JointKind::revolute;
+            text += fmt::format(
+                " {} := {} \n", n + 1, fixed(turns ? to_degrees(record.joints[n]) : record.joints[n], 5));
         }
     }
     return text;
 }
 
-std::vector<ArmRecord> parse_arm_result(std::string_view text, const std::filesystem::path& file) {
+std::vector<ArmRecord>
+parse_arm_result(const ArmModel& arm, std::string_view text, const std::filesystem::path& file) {
     Lines lines(text, file);
     std::vector<ArmRecord> records;
     while (!lines.at_end()) {
@@ -202,11 +241,12 @@ std::vector<ArmRecord> parse_arm_result(std::string_view text, const std::filesy
         }
         lines.expect_end(line);
         lines.expect_end(lines.next());
-        record.joints.resize(5);
-        for (int n = 0; n < 5; ++n) {
+        record.joints.resize(arm.joint_count());
+        for (int n = 0; n < arm.joint_count(); ++n) {
             line = lines.next();
             lines.expect(line, fmt::format(" {} := ", n + 1));
-            record.joints[n] = from_degrees(lines.value(line));
+            const double value = lines.value(line);
+            record.joints[n] = arm.joint(n).kind == JointKind::revolute ? from_degrees(value) : value;
             lines.expect_end(line);
         }
         records.push_back(std::move(record));

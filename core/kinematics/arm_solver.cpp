@@ -96,12 +96,14 @@ private:
     /// Lengths in units of the arm's own.
     [[nodiscard]] Error6 scaled(Error6 error) const {
         error.head<3>() /= length_;
+        error.tail<3>() *= settings_.angle_weight;
         return error;
     }
     /// A joint at a limit that it should go beyond is taken out of the step.
     [[nodiscard]] JointPositions step(double damping) const {
         ArmJacobian jacobian = demanded(arm_jacobian(arm_, positions_), now_, demand_);
         jacobian.topRows<3>() /= length_;
+        jacobian.bottomRows<3>() *= settings_.angle_weight;
         for (int n = 0; n < arm_.joint_count(); ++n) {
             if (arm_.joint(n).kind == JointKind::prismatic) {
                 jacobian.col(n) *= length_; // so that a unit of each joint counts as much
@@ -251,7 +253,8 @@ ArmSolverResult solve_arm(const ArmModel& arm,
                           const JointPositions& start,
                           const ArmSolverSettings& settings) {
     expects(start.size() == arm.joint_count() && start.allFinite(), "a position for every joint");
-    expects(goal.matrix().allFinite(), "a goal is finite");
+    expects(goal.matrix().allFinite() && settings.angle_weight > 0.0,
+            "a goal is finite, its directions count");
     return Solver(arm, goal, demand, settings).from(start);
 }
 

@@ -15,6 +15,10 @@ struct ArmSolverSettings {
     double tip_tolerance = 1e-9;    ///< mm
     double angle_tolerance = 1e-12; ///< rad
     int most_iterations = 200;
+    /// What a radian counts against the stretched arm's length, > 0. It decides which miss is the smallest
+    /// where the goal cannot be met: far above 1 the tool keeps its direction, far below it the tip its
+    /// place.
+    double angle_weight = 1.0;
 };
 
 struct ArmSolverResult {

@@ -30,7 +30,8 @@ void add_box(const ArmModel& arm,
                                          "XYZ"[n],
                                          tip[n],
                                          below > 0.0 ? "below" : "above",
-                                         below > 0.0 ? zone.least[n] : zone.most[n])});
+                                         below > 0.0 ? zone.least[n] : zone.most[n]),
+                             true});
         }
     }
 }
@@ -129,17 +130,23 @@ std::vector<std::string> broken_limits(const ArmModel& arm,
     return reasons;
 }
 
-std::string
-leaves_zone(const ArmModel& arm, const JointPositions& from, const JointPositions& to, double slack) {
+std::optional<ZoneBreach>
+zone_exit(const ArmModel& arm, const JointPositions& from, const JointPositions& to, double slack) {
     const std::vector<ZoneBreach> before = zone_breaches(arm, from);
     for (ZoneBreach& breach : zone_breaches(arm, to)) {
         const auto same = std::ranges::find(before, breach.limit, &ZoneBreach::limit);
         const double allowed = std::max(slack, same == before.end() ? 0.0 : same->depth);
         if (breach.depth > allowed) {
-            return std::move(breach.why);
+            return std::move(breach);
         }
     }
-    return {};
+    return std::nullopt;
+}
+
+std::string
+leaves_zone(const ArmModel& arm, const JointPositions& from, const JointPositions& to, double slack) {
+    const std::optional<ZoneBreach> exit = zone_exit(arm, from, to, slack);
+    return exit ? exit->why : std::string();
 }
 
 } // namespace millwright::kinematics

@@ -18,9 +18,10 @@ struct ArmZone {
 };
 
 struct ZoneBreach {
-    int limit = 0;      ///< the same number is the same limit
-    double depth = 0.0; ///< beyond it: mm, or degrees of a drive that turns
-    std::string why;    ///< a sentence
+    int limit = 0;       ///< the same number is the same limit
+    double depth = 0.0;  ///< beyond it: mm, or degrees of a drive that turns
+    std::string why;     ///< a sentence
+    bool of_tip = false; ///< a side of the workspace, so that `depth` is the tip's distance from it
 };
 
 /// The limits of the drives that are broken there: triangles that do not close, A3 against A2, the window of
@@ -38,7 +39,10 @@ struct ZoneBreach {
                                                      const JointPositions& joints);
 
 /// Why the arm must not go there: a limit that is broken by more than `slack` (mm or degrees), and by more
-/// than where it comes from, so that it may always go back; empty if it may.
+/// than where it comes from, so that it may always go back; nothing if it may.
+[[nodiscard]] std::optional<ZoneBreach>
+zone_exit(const ArmModel& arm, const JointPositions& from, const JointPositions& to, double slack = 0.0);
+/// Its sentence alone.
 [[nodiscard]] std::string
 leaves_zone(const ArmModel& arm, const JointPositions& from, const JointPositions& to, double slack = 0.0);
 

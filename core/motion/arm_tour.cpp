@@ -22,7 +22,7 @@ void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
                                                             kinematics::base_T_tool(arm, stop.joints),
                                                             stop.share * tour_speed)};
     kinematics::ArmPathSettings settings;
-    settings.aim = aim_of(arm, quarter_turn);
+    settings.aim = kinematics::aim_of(arm, quarter_turn);
     motion.follow(ways, kinematics::follow_path(arm, ways, motion.joints(), settings, {}), {});
     const double turn = (motion.joints() - stop.joints).cwiseAbs().maxCoeff();
     constexpr double same_branch = 0.01; // rad or mm
@@ -40,13 +40,6 @@ double joint_time(const ArmModel& arm, const JointPositions& way, double share) 
         longest = std::max(longest, std::abs(way[n]) / (share * arm.joint(n).max_velocity));
     }
     return longest;
-}
-
-kinematics::ArmAim aim_of(const ArmModel& arm, double most_tilt) {
-    constexpr int free_roll = 5;
-    return {arm.joint_count() <= free_roll ? kinematics::ArmDemand::tip_and_axis
-                                           : kinematics::ArmDemand::frame,
-            most_tilt};
 }
 
 kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed) {

@@ -34,8 +34,4 @@ joint_time(const kinematics::ArmModel& arm, const kinematics::JointPositions& wa
 /// the joints can.
 [[nodiscard]] kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed);
 
-/// What an arm is asked to keep on a way of its tool: with five joints or less the roll about the tool is
-/// free.
-[[nodiscard]] kinematics::ArmAim aim_of(const kinematics::ArmModel& arm, double most_tilt);
-
 } // namespace millwright::motion

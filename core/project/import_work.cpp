@@ -106,7 +106,8 @@ private:
 };
 
 bool is_chosen(const ImportSource& source, const ImportChoice& choice) {
-    return source.mesh || choice.face > 0 || (source.model && source.model->faces.size() == 1);
+    return source.mesh || source.points || choice.face > 0 ||
+           (source.model && source.model->faces.size() == 1);
 }
 
 ImportWorker::ImportWorker(std::function<void()> wake) : worker_(std::make_unique<Worker>(std::move(wake))) {}

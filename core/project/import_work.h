@@ -27,7 +27,8 @@ struct ImportResult {
     std::uint64_t revision = 0; ///< grows with every publication
 };
 
-/// Whether something of the file is chosen: a mesh always is, a face only by its number or if it is alone.
+/// Whether something of the file is chosen: a mesh always is, and points, a face only by its number or if it
+/// is alone.
 [[nodiscard]] bool is_chosen(const ImportSource& source, const ImportChoice& choice);
 
 /// One file at a time, on a thread of its own. Called from the owner's thread; every member but wait_idle

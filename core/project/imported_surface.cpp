@@ -2,6 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/project/internal/imported_points.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/settings.h"
 
@@ -121,12 +122,13 @@ const CadFace& chosen_face(const exchange::CadModel& model, const std::filesyste
 }
 
 /// Before it is fitted, which makes noise of it.
-void check_imported_size(const exchange::TriangleMesh& mesh,
+void check_imported_size(const std::string& what,
+                         const std::vector<Vec3>& points,
                          double mm_per_unit,
                          const std::filesystem::path& file) {
-    const double size = mm_per_unit * size_of(mesh.points);
+    const double size = mm_per_unit * size_of(points);
     if (const std::string fault = fault_of_size(size); !fault.empty()) {
-        throw Error("the mesh " + fault, file, question_of_unit(size / mm_per_unit));
+        throw Error(what + " " + fault, file, question_of_unit(size / mm_per_unit));
     }
 }
 
@@ -169,11 +171,15 @@ void check_reach(const ImportedSurface& imported, const std::filesystem::path& f
 }
 
 /// Before it is fitted: a patch near points that are too far away is one that cannot be made.
-void check_reach(const exchange::TriangleMesh& mesh, double mm_per_unit, const std::filesystem::path& file) {
-    for (const Vec3& point : mesh.points) {
+void check_reach(const std::string& what,
+                 const std::vector<Vec3>& points,
+                 double mm_per_unit,
+                 const std::filesystem::path& file) {
+    for (const Vec3& point : points) {
         const double far = mm_per_unit * point.cwiseAbs().maxCoeff();
         if (!(far <= farthest_point_mm)) {
-            throw Error(fmt::format("a point of the mesh is {:g} mm from the origin, more than {} mm",
+            throw Error(fmt::format("a point of {} is {:g} mm from the origin, more than {} mm",
+                                    what,
                                     far,
                                     farthest_point_mm),
                         file,
@@ -185,7 +191,12 @@ void check_reach(const exchange::TriangleMesh& mesh, double mm_per_unit, const s
 } // namespace
 
 bool is_importable(const std::filesystem::path& file) {
-    return exchange::is_mesh_file(file) || exchange::is_cad_file(file);
+    return exchange::is_mesh_file(file) || exchange::is_cad_file(file) ||
+           exchange::is_measured_point_file(file);
+}
+
+bool opens_as_surface(const std::filesystem::path& file) {
+    return is_importable(file) && !exchange::has_common_point_name(file);
 }
 
 std::string doubt_of_size(double size_mm, double mm_per_unit) {
@@ -212,12 +223,14 @@ ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, con
 
 ImportSource read_source(const std::filesystem::path& file, const Progress& progress) {
     if (!is_importable(file)) {
-        throw Error("this kind of file is not imported", file, "STEP, IGES, STL, OBJ and PLY are");
+        throw Error("this kind of file is not imported", file, importable_kinds);
     }
     ImportSource source;
     source.file = file;
     if (exchange::is_mesh_file(file)) {
         source.mesh = exchange::read_mesh(file, 1.0, progress);
+    } else if (exchange::is_measured_point_file(file)) {
+        source.points = exchange::read_measured_points(file, progress);
     } else {
         source.model = exchange::read_cad(file, progress);
     }
@@ -226,12 +239,15 @@ ImportSource read_source(const std::filesystem::path& file, const Progress& prog
 
 ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice, const Progress& progress) {
     ImportedSurface imported;
-    if (source.mesh) {
-        check_reach(source.mesh->mesh, choice.mm_per_unit, source.file);
-        check_imported_size(source.mesh->mesh, choice.mm_per_unit, source.file);
-        imported = import_mesh(*source.mesh, choice, progress);
+    if (source.mesh || source.points) {
+        const std::vector<Vec3>& points = source.mesh ? source.mesh->mesh.points : source.points->points;
+        const std::string what = source.mesh ? "the mesh" : "the cloud";
         const double unit = choice.mm_per_unit;
-        tell(imported, doubt_of_size(unit * size_of(source.mesh->mesh.points), unit));
+        check_reach(what, points, unit, source.file);
+        check_imported_size(what, points, unit, source.file);
+        imported = source.mesh ? import_mesh(*source.mesh, choice, progress)
+                               : import_points(*source.points, choice, source.file, progress);
+        tell(imported, doubt_of_size(unit * size_of(points), unit));
     } else {
         imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
         const exchange::CadModel& model = *source.model;

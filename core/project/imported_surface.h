@@ -1,11 +1,12 @@
 // A design from a file of another program: a face of a STEP or IGES file as it is, or a patch fitted to it or
-// to a mesh.
+// to a mesh; and a surface through measured points or near them.
 #pragma once
 
 #include "core/base/progress.h"
 #include "core/exchange/cad_file.h"
 #include "core/exchange/mesh_file.h"
 #include "core/exchange/patch_fit.h"
+#include "core/exchange/point_file.h"
 #include "core/project/project.h"
 
 #include <filesystem>
@@ -23,30 +24,50 @@ struct FitDegrees {
     friend bool operator==(const FitDegrees&, const FitDegrees&) = default;
 };
 
-/// A file as it was read, before anything of it was chosen: one of both.
+/// A file as it was read, before anything of it was chosen: one of the three.
 struct ImportSource {
     std::filesystem::path file;
     std::optional<exchange::CadModel> model;
-    std::optional<exchange::MeshFile> mesh; ///< in the unit of the file, whichever that is
+    std::optional<exchange::MeshFile> mesh;         ///< in the unit of the file, whichever that is
+    std::optional<exchange::MeasuredPoints> points; ///< the same
 };
 
 struct ImportChoice {
-    int face = 0;                           ///< of a STEP or IGES file, from 1; 0: the only one
-    double mm_per_unit = 1.0;               ///< of a mesh; the other files tell
-    std::optional<FitDegrees> degrees = {}; ///< meshes are always fitted, a face only if these are given
-    std::optional<Vec3> along = {};         ///< unit, out of the part: the side of a mesh that is fitted
+    int face = 0;             ///< of a STEP or IGES file, from 1; 0: the only one
+    double mm_per_unit = 1.0; ///< of a mesh or of points; the other files tell
+    std::optional<FitDegrees> degrees =
+        {};                         ///< meshes are always fitted, a face or rows only if these are given
+    std::optional<Vec3> along = {}; ///< unit, out of the part: the side of a mesh or of points that is fitted
+    bool cloud = false;             ///< points are fitted as a cloud, whether they are in rows or not
 
     friend bool operator==(const ImportChoice&, const ImportChoice&) = default;
+};
+
+/// How near the surface is to each of the measured points.
+struct PointFit {
+    int rows = 0, columns = 0;     ///< 0: a cloud
+    std::vector<Vec3> points;      ///< mm
+    std::vector<int> lines;        ///< of the file
+    exchange::Deviation deviation; ///< of the points; none of the patch
+
+    [[nodiscard]] int worst_line() const;
 };
 
 struct ImportedSurface {
     SurfaceInput surface;
     std::optional<exchange::MeshFit> fit; ///< if one patch was fitted
+    std::optional<PointFit> points;       ///< of a file of points
     std::vector<std::string> notes;       ///< what the person should know, a sentence each
 };
 
+inline constexpr const char* importable_kinds =
+    "STEP, IGES, STL, OBJ, PLY and points (CSV, XYZ, ASC, PTS, TXT) are";
+
 /// Whether the name ends like that of a file that can be imported.
 [[nodiscard]] bool is_importable(const std::filesystem::path& file);
+/// Whether a file of that name is a surface unless something else is said: those files of points are left out
+/// whose names others have, too, as points of a table do.
+[[nodiscard]] bool opens_as_surface(const std::filesystem::path& file);
 
 /// Of a mesh so small that its unit, which no such file names, is doubtful: a sentence with its size in
 /// others; else empty.

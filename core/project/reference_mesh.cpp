@@ -137,7 +137,7 @@ ReferenceMesh reference_mesh(const ImportSource& source,
                              const ImportedSurface* imported,
                              const Progress& progress) {
     ReferenceMesh reference;
-    if (imported != nullptr && imported->fit) {
+    if (imported != nullptr && imported->fit && !imported->fit->side.triangles.empty()) {
         const exchange::MeshFit& fit = *imported->fit;
         reference.fitted = fit.side;
         reference.deviation = fit.deviation.at_points;

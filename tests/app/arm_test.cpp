@@ -329,6 +329,50 @@ TEST(Arm, SimulatesTheFileOfTheThesis) {
                 HasSubstr("three-lines.mot:2: the arm does not"));
 }
 
+/// A UR5 by its classical table, straight out at rest: motion begins where --start says.
+TEST(Arm, SimulatesAnyArmFromWhereItIsToldToBegin) {
+    const ScratchFolder scratch;
+    const std::string arm = (scratch / "ur5.json").string(), file = (scratch / "square.mot").string(),
+                      out = (scratch / "result.txt").string();
+    std::string rows;
+    for (const char* row : {R"("1", "alpha": 90, "a": 0, "d": 89.2)",
+                            R"("2", "alpha": 0, "a": -425, "d": 0)",
+                            R"("3", "alpha": 0, "a": -392, "d": 0)",
+                            R"("4", "alpha": 90, "a": 0, "d": 109.3)",
+                            R"("5", "alpha": -90, "a": 0, "d": 94.75)",
+                            R"("6", "alpha": 0, "a": 0, "d": 82.5)"}) {
+        rows += std::string(rows.empty() ? "" : ",") +
+                R"({"kind": "revolute", "theta": 0, "limits": [-360, 360],)" +
+                R"( "max_velocity": 180, "max_acceleration": 600, "name": )" + row + "}";
+    }
+    write_content(arm,
+                  R"({"format": "millwright-arm", "version": 1, "name": "UR5", "source": "catalogue",)"
+                  R"( "convention": "classical", "tool_tip": [0, 0, 0], "joints": [)" +
+                      rows + "]}");
+    // At rest its tip is at x = -(425 + 392), y = -(109.3 + 82.5), z = 89.2 - 94.75.
+    const auto rest = answer_to({"arm", "fk", "0", "0", "0", "0", "0", "0", "--arm", arm, "--json"});
+    EXPECT_NEAR(rest.at("x").get<double>(), -817.0, 1e-6);
+    EXPECT_NEAR(rest.at("y").get<double>(), -191.8, 1e-6);
+    EXPECT_NEAR(rest.at("z").get<double>(), -5.55, 1e-6);
+    write_content(file, "X40 ;\nY40 ;\nX-40 Z20 ;\nY-40 Z-20 ;\n");
+    const Ended ended =
+        run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "10,-80,100,-110,-90,20"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("4 blocks, "));
+    EXPECT_THAT(ended.out, HasSubstr("tool axis turned by at most 0.000 deg"));
+    EXPECT_THAT(content_of(out), HasSubstr("\n 6 := 20.00000 \n"));
+    EXPECT_THAT(run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "1,2,3"}).err,
+                HasSubstr("UR5 has 6 joints, 3 positions were given"));
+    EXPECT_THAT(run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "400,0,0,0,0,0"}).err,
+                HasSubstr("--start is outside of the limits of joint 1"));
+    // Outwards from the stretched arm: the answer names the point, and how far it is off.
+    write_content(file, "X-50 ;");
+    const Ended far = run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "0,-1,2,0,-90,0"});
+    EXPECT_EQ(far.exit_code, 1);
+    EXPECT_THAT(far.err, HasSubstr("square.mot:1: the arm does not reach "));
+    EXPECT_THAT(far.err, HasSubstr(" mm off"));
+}
+
 TEST(Arm, StreamsAMotionFileThroughTheDualPortedRam) {
     const ScratchFolder scratch;
     const std::string file = (scratch / "line.mot").string(), watch = (scratch / "buffer.csv").string();
@@ -395,6 +439,26 @@ TEST(Arm, SaysHowMuchOfAProgramItReaches) {
     EXPECT_EQ(finding.at("last_line"), 6);
     const double reached = std::sqrt(1450.0 * 1450.0 - 200.0 * 200.0) - 700.0;
     EXPECT_NEAR(part.at("reached_mm").get<double>(), 5.0 + 2.0 * reached, 1.0);
+    // Each point by number, line, place on the part and in the base's frame, and how far it is off.
+    const auto& points = finding.at("points");
+    EXPECT_EQ(points.size(),
+              finding.at("last_point").get<std::size_t>() - finding.at("first_point").get<std::size_t>() + 1);
+    EXPECT_NEAR(points.at(0).at("part_mm").at(0).get<double>(), reached, 0.5);
+    EXPECT_NEAR(points.at(0).at("along_mm").get<double>(), 5.0 + reached, 0.5);
+    for (const auto& point : points) {
+        const auto base = point.at("base_mm").get<std::vector<double>>();
+        EXPECT_NEAR(base.at(0), point.at("part_mm").at(0).get<double>() + 700.0, 1e-6);
+        EXPECT_NEAR(point.at("off_mm").get<double>(), std::hypot(base.at(0), base.at(2)) - 1450.0, 1e-6);
+    }
+    const std::string text =
+        run({"arm", "reach", (scratch / "part.ngc").string(), "--frame", "700,0,-200,0,0,0"}).out;
+    EXPECT_THAT(text,
+                testing::ContainsRegex("lines 5 to 6, points [0-9]+ to [0-9]+, [0-9.]+ mm, out of reach: "));
+    EXPECT_THAT(text, testing::ContainsRegex("first point [0-9]+, line 5, X736[.][0-9]+ Y0.000 Z0.000, "));
+    EXPECT_THAT(
+        text,
+        testing::ContainsRegex("worst point [0-9]+, line [56], X900.000 Y0.000 Z0.000, 905.0 mm along "
+                               "the path: 162.452 mm off"));
 }
 
 TEST(Arm, RefusesProgramsThatItCannotRead) {

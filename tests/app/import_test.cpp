@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -54,6 +55,48 @@ TEST_F(ImportCommand, StepComesBackAsItWas) {
     ASSERT_EQ(run({"export", path("back.json"), "--out", path("again.step")}).exit_code, 0);
     ASSERT_EQ(run({"import", path("again.step"), "--out", path("again.json")}).exit_code, 0);
     EXPECT_EQ(nets(path("again.json")), nets(path("back.json")));
+}
+
+TEST_F(ImportCommand, PointsInRowsAreMetExactly) {
+    std::string text;
+    for (const int x : {-30, -10, 10, 30}) {
+        for (const int y : {-30, -10, 10, 30}) {
+            text += fmt::format("{} {} {}\n", x, y, (x * x < 900 ? 7 : 0) + (y * y < 900 ? 7 : 0));
+        }
+    }
+    write_content(path("probe.txt"), text);
+    EXPECT_EQ(run({"import", path("probe.txt")}).out,
+              "16 points, 4 rows of 4 points\n60.000 x 60.000 x 14.000 mm\n");
+    const Ended made = run(
+        {"import", path("probe.txt"), "--out", path("probe.json"), "--deviation", path("off.csv"), "--json"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const auto told = nlohmann::json::parse(made.out).at("points");
+    EXPECT_EQ(told.at("rows"), 4);
+    EXPECT_EQ(told.at("count"), 16);
+    EXPECT_LT(told.at("max_mm").get<double>(), 1e-9);
+    EXPECT_THAT(
+        content_of(path("off.csv")),
+        testing::StartsWith("x_mm,y_mm,z_mm,deviation_mm\n-30.000000,-30.000000,0.000000,0.000000\n"));
+    const auto project = nlohmann::json::parse(content_of(path("probe.json")));
+    for (const auto& row : project.at("surface").at("patches").at(0).at("points")) {
+        for (const auto& point : row) {
+            EXPECT_LE(std::abs(point.at(0).get<double>()), 30.0 + 1e-9);
+            EXPECT_LE(std::abs(point.at(1).get<double>()), 30.0 + 1e-9);
+            EXPECT_LE(std::abs(point.at(2).get<double>()), 21.0 + 1e-9);
+        }
+    }
+    const Ended planned = run({"plan", path("probe.json"), "--out", path("plan")});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+    const Ended cloud = run({"import", path("probe.txt"), "--out", path("cloud.json"), "--cloud"});
+    ASSERT_EQ(cloud.exit_code, 0) << cloud.err;
+    EXPECT_THAT(cloud.out, HasSubstr("16 points, no rows: a cloud\npatch of degree 3 x 3\n"));
+    EXPECT_THAT(cloud.out,
+                testing::ContainsRegex("points to surface: at most [0-9.e-]+ mm \\(line [0-9]+\\), "));
+    write_content(path("comma.csv"), "1,5;2,5;3\n");
+    const Ended comma = run({"import", path("comma.csv"), "--out", path("comma.json")});
+    EXPECT_EQ(comma.exit_code, 1);
+    EXPECT_THAT(comma.err, HasSubstr("comma.csv:1: '1,5' has a comma as decimal point"));
+    EXPECT_EQ(run({"import", "assets/samples/cover.step", "--cloud"}).exit_code, 2);
 }
 
 TEST_F(ImportCommand, MeshIsFittedAndTheDeviationTold) {

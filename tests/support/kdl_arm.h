@@ -83,8 +83,10 @@ private:
             if (n + 1 < arm.joint_count()) {
                 rest = rest * before(n + 1);
             } else {
-                const Vec3& tip = arm.description().tool_tip;
-                rest = rest * KDL::Frame(KDL::Vector(tip.x(), tip.y(), tip.z()));
+                const kinematics::ArmDescription& of = arm.description();
+                const Vec3& tip = of.tool_tip;
+                rest = rest * KDL::Frame(KDL::Rotation::RotX(of.end_alpha), KDL::Vector(of.end_a, 0.0, 0.0)) *
+                       KDL::Frame(KDL::Vector(tip.x(), tip.y(), tip.z()));
             }
             chain.addSegment(KDL::Segment(moved, rest));
         }

@@ -37,9 +37,7 @@ JointPositions inside(const ArmModel& arm, JointPositions joints) {
 }
 
 JointPositions home_of(const ArmModel& arm) {
-    return inside(arm,
-                  arm.planar_elbow() ? kinematics::arm_home()
-                                     : JointPositions(JointPositions::Zero(arm.joint_count())));
+    return inside(arm, arm.home());
 }
 
 bool turns(const ArmModel& arm, int joint) {
@@ -127,7 +125,7 @@ void ArmBench::move_tip(const Vec3& tip) {
     stop();
     const Frame goal = kinematics::carried_tool(arm(), joints_, tip);
     const kinematics::ArmHold hold =
-        kinematics::hold_tool(arm(), goal, motion::aim_of(arm(), 0.5 * pi), joints_);
+        kinematics::hold_tool(arm(), goal, kinematics::aim_of(arm(), 0.5 * pi), joints_);
     refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
     if (refusal_.empty()) {
         place(hold.joints);

@@ -18,7 +18,7 @@ constexpr double share_to_beginning = 0.25;
 
 kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
     kinematics::ArmPathSettings settings;
-    settings.aim = motion::aim_of(wish.arm->arm(), wish.most_lean);
+    settings.aim = kinematics::aim_of(wish.arm->arm(), wish.most_lean);
     if (wish.motion == 0) {
         settings.tip_tolerance = shown_tolerance;
         settings.axis_tolerance = shown_axis_tolerance;

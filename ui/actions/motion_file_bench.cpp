@@ -4,7 +4,6 @@
 #include "core/kinematics/arm_motion_ways.h"
 #include "core/kinematics/arm_path.h"
 #include "core/motion/arm_motion.h"
-#include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
 
 namespace millwright::actions {
@@ -16,7 +15,7 @@ motion::Trajectory motion_of_file(const kinematics::ArmModel& arm,
     constexpr double quarter_turn = 0.5 * pi;
     const auto ways = kinematics::ways_of(arm, kinematics::parse_arm_motion(text, file), start, file);
     kinematics::ArmPathSettings settings;
-    settings.aim = motion::aim_of(arm, quarter_turn);
+    settings.aim = kinematics::aim_of(arm, quarter_turn);
     motion::ArmMotion motion(arm, start);
     motion.follow(ways, kinematics::follow_path(arm, ways, start, settings, {}), file);
     return motion::plan(motion.program(), arm, {}, {});

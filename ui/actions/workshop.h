@@ -174,6 +174,9 @@ public:
     void save_motion_program(const std::filesystem::path& file);
     [[nodiscard]] PlotBench& plot() { return *plot_; }
     [[nodiscard]] ImportBench& import() { return *import_; }
+    /// A surface of another program or a file of points goes on the import bench, whatever else files of that
+    /// name are. Throws Error where there is no such file.
+    void open_surface(const std::filesystem::path& file);
     /// What is on the import bench becomes the project's surface.
     void take_import();
     /// Writes the surface for another program, in the background. Throws Error for an end of the name that
@@ -227,7 +230,6 @@ private:
     void follow_file();
     void follow_received();
     void open_plot(const std::filesystem::path& file);
-    void open_surface(const std::filesystem::path& file);
     void follow_import();
     void follow_plot();
     void give_place_back();

@@ -192,8 +192,8 @@ void Workshop::stream_motion_file() {
         kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
     const auto records = kinematics::simulate_arm(
         arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
-    auto stream =
-        std::make_shared<machine::SharedMemoryStream>(kinematics::first_turns_deg(records), deg_per_s);
+    auto stream = std::make_shared<machine::SharedMemoryStream>(
+        kinematics::first_turns_deg(arm_->arm(), records), deg_per_s);
     if (kinematics::sets_feed(blocks)) {
         tell(session_,
              widgets::Severity::info,
@@ -280,7 +280,7 @@ void Workshop::save_motion_result(const fs::path& file) {
         kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
     const auto records = kinematics::simulate_arm(
         arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
-    write_file(file, kinematics::arm_result_text(records));
+    write_file(file, kinematics::arm_result_text(arm_->arm(), records));
     tell(session_,
          widgets::Severity::info,
          counted(records.size(), "point") + " saved in " + file.filename().string() + ".");

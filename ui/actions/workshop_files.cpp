@@ -61,7 +61,7 @@ void Workshop::open(const fs::path& file) {
         open_plot(file);
         return;
     }
-    if (project::is_importable(file)) {
+    if (project::opens_as_surface(file)) {
         open_surface(file);
         return;
     }

@@ -100,8 +100,13 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     constexpr std::size_t most_shown = 3;
     for (std::size_t n = 0; n < std::min(most_shown, reach.holes.size()); ++n) {
         const kinematics::ArmHole& hole = reach.holes[n];
-        const std::string place = hole.first_line == 0 ? "" : fmt::format("Line {}: ", hole.first_line);
-        ui.note(fmt::format("{}{} mm, {}", place, fixed(hole.length, 1), with_full_stop(hole.why)));
+        const std::string place = hole.first().line == 0 ? "" : fmt::format("Line {}: ", hole.first().line);
+        const std::string off = to_text(path.wish.arm->arm(), hole.trouble, hole.worst().off);
+        ui.note(fmt::format("{}{} mm, {}{}",
+                            place,
+                            fixed(hole.length, 1),
+                            with_full_stop(hole.why),
+                            off.empty() ? "" : " At worst " + with_full_stop(off)));
     }
     if (reach.holes.size() > most_shown) {
         ui.note(fmt::format("{} more stretches out of reach.", reach.holes.size() - most_shown));

@@ -22,7 +22,7 @@ constexpr std::string_view extension = ".json";
 
 /// What "Open" can make something of.
 bool is_opened(const fs::path& file) {
-    return file.extension() == extension || is_gcode(file) || project::is_importable(file) ||
+    return file.extension() == extension || is_gcode(file) || project::opens_as_surface(file) ||
            project::is_plot_file(file) || actions::is_processor_file(file);
 }
 
@@ -52,8 +52,8 @@ constexpr std::array<AskedFile, 20> questions{
       true,
       "",
       "",
-      [](actions::Workshop& workshop, const fs::path& file) { workshop.open(file); },
-      "No STEP, IGES, STL, OBJ or PLY files here.",
+      [](actions::Workshop& workshop, const fs::path& file) { workshop.open_surface(file); },
+      "No STEP, IGES, STL, OBJ or PLY files and no files of points here.",
       project::is_importable},
      {FileQuestion::export_surface,
       "Export the surface as",

@@ -248,7 +248,7 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note(chosen_.empty() ? " " : chosen_.filename().string());
     } else if (entry_of(chosen_).is_folder) {
         ProjectPreview::draw_words(ui, "A folder: click it again, or press Enter, to look into it.");
-    } else if (project::is_importable(chosen_)) {
+    } else if (project::opens_as_surface(chosen_)) {
         ProjectPreview::draw_words(
             ui, "A surface of another program: it is shown first, in the Design workspace.");
     } else if (is_gcode(chosen_)) {

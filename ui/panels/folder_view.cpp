@@ -46,7 +46,7 @@ constexpr std::array<FileFilter, 8> open_filters{
     {{"known", "All that can be opened", of_question},
      {"projects", "Projects (.json)", of_kind<is_project>},
      {"gcode", "G-code programs", of_kind<is_gcode>},
-     {"surfaces", "Surfaces (STEP, IGES, STL, OBJ, PLY)", of_kind<project::is_importable>},
+     {"surfaces", "Surfaces (STEP, IGES, STL, OBJ, PLY)", of_kind<project::opens_as_surface>},
      {"drawings", "Plots, paths and points", of_kind<is_drawing>},
      {"pictures", "Pictures", of_kind<project::is_picture_file>},
      {"processor", "Of the processor", of_kind<actions::is_processor_file>},
@@ -119,7 +119,7 @@ FolderListing listed(const fs::path& folder, const AskedFile& asked, const FileF
 
 std::string file_kind(const fs::path& file) {
     return is_gcode(file)                     ? "G-code"
-           : project::is_importable(file)     ? "surface"
+           : project::opens_as_surface(file)  ? "surface"
            : project::is_picture_file(file)   ? "picture"
            : project::is_path_file(file)      ? "path file"
            : project::is_point_file(file)     ? "point file"
@@ -181,7 +181,7 @@ fs::path starting_folder(const Workbench& now, const AskedFile& asked) {
         return last->second;
     }
     if (asked.question == FileQuestion::import_surface) { // which mostly comes from elsewhere
-        const auto recent = std::ranges::find_if(now.recent, project::is_importable);
+        const auto recent = std::ranges::find_if(now.recent, project::opens_as_surface);
         if (recent != now.recent.end() && is_folder(recent->parent_path())) {
             return recent->parent_path();
         }

@@ -107,7 +107,7 @@ void draw_unit(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
         index = exactly_equal(units[n].mm, choice.mm_per_unit) ? static_cast<int>(n) : index;
     }
     if (const auto chosen =
-            ui.segmented("unit", "Unit", index, options, "The file of a mesh does not tell")) {
+            ui.segmented("unit", "Unit", index, options, "The file of a mesh or of points does not tell")) {
         ImportChoice changed = choice;
         changed.mm_per_unit = units[static_cast<std::size_t>(*chosen)].mm;
         choose_import(ask, changed);
@@ -116,7 +116,7 @@ void draw_unit(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
 
 void draw_side(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
     const std::array<Option, 7> options{
-        {{"found", "As it shows", {}, "The mean normal of the mesh, or +z where the mesh is closed", {}},
+        {{"found", "As it shows", {}, "The mean normal, or +z where a mesh is closed", {}},
          {"up", "+z", {}, "", {}},
          {"down", "-z", {}, "", {}},
          {"right", "+x", {}, "", {}},
@@ -152,25 +152,63 @@ void draw_degrees(Ui& ui, ActionQueue& ask, const ImportChoice& choice, const pr
     field("degree_v", "Degree along v", &project::FitDegrees::v);
 }
 
+void draw_cloud(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
+    if (const auto cloud =
+            ui.toggle("cloud",
+                      "Fit as a cloud",
+                      choice.cloud,
+                      "A fair patch near the points, in place of a surface through their rows")) {
+        ImportChoice changed = choice;
+        changed.cloud = *cloud;
+        choose_import(ask, changed);
+    }
+}
+
+/// Meshes are always fitted by one.
+void draw_one_patch(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
+    if (const auto fit = ui.toggle("fit",
+                                   "Fit one patch",
+                                   choice.degrees.has_value(),
+                                   "One patch near the whole surface in place of its own patches")) {
+        ImportChoice changed = choice;
+        changed.degrees = *fit ? std::optional(project::FitDegrees{}) : std::nullopt;
+        choose_import(ask, changed);
+    }
+}
+
 void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, const ImportChoice& choice) {
     const auto section = ui.section("patch", "Patch");
     if (!section) {
         return;
     }
-    if (source.mesh) {
+    if (source.mesh || source.points) {
         draw_unit(ui, ask, choice);
         draw_side(ui, ask, choice);
-    } else if (const auto fit = ui.toggle("fit",
-                                          "Fit one patch",
-                                          choice.degrees.has_value(),
-                                          "One patch near the whole face in place of its own patches")) {
-        ImportChoice changed = choice;
-        changed.degrees = *fit ? std::optional(project::FitDegrees{}) : std::nullopt;
-        choose_import(ask, changed);
+    }
+    if (source.points) {
+        draw_cloud(ui, ask, choice);
+    }
+    if (!source.mesh) {
+        draw_one_patch(ui, ask, choice);
     }
     if (source.mesh || choice.degrees) {
         draw_degrees(ui, ask, choice, choice.degrees.value_or(project::FitDegrees{}));
     }
+}
+
+void draw_points_off(Ui& ui, const project::PointFit& points) {
+    ui.value("rows",
+             "Points",
+             points.rows > 0 ? fmt::format("{} x {}", points.rows, points.columns)
+                             : fmt::format("{} in a cloud", points.points.size()));
+    ui.value("max",
+             "Largest deviation",
+             deviation_text(points.deviation.max),
+             "mm",
+             fmt::format("The largest distance of a point from the surface: of the point in line {}",
+                         points.worst_line()));
+    ui.value("mean", "Mean deviation", deviation_text(points.deviation.mean), "mm");
+    ui.value("rms", "RMS deviation", deviation_text(points.deviation.rms), "mm");
 }
 
 void draw_found(Ui& ui, const ImportResult& found) {
@@ -188,7 +226,9 @@ void draw_found(Ui& ui, const ImportResult& found) {
         return;
     }
     ui.value("patches", "Patches", std::to_string(found.surface->surface.patches.size()));
-    if (const auto& fit = found.surface->fit) {
+    if (const auto& points = found.surface->points) {
+        draw_points_off(ui, *points);
+    } else if (const auto& fit = found.surface->fit) {
         ui.value("max",
                  "Largest deviation",
                  deviation_text(fit->deviation.max),
@@ -216,6 +256,10 @@ void draw_file(Ui& ui, const ImportResult& found) {
     const project::ImportSource& source = *found.source;
     if (source.model) {
         ui.value("unit", "Unit of the file", source.model->unit.empty() ? "mm" : source.model->unit);
+        return;
+    }
+    if (source.points) {
+        ui.value("points", "Points", std::to_string(source.points->points.size()));
         return;
     }
     ui.value("triangles", "Triangles", std::to_string(source.mesh->mesh.triangles.size()));

@@ -14,11 +14,7 @@
 
 namespace millwright::exchange {
 
-namespace {
-
 using geometry::BezierPatch;
-
-// ---- from the target to the patch
 
 Deviation
 deviation_of_points(const std::vector<Vec3>& points, const BezierPatch& patch, const Progress& progress) {
@@ -47,6 +43,10 @@ deviation_of_points(const std::vector<Vec3>& points, const BezierPatch& patch, c
     result.rms = std::sqrt(squares / count);
     return result;
 }
+
+namespace {
+
+// ---- from the target to the patch
 
 /// Whether each of the places lies inside the outline of the face.
 std::vector<char> insides(const CadFace& face, const std::vector<Vec2>& places) {

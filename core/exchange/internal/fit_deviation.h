@@ -7,6 +7,7 @@
 #include "core/exchange/patch_fit.h"
 
 #include <optional>
+#include <vector>
 
 namespace millwright::exchange {
 

@@ -1,6 +1,7 @@
 #include "core/exchange/patch_fit.h"
 
 #include "core/base/error.h"
+#include "core/exchange/cloud_fit.h"
 #include "core/geometry/closest_point.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/presets.h"
@@ -195,6 +196,29 @@ TEST(PatchFit, EmptyCornersStayTame) {
     EXPECT_LT(box.max().cwiseAbs().maxCoeff(), 60.0);
     EXPECT_LT(box.min().cwiseAbs().maxCoeff(), 60.0);
     EXPECT_LT(fit.deviation.rms, 0.3);
+}
+
+/// 18 triangles for 36 control points: the net went as far as 30 mm beyond a part of 60 mm.
+TEST(PatchFit, KeepsTheNetNearACoarseMesh) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            const bool inner_u = i == 1 || i == 2, inner_v = j == 1 || j == 2;
+            mesh.points.emplace_back(
+                20.0 * i - 30.0, 20.0 * j - 30.0, (inner_u ? 7.0 : 0.0) + (inner_v ? 7.0 : 0.0));
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const int a = 4 * i + j;
+            mesh.triangles.push_back({a, a + 4, a + 5});
+            mesh.triangles.push_back({a, a + 5, a + 1});
+        }
+    }
+    const MeshFit fit = fit_patch(mesh, {}, {});
+    EXPECT_TRUE(stays_near(fit.patch, mesh.points, 0.25))
+        << fit.patch.control_box().min().transpose() << " to " << fit.patch.control_box().max().transpose();
+    EXPECT_LT(fit.deviation.max, 1.3);
 }
 
 TEST(PatchFit, SaysWhatIsWrong) {

@@ -76,6 +76,49 @@ TEST(BesideKdlK4, ReachesWhatWasProjected) {
     EXPECT_GT(reached, 500);
 }
 
+/// A table with all of its numbers different from 0, in both conventions, as KDL reads them.
+TEST(BesideKdlTables, ReadsClassicalAndModifiedTables) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (int table = 0; table < 100; ++table) {
+        ArmDescription rows;
+        rows.name = "table";
+        for (int n = 0; n < 6; ++n) {
+            ArmJoint joint;
+            joint.name = std::to_string(n + 1);
+            joint.kind = table % 6 == n ? JointKind::prismatic : JointKind::revolute;
+            joint.alpha = 3.0 * number(random);
+            joint.a = 300.0 * number(random);
+            joint.d = 300.0 * number(random);
+            joint.theta = 3.0 * number(random);
+            joint.min = -pi;
+            joint.max = pi;
+            rows.joints.push_back(joint);
+        }
+        const ArmModel modified(rows), classical(from_classical(rows));
+        const JointPositions q = test::random_joints(random, modified);
+        KDL::Frame craig = KDL::Frame::Identity(), distal = KDL::Frame::Identity();
+        for (int n = 0; n < 6; ++n) {
+            const ArmJoint& row = rows.joints[static_cast<std::size_t>(n)];
+            const bool turns = row.kind == JointKind::revolute;
+            const double d = row.d + (turns ? 0.0 : q[n]), theta = row.theta + (turns ? q[n] : 0.0);
+            craig = craig * KDL::Frame::DH_Craig1989(row.a, row.alpha, d, theta);
+            distal = distal * KDL::Frame::DH(row.a, row.alpha, d, theta);
+        }
+        for (const auto& [arm, theirs] : {std::pair(&modified, &craig), std::pair(&classical, &distal)}) {
+            const Frame ours = base_T_tool(*arm, q);
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_NEAR(ours.translation()[i], theirs->p(i), 1e-9);
+                for (int j = 0; j < 3; ++j) {
+                    EXPECT_NEAR(ours.linear()(i, j), theirs->M(i, j), 1e-12);
+                }
+            }
+            test::KdlArm kdl(*arm);
+            EXPECT_LT((arm_jacobian(*arm, q) - kdl.jacobian(q)).cwiseAbs().maxCoeff(), 1e-9);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, BesideKdl, ::testing::Values("motoman-l3", "six-axis", "scara"));
 
 } // namespace

@@ -164,6 +164,17 @@ TEST(ArmPath, ArmsWithoutAClosedFormFollowToo) {
     EXPECT_LE(farthest_from_line(six, path, a, b), 0.011);
 }
 
+/// From a straight arm no small motion of its joints leads inwards.
+TEST(ArmPath, LeavesAStretchedArm) {
+    const ArmModel scara = test::arm("scara");
+    Frame goal = Frame::Identity();
+    goal.translation() = Vec3(400.0, 0.0, 250.0);
+    goal.linear() = frame_along(straight_down);
+    const ArmHold hold = hold_tool(scara, goal, {}, rest(4));
+    ASSERT_EQ(hold.trouble, ArmTrouble::none) << hold.why;
+    EXPECT_LT((base_T_tool(scara, hold.joints).translation() - goal.translation()).norm(), 1e-8);
+}
+
 TEST(ArmPath, IsStoppedWhereItNeedsTooManyPoints) {
     const std::vector<ArmWay> ways{
         test::line_way(Vec3(800.0, 0.0, 0.0), Vec3(900.0, 0.0, 0.0), straight_down)};

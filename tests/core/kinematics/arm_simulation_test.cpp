@@ -117,24 +117,26 @@ TEST(ArmSimulation, RefusesWhatTheArmCannotDo) {
         EXPECT_THAT(why(off_the_plane), HasSubstr("a.mot:1: start, end and center are on a line that leaves"))
             << off_the_plane;
     }
-    EXPECT_THAT(why("X1 A0 B1 ;"), HasSubstr("across the plane"));
+    EXPECT_THAT(why("X1 A0 B1 ;"), HasSubstr("90.000 deg out of the plane of the arm"));
 }
 
 TEST(ArmResultS3, HasTheLayoutOfTheThesis) {
     JointPositions printed = test::degrees({0.0, -84.09386, 90.0, -5.90614, 0.0});
-    EXPECT_EQ(arm_result_text({{Vec3(800.0, 0.0, 650.0), printed, 0}}),
+    EXPECT_EQ(arm_result_text(test::arm("motoman-l3"), {{Vec3(800.0, 0.0, 650.0), printed, 0}}),
               "next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n 2 := -84.09386 \n"
               " 3 := 90.00000 \n 4 := -5.90614 \n 5 := 0.00000 \n");
 }
 
 TEST(ArmResultS3, ReadsBackWhatItWrote) {
     const auto records = simulated(printed_file, 10.0);
-    const std::string text = arm_result_text(records);
-    const auto back = parse_arm_result(text, "a.res");
+    const ArmModel l3 = test::arm("motoman-l3");
+    const std::string text = arm_result_text(l3, records);
+    const auto back = parse_arm_result(l3, text, "a.res");
     ASSERT_EQ(back.size(), records.size());
-    EXPECT_EQ(arm_result_text(back), text);
-    EXPECT_THAT(reason([&] { (void)parse_arm_result(text.substr(0, 200), "a.res"); }), HasSubstr("a.res:"));
-    EXPECT_THAT(reason([&] { (void)parse_arm_result("nonsense\n", "a.res"); }),
+    EXPECT_EQ(arm_result_text(l3, back), text);
+    EXPECT_THAT(reason([&] { (void)parse_arm_result(l3, text.substr(0, 200), "a.res"); }),
+                HasSubstr("a.res:"));
+    EXPECT_THAT(reason([&] { (void)parse_arm_result(l3, "nonsense\n", "a.res"); }),
                 HasSubstr("a.res:1: 'next position '"));
 }
 
@@ -171,6 +173,57 @@ TEST(ArmMotionWays, NeedAFeedAboveNothing) {
     EXPECT_THAT(
         reason([&] { (void)ways_of(arm, parse_arm_motion("X1;\nX1 F0;", "a.mot"), arm_home(), "a.mot"); }),
         HasSubstr("a.mot:2: the feed F has to be above 0"));
+}
+
+/// Every point, in turn: the stretch that an arm cannot go has a beginning, an end and a size.
+TEST(ArmSimulation, NamesTheStretchThatIsOutOfReach) {
+    // From 800 0 650 straight out: sqrt(1450^2 - 650^2) = 1296.15 from the base's axis is the end.
+    const std::string why = reason([&] { (void)simulated("X100 ;\nX1000 ;\nX-1100 ;", 10.0); });
+    EXPECT_THAT(why,
+                HasSubstr("a.mot:2: the arm does not reach 1300.000 0.000 650.000, point 52 of the path, "
+                          "500.000 mm along it: the wrist would be 1453.444 mm from the shoulder"));
+    EXPECT_THAT(why, HasSubstr("up to point 173, 1300.000 0.000 650.000, line 3"));
+    EXPECT_THAT(why, HasSubstr("at worst, at point 112, 558.109 mm off"));
+}
+
+class ArmSimulationOfAnyArm : public ::testing::TestWithParam<std::pair<const char*, JointPositions>> {};
+
+TEST_P(ArmSimulationOfAnyArm, ComesToEveryPointOfTheFile) {
+    const auto& [name, start] = GetParam();
+    const ArmModel arm = test::arm(name);
+    const Frame first = base_T_tool(arm, start);
+    const auto blocks = parse_arm_motion("X-30 ;\nY40 Z-20 ;\nG2 X30 I15 J0 ;\nG1 Y-40 Z20 ;", "a.mot");
+    const auto records = simulate_arm(arm, blocks, start, 5.0, "a.mot");
+    ASSERT_GT(records.size(), 30U);
+    for (const ArmRecord& record : records) {
+        const Frame tool = base_T_tool(arm, record.joints);
+        EXPECT_LT((tool.translation() - record.tip).norm(), 1e-8);
+        EXPECT_LT(angle_between(tool.linear().col(2), first.linear().col(2)), 1e-9);
+        EXPECT_LT(arm.joint_outside(record.joints), 0);
+    }
+    EXPECT_LT((records.back().tip - first.translation()).norm(), 1e-3); // of single precision
+    const auto back = parse_arm_result(arm, arm_result_text(arm, records), "a.res");
+    EXPECT_LT((back.back().joints - records.back().joints).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+JointPositions quill_down() {
+    JointPositions start = test::degrees({20.0, 60.0, 0.0, 0.0});
+    start[2] = 80.0; // mm
+    return start;
+}
+
+INSTANTIATE_TEST_SUITE_P(Arms,
+                         ArmSimulationOfAnyArm,
+                         ::testing::Values(std::pair("scara", quill_down()),
+                                           std::pair("six-axis",
+                                                     test::degrees({10.0, 20.0, -20.0, 15.0, 70.0, 0.0}))));
+
+TEST(ArmSimulationOfAnyArm, TellsACardOfThreeAxesFromAnArmThatSlides) {
+    const ArmModel scara = test::arm("scara");
+    EXPECT_THAT(reason([&] {
+                    (void)first_turns_deg(scara, {{Vec3::Zero(), quill_down(), 0}});
+                }),
+                HasSubstr("joint 3 of SCARA does not turn"));
 }
 
 } // namespace

@@ -285,7 +285,7 @@ TEST_F(FileDialog, ImportBeginsWhereTheLastSurfaceCameFrom) {
 
 TEST(AskedFile, SaysWhichKindsThereAre) {
     EXPECT_EQ(about(actions::FileQuestion::import_surface).none,
-              "No STEP, IGES, STL, OBJ or PLY files here.");
+              "No STEP, IGES, STL, OBJ or PLY files and no files of points here.");
     const std::string kinds = ending_text(about(actions::FileQuestion::export_surface));
     for (const char* ending : {".step", ".glb", ".stl", ".obj", ".ply"}) {
         EXPECT_NE(kinds.find(ending), std::string::npos) << ending;

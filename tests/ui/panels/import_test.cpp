@@ -59,6 +59,31 @@ protected:
     Person person_{{1280, 800}};
 };
 
+TEST_F(Import, MeasuredPointsAreASurfaceThroughThemOrNearThem) {
+    std::string text;
+    for (int n = 0; n < 64; ++n) {
+        const int x = n / 8, y = n % 8;
+        text += std::to_string(10 * x) + "," + std::to_string(10 * y) + "," + std::to_string(x * y) + "\n";
+    }
+    const fs::path file = written("probe.csv", text);
+    person_.workshop().open_surface(file);
+    person_.wait_idle();
+    ASSERT_TRUE(bench().is_ready());
+    EXPECT_EQ(bench().latest()->surface->surface.patches.size(), 25U);
+    EXPECT_TRUE(person_.sees("inspector/import/result/max"));
+    person_.click("inspector/import/patch/fit");
+    person_.wait_idle();
+    EXPECT_EQ(bench().latest()->surface->surface.patches.size(), 1U);
+    EXPECT_TRUE(person_.sees("view/deviation_legend"));
+    person_.keep("import-points");
+    person_.click("inspector/import/patch/cloud");
+    person_.wait_idle();
+    EXPECT_EQ(bench().latest()->surface->points->rows, 0);
+    person_.click("inspector/import/import_take");
+    person_.wait_idle();
+    EXPECT_EQ(person_.project().surface.patches.size(), 1U);
+}
+
 TEST_F(Import, AMeshIsFittedLookedAtTakenAndUndone) {
     const project::SurfaceInput before = person_.project().surface;
     drop(written("sine.stl", surface_in("assets/projects/sine.json")));

@@ -79,14 +79,27 @@ TEST(PmacSession, AProgramThatAnOpenLoopRefusesNamesItsMotor) {
     EXPECT_THAT(wire.session.status().message,
                 HasSubstr("also motor 5 (71.1111B), which is not driven here"));
     EXPECT_EQ(wire.card.command(1), 0.0);
-    // The same of a line that a person types: the program is in the card.
-    const int number = wire.session.command({"#2?", "&1B1R"}, false);
-    ASSERT_TRUE(wire.run_until(
-        [&] { return wire.session.status().answer.state != CommandAnswer::State::pending; }, 5.0));
-    EXPECT_EQ(wire.session.status().answer.number, number);
-    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::refused);
-    EXPECT_THAT(wire.session.status().answer.text,
-                HasSubstr("also motor 5 (71.1111B), which is not driven here"));
+}
+
+/// The same of a line that a person types, as `millwright pmac` and the terminal send it.
+TEST(PmacSession, ATypedRunThatAnOpenLoopRefusesNamesItsMotorToo) {
+    std::string axis_5;
+    const std::string sample = "assets/samples/pmac-axis-5.ini";
+    for (const auto& line : read_pmac_file(read_file(sample), sample).lines) {
+        axis_5 += line.text + "\n";
+    }
+    PmacWire wire({}, true, "XYZA", {}, axis_5);
+    const auto answer_to = [&wire](const std::vector<std::string>& lines) {
+        (void)wire.session.command(lines, false);
+        wire.run_until([&] { return wire.session.status().answer.state != CommandAnswer::State::pending; }, 5.0);
+        return wire.session.status().answer;
+    };
+    ASSERT_EQ(answer_to({"OPEN PROG 1", "CLEAR", "LINEAR", "TM500", "X1", "CLOSE"}).state,
+              CommandAnswer::State::done);
+    const CommandAnswer answer = answer_to({"&1B1R"});
+    EXPECT_EQ(answer.state, CommandAnswer::State::refused);
+    EXPECT_THAT(answer.text, HasSubstr("ERR012, a motor's loop is open; "));
+    EXPECT_THAT(answer.text, HasSubstr("also motor 5 (71.1111B), which is not driven here"));
     EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
 }
 
