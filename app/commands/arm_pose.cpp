@@ -254,7 +254,7 @@ int inverse(const ArmPoseOptions& options) {
         nlohmann::ordered_json answer;
         answer["solutions"] = list;
         answer["singular"] = singular;
-        answer["projected_degrees"] = rounded(found.projected_deg);
+        answer["projected_deg"] = rounded(found.projected_deg);
         if (found.rotation) {
             answer["rotation"] = rows_of(*found.rotation);
         }

@@ -242,13 +242,13 @@ nlohmann::ordered_json point_json(const ArmReachPoint& at, const ArmModel& arm, 
         json["off_mm"] = at.off.tip;
     }
     if (at.off.axis > 0.0) {
-        json["off_degrees"] = to_degrees(at.off.axis);
+        json["off_deg"] = to_degrees(at.off.axis);
     }
     if (at.off.joint.joint >= 0) {
         const int joint = at.off.joint.joint;
         const bool turns = arm.joint(joint).kind == kinematics::JointKind::revolute;
         json["joint"] = arm.joint(joint).name;
-        json[turns ? "joint_degrees" : "joint_mm"] = from_joint(arm, joint, at.off.joint.beyond);
+        json[turns ? "joint_deg" : "joint_mm"] = from_joint(arm, joint, at.off.joint.beyond);
     }
     return json;
 }
@@ -290,9 +290,9 @@ void print_reach_json(const ArmReachOptions& options,
     }
     answer["least_manipulability"] = reach.least_manipulability;
     answer["least_manipulability_line"] = reach.least_line;
-    answer["most_tilt_degrees"] = to_degrees(reach.most_tilt);
-    answer["programmed_seconds"] = reach.programmed_time;
-    answer["planned_seconds"] = planned ? nlohmann::ordered_json(*planned) : nlohmann::ordered_json(nullptr);
+    answer["most_tilt_deg"] = to_degrees(reach.most_tilt);
+    answer["programmed_time_s"] = reach.programmed_time;
+    answer["planned_time_s"] = planned ? nlohmann::ordered_json(*planned) : nlohmann::ordered_json(nullptr);
     fmt::print("{}\n", answer.dump(2));
 }
 

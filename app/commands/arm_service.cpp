@@ -43,11 +43,11 @@ int calibrate(const ArmServiceOptions& options) {
     for (const machine::ScaleFit& fit : fits) {
         if (options.json) {
             list.push_back({{"motor", fit.motor},
-                            {"counts_per_degree", fit.counts_per_degree},
+                            {"counts_per_deg", fit.counts_per_degree},
                             {"counts_at_zero", fit.counts_at_zero},
-                            {"counts_per_degree_error", fit.counts_per_degree_error},
-                            {"rms_degrees", fit.rms},
-                            {"worst_degrees", fit.worst},
+                            {"counts_per_deg_error", fit.counts_per_degree_error},
+                            {"rms_deg", fit.rms},
+                            {"worst_deg", fit.worst},
                             {"worst_line", fit.worst_line},
                             {"readings", fit.readings}});
             continue;

@@ -160,9 +160,8 @@ TEST(Arm, K4TurnsAWholeMatrixIntoThePlaneOfTheArmOnlyIfItMay) {
     const auto answer = answer_to(words);
     const double length = std::hypot(tip[0], tip[1]);
     const double out = (-tip[1] * goal[2] + tip[0] * goal[5]) / length; // M . Z
-    EXPECT_NEAR(answer.at("projected_degrees").get<double>(),
-                std::abs(std::asin(out)) * 180.0 / 3.14159265358979,
-                1e-6);
+    EXPECT_NEAR(
+        answer.at("projected_deg").get<double>(), std::abs(std::asin(out)) * 180.0 / 3.14159265358979, 1e-6);
     ASSERT_FALSE(answer.at("solutions").empty());
     const auto rotation = rows_in(answer.at("rotation"));
     EXPECT_NEAR(-tip[1] * rotation[2] + tip[0] * rotation[5], 0.0, 1e-6);
@@ -425,14 +424,14 @@ TEST(Arm, SaysHowMuchOfAProgramItReaches) {
     const auto whole = nlohmann::json::parse(near.out);
     EXPECT_TRUE(whole.at("whole").get<bool>());
     EXPECT_NEAR(whole.at("length_mm").get<double>(), 1805.0, 1e-6);
-    EXPECT_NEAR(whole.at("programmed_seconds").get<double>(), 180.5, 1e-6);
-    EXPECT_GE(whole.at("planned_seconds").get<double>(), 180.5);
-    EXPECT_LE(whole.at("planned_seconds").get<double>(), 190.0);
+    EXPECT_NEAR(whole.at("programmed_time_s").get<double>(), 180.5, 1e-6);
+    EXPECT_GE(whole.at("planned_time_s").get<double>(), 180.5);
+    EXPECT_LE(whole.at("planned_time_s").get<double>(), 190.0);
     // Along x the arm ends at 1450 mm from its shoulder.
     const Ended far = asked("700,0,-200,0,0,0");
     ASSERT_EQ(far.exit_code, 1);
     const auto part = nlohmann::json::parse(far.out);
-    EXPECT_TRUE(part.at("planned_seconds").is_null());
+    EXPECT_TRUE(part.at("planned_time_s").is_null());
     ASSERT_EQ(part.at("findings").size(), 1U);
     const auto& finding = part.at("findings").at(0);
     EXPECT_EQ(finding.at("first_line"), 5);
@@ -484,7 +483,7 @@ TEST(Arm, HelpsWithSettingUp) {
     write_content(file, "1 0 1\n1 1200 11\n1 2400 21\n");
     const auto fits = answer_to({"arm", "calibrate", file, "--json"});
     ASSERT_EQ(fits.size(), 1U);
-    EXPECT_NEAR(fits.at(0).at("counts_per_degree").get<double>(), 120.0, 1e-9);
+    EXPECT_NEAR(fits.at(0).at("counts_per_deg").get<double>(), 120.0, 1e-9);
     EXPECT_NEAR(fits.at(0).at("counts_at_zero").get<double>(), -120.0, 1e-6);
     write_content(file, "# nothing\n");
     EXPECT_THAT(run({"arm", "calibrate", file}).err, HasSubstr("no readings"));

@@ -91,7 +91,8 @@ TEST(PmacSession, ATypedRunThatAnOpenLoopRefusesNamesItsMotorToo) {
     PmacWire wire({}, true, "XYZA", {}, axis_5);
     const auto answer_to = [&wire](const std::vector<std::string>& lines) {
         (void)wire.session.command(lines, false);
-        wire.run_until([&] { return wire.session.status().answer.state != CommandAnswer::State::pending; }, 5.0);
+        wire.run_until([&] { return wire.session.status().answer.state != CommandAnswer::State::pending; },
+                       5.0);
         return wire.session.status().answer;
     };
     ASSERT_EQ(answer_to({"OPEN PROG 1", "CLEAR", "LINEAR", "TM500", "X1", "CLOSE"}).state,
