@@ -1,37 +1,23 @@
 #include "core/project/window_settings.h"
 
-#include "core/base/files.h"
-#include "core/base/json.h"
-#include "core/project/internal/json_text.h"
-
-#include <nlohmann/json.hpp>
-
-#include <system_error>
+#include "core/project/internal/pair_file.h"
 
 namespace millwright::project {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr PairNames names_of_settings{"name", "value"};
+
+} // namespace
+
 WindowSettings read_window_settings(const fs::path& file) {
-    std::error_code failure;
-    if (file.empty() || !fs::exists(file, failure)) {
-        return {};
-    }
-    WindowSettings settings;
-    for (const JsonValue& entry : JsonValue::read(file).items()) {
-        entry.expect_only({"name", "value"});
-        settings[entry.at("name").text()] = entry.at("value").text();
-    }
-    return settings;
+    return read_pairs(file, names_of_settings);
 }
 
 void write_window_settings(const WindowSettings& settings, const fs::path& file) {
-    auto json = nlohmann::ordered_json::array();
-    for (const auto& [name, value] : settings) {
-        json.push_back({{"name", name}, {"value", value}});
-    }
-    make_folder(file.parent_path());
-    write_file(file, json_text(json));
+    write_pairs(settings, file, names_of_settings);
 }
 
 fs::path window_settings_place(const fs::path& recent_files) {

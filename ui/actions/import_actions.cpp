@@ -78,7 +78,7 @@ void add_import_actions(Actions& actions) {
         is_importing,
         [](Hands& hands) {
             hands.workshop.import().close();
-            hands.session.fit_wanted = true;
+            hands.session.fit_wanted_in(Workspace::design) = true;
         });
 }
 

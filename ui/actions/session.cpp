@@ -16,6 +16,19 @@ Session new_session() {
     return session;
 }
 
+void fit_project(Session& session) {
+    for (const Workspace where : {Workspace::design, Workspace::grid, Workspace::toolpath}) {
+        session.fit_wanted_in(where) = true;
+    }
+    fit_program(session);
+}
+
+void fit_program(Session& session) {
+    for (const Workspace where : {Workspace::program, Workspace::machine}) {
+        session.fit_wanted_in(where) = true;
+    }
+}
+
 void show_grid(Session& session, project::GridMethod method) {
     session.shown = method;
     session.own_path_shown = false;

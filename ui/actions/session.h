@@ -198,8 +198,9 @@ struct Session {
     HelpPage help = HelpPage::none;
     std::shared_ptr<const StartWish> start; ///< a job that waits for a person's word; null: none
     int start_answer = 0; ///< CommandAnswer::number of the controller's own check of it; 0: not asked for
-    bool search_wanted = false;                      ///< open the palette in the next frame
-    bool fit_wanted = true;                          ///< fit the view in the next frame
+    bool search_wanted = false; ///< open the palette in the next frame
+    /// The view of that workspace is fitted as soon as there is something to be seen in it.
+    std::array<bool, workspace_count> fit_wanted{true, true, true, true, true, true, true, true};
     std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame
     bool against_light = false;                      ///< how a finished plot is looked at
     bool picture_shown = false;                      ///< below its path, in place of how it will look
@@ -214,10 +215,16 @@ struct Session {
     [[nodiscard]] const viewport::Layers& layers_now() const {
         return layers[static_cast<std::size_t>(workspace)];
     }
+    [[nodiscard]] bool& fit_wanted_in(Workspace where) { return fit_wanted[static_cast<std::size_t>(where)]; }
+    [[nodiscard]] bool fit_wanted_now() const { return fit_wanted[static_cast<std::size_t>(workspace)]; }
 };
 
 /// With the layers that people expect in each workspace.
 [[nodiscard]] Session new_session();
+
+/// There is another project to be seen, or another program in its place.
+void fit_project(Session& session);
+void fit_program(Session& session);
 
 /// From now on the zigzag over that grid is drawn, with its error.
 void show_grid(Session& session, project::GridMethod method);

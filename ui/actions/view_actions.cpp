@@ -194,7 +194,7 @@ void add_view_actions(Actions& actions) {
     add(actions,
         {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
         always,
-        [](Hands& hands) { hands.session.fit_wanted = true; });
+        [](Hands& hands) { hands.session.fit_wanted_in(hands.session.workspace) = true; });
     add_sides(actions);
     add(
         actions,

@@ -188,7 +188,9 @@ void Workshop::run(std::string_view id) {
     if (history_.project_number() != number_before) { // undo and redo go from file to file, too
         look_at_another();
     } else if (!(before == history_.current())) {
-        session_.fit_wanted = session_.fit_wanted || is_elsewhere(before.surface, history_.current().surface);
+        if (is_elsewhere(before.surface, history_.current().surface)) {
+            fit_project(session_);
+        }
         follow_project();
     }
 }

@@ -163,7 +163,7 @@ void Workshop::play_on_arm(const motion::Trajectory& motion) {
 void Workshop::open_arm(const fs::path& file) {
     session_.question = FileQuestion::none;
     arm_->load(fs::absolute(file).string());
-    session_.fit_wanted = true; // arms differ in size
+    session_.fit_wanted_in(Workspace::arm) = true; // arms differ in size
 }
 
 void Workshop::play_motion_file(const fs::path& file) {

@@ -118,7 +118,7 @@ void Workshop::open_gcode(const fs::path& file) {
     followed_plot_ = 0;
     session_.workspace = Workspace::program;
     session_.question = FileQuestion::none;
-    session_.fit_wanted = true;
+    fit_program(session_);
     session_.file.step.reset();
     session_.begin = {};
     follow_file();
@@ -143,7 +143,7 @@ void Workshop::close_file() {
     plot_plays_ = false;
     followed_plot_ = 0;
     session_.file.step.reset();
-    session_.fit_wanted = true;
+    fit_program(session_);
     follow_file();
 }
 
@@ -215,7 +215,7 @@ void Workshop::look_at_another() {
     import_->drop_reference();
     session_.begin = {};
     session_.selected.clear();
-    session_.fit_wanted = true;
+    fit_project(session_);
     session_.playback = {};
     session_.question = FileQuestion::none;
     follow_project();

@@ -40,7 +40,7 @@ void Workshop::follow_import() {
         return;
     }
     followed_import_ = now->revision;
-    session_.fit_wanted = true;
+    session_.fit_wanted_in(Workspace::design) = true;
     if (now->failure) {
         Diagnostic told = *now->failure;
         told.place.file = now->file.filename();
@@ -62,7 +62,7 @@ void Workshop::take_import() {
         tell(session_, widgets::Severity::info, with_full_stop(note), now->file.filename().string());
     }
     session_.selected.clear();
-    session_.fit_wanted = true;
+    fit_project(session_);
 }
 
 void Workshop::export_surface(const fs::path& file) {

@@ -101,7 +101,7 @@ void Workshop::open_plot(const fs::path& file) {
     session_.side_wanted = render::StandardView::top; // drawings are read from above
     session_.workspace = Workspace::plot;
     session_.question = FileQuestion::none;
-    session_.fit_wanted = true;
+    session_.fit_wanted_in(Workspace::plot) = true;
     remember(file);
 }
 

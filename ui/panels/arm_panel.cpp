@@ -152,7 +152,9 @@ void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto chosen = ui.choice(
             "arm", "Arm", at, options, "One that ships with the program, or was opened: Arm > Open an arm")) {
         ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmBench& bench) { bench.load(name); });
-        ask.show([](actions::Session& session) { session.fit_wanted = true; }); // arms differ in size
+        ask.show([](actions::Session& session) {
+            session.fit_wanted_in(actions::Workspace::arm) = true;
+        }); // arms differ in size
     }
 }
 

@@ -4,6 +4,7 @@
 #include "core/exchange/surface_file.h"
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
+#include "core/project/json_kind.h"
 #include "core/project/plot_input.h"
 #include "ui/actions/processor_texts.h"
 
@@ -22,7 +23,7 @@ constexpr std::string_view extension = ".json";
 
 /// What "Open" can make something of.
 bool is_opened(const fs::path& file) {
-    return file.extension() == extension || is_gcode(file) || project::opens_as_surface(file) ||
+    return project::is_project_json(file) || is_gcode(file) || project::opens_as_surface(file) ||
            project::is_plot_file(file) || actions::is_processor_file(file);
 }
 
@@ -46,7 +47,8 @@ constexpr std::array<AskedFile, 20> questions{
       extension,
       "",
       nullptr,
-      "No projects (.json) here."},
+      "No projects (.json) here.",
+      project::is_project_json},
      {FileQuestion::import_surface,
       "Import a surface",
       true,
@@ -69,21 +71,24 @@ constexpr std::array<AskedFile, 20> questions{
       extension,
       "",
       [](actions::Workshop& workshop, const fs::path& file) { workshop.open_arm(file); },
-      "No arms (.json) here."},
+      "No arms (.json) here.",
+      project::is_arm_json},
      {FileQuestion::open_points,
       "Open taught points",
       true,
       extension,
       "",
       [](actions::Workshop& workshop, const fs::path& file) { workshop.open_points(file); },
-      "No points (.json) here."},
+      "No points (.json) here.",
+      project::is_taught_points_json},
      {FileQuestion::save_points,
       "Save the taught points as",
       false,
       extension,
       "points.json",
       [](actions::Workshop& workshop, const fs::path& file) { workshop.save_points(file); },
-      "No points (.json) here."},
+      "No points (.json) here.",
+      project::is_taught_points_json},
      {FileQuestion::open_motion_program,
       "Open a motion program",
       true,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,6 @@ namespace millwright::panels {
 namespace {
 
 using kinematics::AxisKind;
-
-/// Near a limit means within a twentieth of the travel.
-widgets::AxisState travel_limit_state(const kinematics::MachineAxis& axis, double position) {
-    const double margin = 0.05 * (axis.max - axis.min);
-    if (position <= axis.min || position >= axis.max) {
-        return widgets::AxisState::at_limit;
-    }
-    const bool near = std::isfinite(margin) && (position < axis.min + margin || position > axis.max - margin);
-    return near ? widgets::AxisState::near_limit : widgets::AxisState::normal;
-}
 
 std::vector<widgets::AxisReading> readings(const kinematics::MachineModel& machine,
                                            const kinematics::AxisPositions& position,
@@ -56,6 +47,35 @@ std::string why_not_known(const Workbench& now) {
 
 } // namespace
 
+widgets::AxisState travel_limit_state(const kinematics::MachineAxis& axis, double position) {
+    constexpr double rounding = 1e-9; // mm or rad
+    const double margin = 0.05 * (axis.max - axis.min);
+    if (position < axis.min - rounding || position > axis.max + rounding) {
+        return widgets::AxisState::beyond_limit;
+    }
+    const bool near = std::isfinite(margin) && (position < axis.min + margin || position > axis.max - margin);
+    return near ? widgets::AxisState::near_limit : widgets::AxisState::normal;
+}
+
+TravelWords travel_words(std::span<const widgets::AxisReading> axes) {
+    const auto letters = [axes](widgets::AxisState state) {
+        std::string found;
+        for (const widgets::AxisReading& axis : axes) {
+            if (axis.state == state) {
+                found += (found.empty() ? "" : ", ") + std::string(axis.letter);
+            }
+        }
+        return found;
+    };
+    if (const std::string beyond = letters(widgets::AxisState::beyond_limit); !beyond.empty()) {
+        return {"Beyond the travel: " + beyond, widgets::Tone::danger};
+    }
+    if (const std::string near = letters(widgets::AxisState::near_limit); !near.empty()) {
+        return {"Near the end of the travel: " + near, widgets::Tone::warning};
+    }
+    return {"Within the travel", widgets::Tone::muted};
+}
+
 void axis_positions(Ui& ui, const Workbench& now) {
     const auto machine = now.machine();
     if (!machine) {
@@ -69,6 +89,9 @@ void axis_positions(Ui& ui, const Workbench& now) {
     std::vector<std::string> letters;
     const auto axes = readings(*machine, moment->axes, letters);
     widgets::readout(ui, "axes", axes);
+    const TravelWords words = travel_words(axes);
+    ui.words(words.text,
+             words.tone); // always one line, so that nothing below it moves while the motion is played
     const geometry::ToolPose pose = kinematics::forward(*machine, moment->axes);
     const auto labels = ui.label_share(0.36F);
     ui.value(

@@ -150,8 +150,9 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
     }
     ui.beside();
     {
-        const auto width = ui.width(0.25F * whole);
-        const auto labels = ui.label_share(0.3F);
+        const float own = 0.25F * whole;
+        const auto width = ui.width(own);
+        const auto labels = ui.label_share((ui.words_width("Search") + ui.px(widgets::gaps::small)) / own);
         if (const auto text =
                 ui.text_field("filter", "Search", wanted_, "Shows only the lines with this in them")) {
             wanted_ = *text;

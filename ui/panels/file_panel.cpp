@@ -185,9 +185,7 @@ std::string FilePanel::cell(const FolderEntry& entry, int column) const {
     case name:
         return entry.path.filename().string();
     case kind:
-        return source_ == Source::recent ? shortened_folder(entry.path.parent_path())
-               : entry.is_folder         ? std::string("folder")
-                                         : file_kind(entry.path);
+        return source_ == Source::recent ? shortened_folder(entry.path.parent_path()) : entry.kind;
     case size:
         return entry.is_folder || entry.changed_s < 0 ? std::string() : size_text(entry.bytes);
     default:

@@ -1,6 +1,7 @@
 #include "ui/panels/folder_view.h"
 
 #include "core/project/imported_surface.h"
+#include "core/project/json_kind.h"
 #include "core/project/plot_input.h"
 #include "ui/actions/processor_texts.h"
 
@@ -33,10 +34,6 @@ template <bool (*is_kind)(const fs::path&)> bool of_kind(const AskedFile& /*aske
     return is_kind(file);
 }
 
-bool is_project(const fs::path& file) {
-    return file.extension() == ".json";
-}
-
 bool is_drawing(const fs::path& file) {
     return project::is_plot_file(file) && !project::is_picture_file(file) && !is_gcode(file);
 }
@@ -44,7 +41,7 @@ bool is_drawing(const fs::path& file) {
 constexpr FileFilter all_files{"all", "All files", any_file};
 constexpr std::array<FileFilter, 8> open_filters{
     {{"known", "All that can be opened", of_question},
-     {"projects", "Projects (.json)", of_kind<is_project>},
+     {"projects", "Projects (.json)", of_kind<project::is_project_json>},
      {"gcode", "G-code programs", of_kind<is_gcode>},
      {"surfaces", "Surfaces (STEP, IGES, STL, OBJ, PLY)", of_kind<project::opens_as_surface>},
      {"drawings", "Plots, paths and points", of_kind<is_drawing>},
@@ -107,6 +104,7 @@ FolderListing listed(const fs::path& folder, const AskedFile& asked, const FileF
         }
         FolderEntry entry = entry_of(found.path());
         if (entry.is_folder || filter.lists(asked, entry.path)) {
+            entry.kind = entry.is_folder ? "folder" : file_kind(entry.path);
             result.entries.push_back(std::move(entry));
         }
     }
@@ -125,8 +123,7 @@ std::string file_kind(const fs::path& file) {
            : project::is_point_file(file)     ? "point file"
            : project::is_plot_file(file)      ? "plot"
            : actions::is_processor_file(file) ? "for the processor"
-           : is_project(file)                 ? "project"
-                                              : "";
+                                              : std::string(project::json_kind(file));
 }
 
 std::string size_text(std::uintmax_t bytes) {

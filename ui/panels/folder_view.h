@@ -20,6 +20,7 @@ struct FolderEntry {
     bool is_folder = false;
     std::uintmax_t bytes = 0;
     std::int64_t changed_s = -1; ///< since 1970-01-01 UTC; -1: not known
+    std::string kind = {};       ///< of what is listed in a folder: "folder", or file_kind()
 };
 
 struct FolderListing {
@@ -41,7 +42,8 @@ listed(const std::filesystem::path& folder, const AskedFile& asked, const FileFi
 /// Of a file or folder by itself; of one that is gone without size and date.
 [[nodiscard]] FolderEntry entry_of(const std::filesystem::path& path);
 
-/// "project", "G-code" ...; empty for a file of no kind that is known.
+/// "project", "G-code", "window settings" ...; empty for a file of no kind that is known. Looks into .json
+/// files.
 [[nodiscard]] std::string file_kind(const std::filesystem::path& file);
 /// "812 bytes", "14 kB", "2.3 MB".
 [[nodiscard]] std::string size_text(std::uintmax_t bytes);

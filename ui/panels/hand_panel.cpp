@@ -62,10 +62,33 @@ widgets::AxisState jog_axis_state(const machine::DriverStatus& machine, const st
         return widgets::AxisState::old;
     }
     if (machine.inputs.limits.find(letter) != std::string::npos) {
-        return widgets::AxisState::at_limit;
+        return widgets::AxisState::at_switch;
     }
     const bool known = machine.position_known && machine.position_doubt.empty();
     return known ? widgets::AxisState::normal : widgets::AxisState::not_homed;
+}
+
+/// How far the position can be trusted, and why digits are red.
+std::pair<std::string, widgets::Tone> position_words(const ControllerView& machine) {
+    using widgets::Tone;
+    const machine::DriverStatus& status = machine.status;
+    const std::string& pressed = status.inputs.limits;
+    const bool doubt = !status.position_doubt.empty();
+    if (status.link_lost) {
+        return {"As last told: the link is lost.", Tone::danger};
+    }
+    if (!pressed.empty()) {
+        return {(doubt ? "Limit switch " + pressed + "; in doubt: home or confirm."
+                       : "Limit switch pressed: " + pressed),
+                Tone::danger};
+    }
+    if (machine.can.told_place) {
+        return doubt ? std::pair{"In doubt: read it at the machine, and enter it.", Tone::warning}
+               : status.position_known ? std::pair{"As it was told: it does not tell it.", Tone::muted}
+                                       : std::pair{"Assumed: it does not tell it.", Tone::muted};
+    }
+    return doubt ? std::pair{"In doubt: home the machine or confirm it.", Tone::warning}
+                 : std::pair{"As the machine tells it.", Tone::muted};
 }
 
 /// Collects what is held down in this frame.
@@ -220,19 +243,8 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
         return;
     }
     widgets::readout(ui, "axes", axes, system);
-    if (machine.status.link_lost) {
-        ui.words("As last told: the link is lost.", widgets::Tone::danger);
-    } else if (machine.can.told_place) {
-        const bool doubt = !machine.status.position_doubt.empty();
-        ui.words(doubt                           ? "In doubt: read it at the machine, and enter it."
-                 : machine.status.position_known ? "As it was told: it does not tell it."
-                                                 : "Assumed: it does not tell it.",
-                 doubt ? widgets::Tone::warning : widgets::Tone::muted);
-    } else if (!machine.status.position_doubt.empty()) {
-        ui.words("In doubt: home the machine or confirm it.", widgets::Tone::warning);
-    } else { // so that no button below moves while a hand goes to it
-        ui.words("As the machine tells it.", widgets::Tone::muted);
-    }
+    const auto [words, tone] = position_words(machine);
+    ui.words(words, tone); // always one line, so that no button below moves while a hand goes to it
     const Permission can = can_command(machine);
     std::string all;
     {

@@ -61,6 +61,50 @@ bool has_room(std::string_view menu, Workspace workspace) {
                                : true;
 }
 
+/// Actions that are behind one row of their menu.
+struct Submenu {
+    std::string_view id, label;
+    std::string_view first; ///< of its actions; the row stands in its place
+    bool (*holds)(std::string_view action_id);
+};
+
+bool is_of_side(std::string_view id) {
+    return id.starts_with("view.from_") || id == "view.into_space" || id == "view.oblique";
+}
+
+constexpr std::array<Submenu, 4> submenus{
+    {{"workspace",
+      "Workspace",
+      "view.design",
+      [](std::string_view id) {
+          constexpr std::string_view view = "view.";
+          return id.starts_with(view) && std::ranges::any_of(workspaces, [&](const widgets::Option& option) {
+                     return id.substr(view.size()) == option.id;
+                 });
+      }},
+     {"path_shown",
+      "Path shown",
+      "view.show_uniform",
+      [](std::string_view id) { return id.starts_with("view.show_"); }},
+     {"look_from", "Look from", "view.from_above", is_of_side},
+     {"program_from", "Program from", "grid.use_uniform", [](std::string_view id) {
+          return id.starts_with("grid.use_");
+      }}}};
+
+const Submenu* submenu_of(std::string_view action_id) {
+    const auto* const found =
+        std::ranges::find_if(submenus, [action_id](const Submenu& sub) { return sub.holds(action_id); });
+    return found == submenus.end() ? nullptr : found;
+}
+
+void draw_item(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Action& action) {
+    const actions::ActionInfo& info = action.info();
+    if (widgets::menu_item(
+            ui, widget_id(info.id), info.title, info.shortcut, action.permission(now), action.is_on(now))) {
+        ask.run(std::string(info.id));
+    }
+}
+
 /// A line stands above these in their menu.
 bool begins_group(std::string_view id) {
     constexpr std::array<std::string_view, 15> first{"file.save",
@@ -160,16 +204,14 @@ void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
             if (info.id == "file.quit") {
                 draw_files(ui, now, ask);
             }
+            const Submenu* sub = submenu_of(info.id);
             if (begins_group(info.id)) {
                 widgets::menu_line(ui);
             }
-            if (widgets::menu_item(ui,
-                                   widget_id(info.id),
-                                   info.title,
-                                   info.shortcut,
-                                   action->permission(now),
-                                   action->is_on(now))) {
-                ask.run(std::string(info.id));
+            if (sub == nullptr) {
+                draw_item(ui, now, ask, *action);
+            } else if (info.id == sub->first) {
+                draw_submenu(ui, now, ask, sub->id, sub->label, sub->holds);
             }
         }
         if (title == "View") {
@@ -180,25 +222,43 @@ void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     }
 }
 
+void MenuBar::draw_submenu(Ui& ui,
+                           const Workbench& now,
+                           ActionQueue& ask,
+                           std::string_view id,
+                           std::string_view label,
+                           bool (*holds)(std::string_view action_id)) const {
+    if (const auto open = widgets::submenu(ui, id, label)) {
+        for (const auto& action : catalogue_.all()) {
+            if (holds(action->info().id)) {
+                draw_item(ui, now, ask, *action);
+            }
+        }
+    }
+}
+
 void MenuBar::draw_files(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     widgets::menu_line(ui);
-    for (const std::filesystem::path& sample : project::sample_projects(now.assets)) {
-        const std::string name = sample.stem().string();
-        if (widgets::menu_item(ui, "sample_" + name, name, "sample")) {
-            ask.open_file(sample);
+    if (const auto samples = widgets::submenu(ui, "samples", "Open a sample")) {
+        for (const std::filesystem::path& sample : project::sample_projects(now.assets)) {
+            const std::string name = sample.stem().string();
+            if (widgets::menu_item(ui, "sample_" + name, name)) {
+                ask.open_file(sample);
+            }
         }
     }
     if (now.recent.empty()) {
         return;
     }
-    widgets::menu_line(ui);
-    int n = 0;
-    for (const std::filesystem::path& file : now.recent) {
-        if (widgets::menu_item(ui,
-                               "recent_" + std::to_string(++n),
-                               file.filename().string(),
-                               file.parent_path().filename().string())) {
-            ask.open_file(file);
+    if (const auto recent = widgets::submenu(ui, "recent", "Open recent")) {
+        int n = 0;
+        for (const std::filesystem::path& file : now.recent) {
+            if (widgets::menu_item(ui,
+                                   "recent_" + std::to_string(++n),
+                                   file.filename().string(),
+                                   file.parent_path().filename().string())) {
+                ask.open_file(file);
+            }
         }
     }
 }

@@ -12,6 +12,12 @@ public:
 
 private:
     void draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_submenu(Ui& ui,
+                      const Workbench& now,
+                      ActionQueue& ask,
+                      std::string_view id,
+                      std::string_view label,
+                      bool (*holds)(std::string_view action_id)) const;
     void draw_files(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 

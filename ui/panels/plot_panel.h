@@ -23,6 +23,8 @@ public:
     void draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask);
     /// The lower pane.
     void draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask);
+    /// Which of its tabs is shown.
+    [[nodiscard]] int bench_tab() const { return static_cast<int>(tab_); }
 
 private:
     enum class Tab { materials, table, notices, picture };

@@ -41,12 +41,18 @@ std::string program_name(const Workbench& now) {
 void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse) {
     constexpr float left = 12.0F;
     constexpr float top = 5.0F;
-    constexpr float work_width = 460.0F;
-    constexpr float beside_px = 680.0F; // machine, mouse and file
+    constexpr float least_work = 380.0F;
     constexpr float between = 18.0F;
+    const float gap = ui.px(between + widgets::gaps::small);
+    const std::string machine = machine_state(now), mouse = mouse_text(under_mouse);
+    std::string file = now.document.file.empty() ? now.project.name : now.document.file.filename().string();
+    file += now.changed() ? " (not saved)" : "";
+    file += program_name(now);
     ui.move_by(ui.px(left), ui.px(top));
     if (now.activity.busy) {
-        const auto width = ui.width(std::max(ui.px(work_width), ui.rest().w - ui.px(beside_px)));
+        const float others =
+            ui.words_width(machine) + ui.words_width(mouse) + ui.words_width(file) + 3.0F * gap;
+        const auto width = ui.width(std::max(ui.px(least_work), ui.rest().w - others - ui.px(left)));
         const bool stopping = now.activity.stopping;
         if (ui.progress("work",
                         (stopping ? "Cancelling: " : "") + now.activity.text,
@@ -61,14 +67,14 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
                                        : "No program: see the outline",
                  widgets::Tone::muted);
     }
-    std::string file = now.document.file.empty() ? now.project.name : now.document.file.filename().string();
-    file += now.changed() ? " (not saved)" : "";
-    file += program_name(now);
-    for (const std::string& text : {machine_state(now), mouse_text(under_mouse), file}) {
+    for (const std::string& text : {machine, mouse}) {
         ui.beside();
         ui.move_by(ui.px(between), 0.0F);
         ui.words(text, widgets::Tone::muted);
     }
+    ui.beside();
+    ui.move_by(ui.px(between), 0.0F);
+    ui.words(file, widgets::Tone::muted, std::max(ui.rest().w - ui.px(left), 1.0F));
 }
 
 } // namespace millwright::panels

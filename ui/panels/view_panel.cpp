@@ -233,28 +233,25 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
     }
 }
 
+/// It is fitted in the workspace that is seen now.
+void ViewPanel::fit(const Workbench& now, ActionQueue& ask) {
+    view_.fit();
+    ask.show(
+        [where = now.session.workspace](actions::Session& session) { session.fit_wanted_in(where) = false; });
+}
+
 /// To what is there of the path as soon as there is any, and to all of it unless a person has turned it by
 /// then.
 void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
-    const auto& path = now.opened->path;
-    if (path.empty() && !now.opened->finished) {
+    if (now.opened->path.empty() && !now.opened->finished) {
         return;
     }
-    if (now.session.fit_wanted) {
-        view_.fit();
+    if (now.session.fit_wanted_now()) {
+        fit(now, ask);
         growing_ = !now.opened->finished;
-        ask.show([](actions::Session& session) { session.fit_wanted = false; });
-        return;
-    }
-    if (growing_ && !fitted_) {
-        fitted_ = view_.camera().pose();
-    }
-    if (growing_ && now.opened->finished) {
-        if (fitted_ && view_.camera().pose() == *fitted_) {
-            view_.fit();
-        }
+    } else if (growing_ && now.opened->finished) {
+        view_.fit_unturned();
         growing_ = false;
-        fitted_.reset();
     }
 }
 
@@ -272,10 +269,8 @@ void ViewPanel::look_from(render::StandardView side, ActionQueue& ask) {
 void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     const bool there = made && made->path && made->input.file == now.plot.file();
-    if (now.session.fit_wanted && there) {
-        view_.fit();
-        plot_fitted_.reset();
-        ask.show([](actions::Session& session) { session.fit_wanted = false; });
+    if (now.session.fit_wanted_now() && there) {
+        fit(now, ask);
     }
     if (there) {
         follow_plot(*made);
@@ -285,9 +280,6 @@ void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
 /// A drawing that has been moved, turned to other units or made larger stays in sight; a view that a person
 /// has moved stays as it is as long as anything can be seen in it.
 void ViewPanel::follow_plot(const project::PlotResult& made) {
-    if (!plot_fitted_) {
-        plot_fitted_ = view_.camera().pose();
-    }
     Box3 box;
     for (const auto& cut : made.cuts) {
         if (!cut.path.empty()) {
@@ -299,46 +291,50 @@ void ViewPanel::follow_plot(const project::PlotResult& made) {
     }
     const bool elsewhere = !plot_box_.isEmpty() && !box.intersects(plot_box_);
     plot_box_ = box;
-    if (elsewhere || view_.camera().pose() == *plot_fitted_) {
+    if (elsewhere) {
         view_.fit();
-        plot_fitted_.reset();
+    } else {
+        view_.fit_unturned();
     }
 }
 
 /// A map that has just come lies beside the part, where nobody looks.
 void ViewPanel::fit_set_up(const viewport::Scene& shown) {
-    const auto in_sight = shown.layers.set_up_map ? shown.set_up : nullptr;
-    if (in_sight && in_sight != set_up_ && in_sight->study) {
+    if (!shown.layers.set_up_map || !shown.set_up || !shown.set_up->study) {
+        return;
+    }
+    if (std::exchange(set_ups_[shown.sight], shown.set_up) != shown.set_up) {
         view_.fit();
     }
-    set_up_ = in_sight;
 }
 
 void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
+    viewport::Scene shown = scene_of(now);
+    shown.colors = now.session.colors;
+    shown.sight = static_cast<int>(now.session.workspace);
+    view_.look_at(shown);
     view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
     if (now.session.side_wanted) {
         look_from(*now.session.side_wanted, ask);
     }
-    const bool arm = shows_arm(now) && now.arm.loaded();
-    if (arm != std::exchange(showed_arm_, arm) && now.session.workspace == Workspace::machine) {
-        view_.fit(); // it was connected or disconnected, and is another size than a part
+    if (now.session.workspace == Workspace::machine) {
+        const bool arm = shows_arm(now) && now.arm.loaded();
+        if (arm != std::exchange(showed_arm_, arm)) {
+            view_.fit(); // it was connected or disconnected, and is another size than a part
+        }
     }
     if (shows_arm(now)) {
-        if (now.session.fit_wanted && now.arm.loaded()) {
-            view_.fit();
-            ask.show([](actions::Session& session) { session.fit_wanted = false; });
+        if (now.session.fit_wanted_now() && now.arm.loaded()) {
+            fit(now, ask);
         }
     } else if (now.session.workspace == Workspace::plot) {
         fit_plot(now, ask);
     } else if (now.in_file()) {
         fit_file(now, ask);
-    } else if (now.session.fit_wanted &&
+    } else if (now.session.fit_wanted_now() &&
                (shows_import(now) || (!now.import.is_open() && shows_the_project(now)))) {
-        view_.fit();
-        ask.show([](actions::Session& session) { session.fit_wanted = false; });
+        fit(now, ask);
     }
-    viewport::Scene shown = scene_of(now);
-    shown.colors = now.session.colors;
     fit_set_up(shown);
     const auto beside = scene_beside(now, shown);
     const auto events =

@@ -4,6 +4,8 @@
 #include "ui/panels/panel.h"
 #include "ui/viewport/viewport.h"
 
+#include <map>
+#include <memory>
 #include <optional>
 
 namespace millwright::panels {
@@ -21,6 +23,7 @@ public:
     [[nodiscard]] viewport::Viewport& viewport() { return view_; }
 
 private:
+    void fit(const Workbench& now, ActionQueue& ask);
     void fit_set_up(const viewport::Scene& shown);
     void fit_file(const Workbench& now, ActionQueue& ask);
     void fit_plot(const Workbench& now, ActionQueue& ask);
@@ -29,12 +32,11 @@ private:
 
     const actions::Catalogue& catalogue_;
     viewport::Viewport view_;
-    std::shared_ptr<const project::SetUpResult> set_up_; ///< whose map is in sight
-    bool growing_ = false;                          ///< an opened file was fitted before all of it was there
-    std::optional<render::CameraPose> fitted_;      ///< how the camera stood then
-    std::optional<render::CameraPose> plot_fitted_; ///< the same of a plot; none: it is just being fitted
-    Box3 plot_box_;                                 ///< where it lay then
-    bool showed_arm_ = false;                       ///< in the last frame
+    std::map<int, std::shared_ptr<const project::SetUpResult>>
+        set_ups_;             ///< whose map was seen, by Scene::sight
+    bool growing_ = false;    ///< an opened file was fitted before all of it was there
+    Box3 plot_box_;           ///< where a plot lay when its view was fitted
+    bool showed_arm_ = false; ///< when the Machine workspace was seen last
 };
 
 /// What the view shows of the workbench.

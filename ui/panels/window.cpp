@@ -67,6 +67,11 @@ float actions::PaneSizes::*lower_size(const actions::Session& session) {
     }
 }
 
+/// What a pane shows: where it is scrolled to is kept for each.
+std::string content_of(const actions::Session& session) {
+    return std::to_string(static_cast<int>(session.workspace));
+}
+
 /// Something that could hold a jog is down.
 bool jog_may_be_held(const std::optional<render::Gamepad>& pad) {
     using render::Key;
@@ -165,19 +170,21 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
     draw_splitters(ui, now, place, width, height);
     draw_over(ui, now, place.view);
     obey_shortcuts(ui, now);
-    forget_machine_notices(now.controller);
+    forget_machine_notices(now);
     workshop_.perform(ask_, may_jog && !search_.is_open());
     for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
         toasts_.push(std::move(notice));
     }
 }
 
-/// What was told of a machine's fault is over with it, and with its link.
-void Window::forget_machine_notices(const actions::ControllerView& machine) {
+/// What was told of a machine's fault is over with it, with its link, and when a job begins.
+void Window::forget_machine_notices(const Workbench& now) {
+    const actions::ControllerView& machine = now.controller;
     const MachineSeen seen{machine.connected(),
-                           machine.connected() && machine.status.state == machine::DriverState::alarm};
+                           machine.connected() && machine.status.state == machine::DriverState::alarm,
+                           now.job.running};
     const MachineSeen before = std::exchange(machine_seen_, seen);
-    if ((before.alarm && !seen.alarm) || (!before.connected && seen.connected)) {
+    if ((before.alarm && !seen.alarm) || (!before.connected && seen.connected) || (!before.job && seen.job)) {
         toasts_.forget_passing();
     }
 }
@@ -196,11 +203,14 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
     }
     draw_middle(ui, now, place);
     if (place.inspector.w > 0.0F) {
-        const auto pane = ui.pane("inspector", place.inspector, "Inspector");
+        const auto pane = ui.pane("inspector", place.inspector, "Inspector", content_of(now.session));
         draw_inspector(ui, now);
     }
     if (place.lower.h > 0.0F) {
-        const auto pane = ui.pane("lower", place.lower);
+        const bool plots = now.session.workspace == Workspace::plot;
+        const std::string tab =
+            std::to_string(plots ? plot_.bench_tab() : static_cast<int>(now.session.lower_tab_now()));
+        const auto pane = ui.pane("lower", place.lower, {}, content_of(now.session) + "/" + tab);
         if (now.session.workspace == Workspace::processor) {
             processor_.draw_lower(ui, now, ask_);
         } else if (now.session.workspace == Workspace::plot) {
@@ -275,22 +285,22 @@ void Window::draw_emergency_stop(Ui& ui, const Workbench& now) {
 /// of.
 void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
     if (now.session.workspace == Workspace::program) {
-        const auto pane = ui.pane("program", place, "Program");
+        const auto pane = ui.pane("program", place, "Program", content_of(now.session));
         listing_.draw(ui, now, ask_);
     } else if (now.session.workspace == Workspace::machine) {
-        const auto pane = ui.pane("hand", place, "By hand");
+        const auto pane = ui.pane("hand", place, "By hand", content_of(now.session));
         machine_.draw_left(ui, now, ask_);
     } else if (now.session.workspace == Workspace::processor) {
-        const auto pane = ui.pane("code", place, "Code");
+        const auto pane = ui.pane("code", place, "Code", content_of(now.session));
         processor_.draw_code(ui, now, ask_);
     } else if (now.session.workspace == Workspace::arm) {
-        const auto pane = ui.pane("hand", place, "By hand");
+        const auto pane = ui.pane("hand", place, "By hand", content_of(now.session));
         arm_jog_.draw(ui, now, ask_);
     } else if (now.session.workspace == Workspace::plot) {
-        const auto pane = ui.pane("layers", place, "Plot & Picture");
+        const auto pane = ui.pane("layers", place, "Plot & Picture", content_of(now.session));
         plot_.draw_layers(ui, now, ask_);
     } else {
-        const auto pane = ui.pane("outline", place, "Project");
+        const auto pane = ui.pane("outline", place, "Project", content_of(now.session));
         outline_.draw(ui, now, ask_);
     }
 }

@@ -53,10 +53,10 @@ private:
     void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
     void draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view);
     void obey_shortcuts(const Ui& ui, const Workbench& now);
-    void forget_machine_notices(const actions::ControllerView& machine);
+    void forget_machine_notices(const Workbench& now);
 
     struct MachineSeen { ///< in the frame before
-        bool connected = false, alarm = false;
+        bool connected = false, alarm = false, job = false;
     };
 
     actions::Workshop& workshop_;

@@ -5,6 +5,7 @@
 #include "ui/render/view_target.h"
 #include "ui/viewport/internal/axis_gizmo.h"
 #include "ui/viewport/internal/desk.h"
+#include "ui/viewport/internal/legends.h"
 #include "ui/viewport/internal/overlay.h"
 #include "ui/viewport/internal/sheet.h"
 #include "ui/viewport/internal/view_notes.h"

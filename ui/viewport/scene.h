@@ -126,6 +126,7 @@ struct SurfaceTool {
 
 /// Any part may be missing: a layer without its results draws nothing.
 struct Scene {
+    int sight = 0; ///< which of a view's cameras sees it: each number has its own; not of the picture itself
     Layers layers;
     std::shared_ptr<const geometry::Surface> surface;
     std::shared_ptr<const std::vector<geometry::Trim>> trims = nullptr; ///< one a patch; null: all whole

@@ -1,6 +1,7 @@
 #include "ui/viewport/viewport.h"
 
-#include "ui/viewport/internal/axis_gizmo.h"
+#include "ui/viewport/internal/legends.h"
+#include "ui/viewport/internal/view_controls.h"
 #include "ui/viewport/internal/view_pane.h"
 #include "ui/widgets/icons.h"
 
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace millwright::viewport {
@@ -18,8 +20,9 @@ using render::Projection;
 using render::StandardView;
 using widgets::Rect;
 
-constexpr float pane_gap = 2.0F; // between four pictures
-constexpr float button_px = 28.0F;
+constexpr float pane_gap = 2.0F;  // between four pictures
+constexpr int buttons_of_one = 4; // with the one more of next_button()
+constexpr int buttons_of_two = 3;
 
 std::array<ViewPane, 4> make_panes() {
     return {ViewPane("top", "Top", StandardView::top, Projection::orthographic),
@@ -70,7 +73,8 @@ struct Viewport::State {
     SurfacePicker picker;
     std::array<ViewPane, 4> panes = make_panes();
     std::array<ViewPane, 2> pair = make_pair(); ///< for two scenes
-    bool paired = false;                        ///< in the last frame
+    int sight = 0;                              ///< of the scene that is looked at
+    std::set<int> paired_sights;                ///< those that were two scenes when they were last seen
     std::unique_ptr<OtherScene> other;          ///< null before two scenes were drawn
     std::size_t active = isometric_pane;        ///< last worked in
     Arrangement arrangement = Arrangement::one;
@@ -89,8 +93,19 @@ struct Viewport::State {
         return events;
     }
 
-    [[nodiscard]] ViewPane& now() { return paired ? pair[1] : panes[active]; }
-    [[nodiscard]] const ViewPane& now() const { return paired ? pair[1] : panes[active]; }
+    [[nodiscard]] bool paired() const { return paired_sights.contains(sight); }
+    void look_at(const Scene& scene) {
+        sight = scene.sight;
+        for (ViewPane& pane : panes) {
+            pane.look_at(scene);
+        }
+        for (ViewPane& pane : pair) {
+            pane.look_at(scene);
+        }
+    }
+
+    [[nodiscard]] ViewPane& now() { return paired() ? pair[1] : panes[active]; }
+    [[nodiscard]] const ViewPane& now() const { return paired() ? pair[1] : panes[active]; }
 
     /// One of two scenes.
     std::vector<ViewEvent> draw_of_two(const Frame3D& frame, std::size_t k, const Rect& place) {
@@ -100,11 +115,15 @@ struct Viewport::State {
 
     /// Buttons below the axes of the picture at `place`.
     void draw_buttons(widgets::Ui& ui, const Rect& place) {
-        ImVec2 at = {place.right() - ui.px(8.0F + 0.5F * (gizmo_size + button_px)),
-                     place.y + ui.px(12.0F + gizmo_size)};
+        const Rect all = view_controls(ui, place, paired() ? buttons_of_two : buttons_of_one).buttons;
+        ImGui::GetWindowDrawList()->AddRectFilled({all.x, all.y},
+                                                  {all.right(), all.bottom()},
+                                                  widgets::faded(ui.colours().pane, 0.88),
+                                                  ui.px(widgets::gaps::rounding));
+        ImVec2 at = {all.x, all.y};
         const auto button = [&](const char* id, const char* icon, const char* tip, bool chosen) {
             ImGui::SetCursorScreenPos(at);
-            at.y += ui.px(button_px);
+            at.y += ui.px(view_button_px);
             return ui.icon_button(id, icon, tip, {}, chosen);
         };
         const bool flat = now().camera().pose().projection != Projection::perspective;
@@ -118,7 +137,8 @@ struct Viewport::State {
             set_projection(flat ? Projection::perspective : Projection::orthographic);
             changed = true;
         }
-        if (!paired && button("four", widgets::icons::grid, "Four views: top, front, right and free", four)) {
+        if (!paired() &&
+            button("four", widgets::icons::grid, "Four views: top, front, right and free", four)) {
             arrange(four ? Arrangement::one : Arrangement::four);
             changed = true;
         }
@@ -131,7 +151,9 @@ struct Viewport::State {
     void arrange(Arrangement wanted) {
         if (wanted != arrangement) {
             arrangement = wanted;
-            fit();
+            for (ViewPane& pane : panes) {
+                pane.fit_all();
+            }
         }
     }
 
@@ -154,7 +176,8 @@ Viewport::~Viewport() = default;
 
 std::vector<ViewEvent> Viewport::draw(widgets::Ui& ui, const Rect& place, const Scene& scene) {
     State& state = *state_;
-    if (std::exchange(state.paired, false)) {
+    state.look_at(scene);
+    if (state.paired_sights.erase(scene.sight) > 0) {
         state.fit();
     }
     state.view.update(scene);
@@ -165,7 +188,8 @@ std::vector<ViewEvent> Viewport::draw(widgets::Ui& ui, const Rect& place, const 
                      .scene = scene,
                      .view = state.view,
                      .picker = state.picker,
-                     .colors = render::view_colors(theme_of(ui), scene.colors)};
+                     .colors = render::view_colors(theme_of(ui), scene.colors),
+                     .buttons = buttons_of_one};
     if (state.arrangement == Arrangement::one) {
         state.active = isometric_pane;
         std::vector<ViewEvent> events = state.draw_pane(frame, isometric_pane, place);
@@ -191,10 +215,11 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     if (!state.other) {
         state.other = std::make_unique<OtherScene>();
     }
-    if (!state.paired) { // turned as before, but narrower
+    state.look_at(right.scene);
+    state.pair[0].look_at(left.scene);
+    if (state.paired_sights.insert(right.scene.sight).second) { // turned as before, but narrower
         state.pair[1].set_camera(state.panes[isometric_pane].camera());
         state.pair[1].fit();
-        state.paired = true;
     }
     state.view.update(right.scene);
     state.picker.follow(right.scene.surface);
@@ -214,6 +239,7 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
                            .view = state.view,
                            .picker = state.picker,
                            .colors = colors,
+                           .buttons = buttons_of_two,
                            .legends = false,
                            .also = &state.other->view};
     std::vector<ViewEvent> events = state.draw_of_two(of_right, 1, right_place);
@@ -240,8 +266,21 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
     return events;
 }
 
+void Viewport::look_at(const Scene& scene) {
+    state_->look_at(scene);
+}
+
 void Viewport::fit() {
     state_->fit();
+}
+
+void Viewport::fit_unturned() {
+    for (ViewPane& pane : state_->panes) {
+        pane.fit_unturned();
+    }
+    for (ViewPane& pane : state_->pair) {
+        pane.fit_unturned();
+    }
 }
 
 void Viewport::look_from(StandardView side) {

@@ -46,8 +46,12 @@ public:
     [[nodiscard]] std::vector<ViewEvent>
     draw_two(widgets::Ui& ui, const widgets::Rect& place, const Named& left, const Named& right);
 
+    /// From now on everything here is about the cameras of this scene: each Scene::sight has its own.
+    void look_at(const Scene& scene);
     /// Takes in everything at the next draw().
     void fit();
+    /// The same for every camera that nobody has turned since it was fitted: there is more to be seen.
+    void fit_unturned();
     /// Turns the picture last worked in.
     void look_from(render::StandardView side);
     void set_projection(render::Projection projection);

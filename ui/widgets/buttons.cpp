@@ -39,14 +39,19 @@ Paint paint(const Palette& colours, Rank rank, const Press& now) {
                        : Paint{faded(paint.ground, disabled_opacity), faded(paint.text, disabled_opacity)};
 }
 
-/// Icon and label together in the middle of `rect`.
+/// Icon and label together in the middle of `rect`; the label alone where both have no room.
 void draw_caption(
     Ui& ui, const Rect& rect, Colour colour, std::string_view icon, std::string_view label, Rank rank) {
     const Fonts& fonts = ui.look().fonts;
     const ImFont* font = rank == Rank::primary || rank == Rank::danger ? fonts.strong : fonts.text;
+    const float label_width = text_width(font, label);
+    const float room = rect.w - ui.px(gaps::tiny + 2.0F);
+    if (!label.empty() && text_width(font, icon) + ui.px(gaps::small) + label_width > room) {
+        icon = {};
+    }
     const float gap = icon.empty() || label.empty() ? 0.0F : ui.px(gaps::small);
     const float icon_width = icon.empty() ? 0.0F : text_width(font, icon);
-    const float whole = icon_width + gap + text_width(font, label);
+    const float whole = icon_width + gap + label_width;
     const float x = rect.x + std::max(ui.px(gaps::tiny), 0.5F * (rect.w - whole));
     draw_text(ui, font, {x, rect.y, icon_width, rect.h}, colour, icon);
     const float label_x = x + icon_width + gap;

@@ -31,7 +31,7 @@ struct ListingView {
 };
 
 /// The line just clicked, counted from 0. G-code words, comments and line numbers are told apart by colour.
-/// A line that is too long ends in an ellipsis; its tip is the whole of it.
+/// Where a line is too long for its box, the box scrolls sideways; the tip of the line is the whole of it.
 std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const ListingView& view);
 
 } // namespace millwright::widgets

@@ -2,6 +2,7 @@
 
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/imgui_inside.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr float menu_width = 290.0F;
+constexpr float menu_width = 360.0F;
 constexpr float switches_width = 220.0F;
 constexpr float mark_width = 30.0F; // left of the words: a tick or an eye
 
@@ -25,6 +26,7 @@ ImVec2 on_screen(const Ui& ui, const ImVec2& corner, float height) {
 enum class Stay { open, close };
 
 /// At `corner`, else where the mouse was. A list is not seen in its first frame, in which ImGui measures it.
+/// One that is higher than the window scrolls.
 Guard begin_list(Ui& ui,
                  std::string_view id,
                  const std::string& popup,
@@ -38,6 +40,8 @@ Guard begin_list(Ui& ui,
         ImGui::SetNextWindowPos(on_screen(ui, *corner, heights.GetFloat(height)));
     }
     ImGui::SetNextWindowSize({ui.px(width), 0.0F});
+    ImGui::SetNextWindowSizeConstraints({ui.px(width), 0.0F},
+                                        {ui.px(width), ImGui::GetIO().DisplaySize.y - 2.0F * pad});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 0.0F});
     const bool open = ImGui::BeginPopup(popup.c_str());
@@ -113,7 +117,7 @@ Guard submenu(Ui& ui, std::string_view id, std::string_view label) {
                       id,
                       popup,
                       ImVec2(corner.x + size.x, row.y - ui.px(gaps::tiny)),
-                      switches_width,
+                      menu_width,
                       in_menu && !on_row ? Stay::close : Stay::open);
 }
 
@@ -165,7 +169,7 @@ bool menu_item(Ui& ui,
     draw_text(ui, ui.look().fonts.text, words, faded(colours.text, opacity), label);
     const bool entered = now.focused && now.enabled && ui.enter_pressed();
     if (now.clicked || entered) {
-        ImGui::CloseCurrentPopup();
+        close_lists();
         ui.state().open_menu_frame = 0; // the mouse may rest on the menu's name, which would open it again
     }
     return now.clicked || entered;

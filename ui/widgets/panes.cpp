@@ -62,13 +62,19 @@ void end_scrolled_pane(Ui& ui) {
     end_pane(ui);
 }
 
-bool begin_window(Ui& ui, std::string_view id, const Rect& rect, ImGuiWindowFlags flags, ImVec2 padding) {
+bool begin_window(Ui& ui,
+                  std::string_view id,
+                  const Rect& rect,
+                  ImGuiWindowFlags flags,
+                  ImVec2 padding,
+                  std::string_view content = {}) {
     const std::string path = ui.path(id);
+    const std::string name = content.empty() ? path : path + "@" + std::string(content);
     ui.state().places.record(path, {rect, true, true, {}});
     ImGui::SetNextWindowPos(upper_left(rect));
     ImGui::SetNextWindowSize({rect.w, rect.h});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-    const bool open = ImGui::Begin(path.c_str(), nullptr, flags);
+    const bool open = ImGui::Begin(name.c_str(), nullptr, flags);
     ImGui::PopStyleVar();
     ui.state().places.enter(id);
     return open;
@@ -76,10 +82,10 @@ bool begin_window(Ui& ui, std::string_view id, const Rect& rect, ImGuiWindowFlag
 
 } // namespace
 
-Guard Ui::pane(std::string_view id, const Rect& rect, std::string_view title) {
+Guard Ui::pane(std::string_view id, const Rect& rect, std::string_view title, std::string_view content) {
     const float pad = px(gaps::pad);
     const ImGuiWindowFlags flags = pane_flags & ~ImGuiWindowFlags_NoScrollbar;
-    const bool open = begin_window(*this, id, rect, flags, {pad, pad});
+    const bool open = begin_window(*this, id, rect, flags, {pad, pad}, content);
     if (!title.empty()) {
         heading(title);
     }

@@ -25,11 +25,6 @@ constexpr float dash_length = 7.0F;
 constexpr float marker_size = 4.0F;
 constexpr float zeros_height = 22.0F; // the strip of the zeros of a logarithmic plot
 
-Colour series_colour(const Palette& colours, std::span<const Series> series, std::size_t index) {
-    const Colour own = series[index].colour;
-    return own != 0 ? own : colours.series[index % std::size(colours.series)];
-}
-
 struct Range {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
@@ -216,14 +211,17 @@ std::vector<std::size_t> key_lines(const Ui& ui, const PlotView& view, float wid
     return first;
 }
 
-void draw_swatch(Ui& ui, const Rect& box, const Series& series, Colour colour) {
+void draw_swatch(Ui& ui, const Rect& box, const Series& series) {
     if (series.marker == Marker::none && series.stroke == Stroke::solid) {
-        fill({box.x, std::round(box.centre().y) - ui.px(1.5F), box.w, ui.px(3.0F)}, colour, ui.px(1.5F));
+        fill({box.x, std::round(box.centre().y) - ui.px(1.5F), box.w, ui.px(3.0F)},
+             series.colour,
+             ui.px(1.5F));
         return;
     }
     const float y = std::round(box.centre().y);
-    draw_stroke({{box.x, y}, {box.right(), y}}, series.stroke, colour, ui.px(line_width), ui.px(dash_length));
-    draw_marker(series.marker, {box.centre().x, y}, colour, ui.px(marker_size));
+    draw_stroke(
+        {{box.x, y}, {box.right(), y}}, series.stroke, series.colour, ui.px(line_width), ui.px(dash_length));
+    draw_marker(series.marker, {box.centre().x, y}, series.colour, ui.px(marker_size));
 }
 
 /// Title at the left, the series and their colours at the right, of the lines above the plot.
@@ -238,10 +236,7 @@ void draw_plot_key(Ui& ui, Rect line, const PlotView& view, const std::vector<st
             const float width = text_width(font, series.label);
             draw_text(ui, font, {right - width, line.y, width, line.h}, ui.colours().text, series.label);
             const float swatch = swatch_width(ui, series);
-            draw_swatch(ui,
-                        {right - width - ui.px(5.0F) - swatch, line.y, swatch, line.h},
-                        series,
-                        series_colour(ui.colours(), view.series, i));
+            draw_swatch(ui, {right - width - ui.px(5.0F) - swatch, line.y, swatch, line.h}, series);
             right -= key_entry_width(ui, series);
         }
         line.y += line.h;
@@ -296,9 +291,8 @@ void draw_axes(
 
 void draw_series(Ui& ui, const Mapping& mapping, const PlotView& view) {
     ImGui::PushClipRect(upper_left(mapping.box), {mapping.box.right(), mapping.box.bottom() + 1.0F}, true);
-    for (std::size_t i = 0; i < view.series.size(); ++i) {
-        const Series& series = view.series[i];
-        const Colour colour = series_colour(ui.colours(), view.series, i);
+    for (const Series& series : view.series) {
+        const Colour colour = series.colour;
         for (const auto& run : runs(mapping, series.x, series.y)) {
             if (series.is_filled) {
                 fill_below(run, mapping.box.bottom(), faded(colour, 0.25));
@@ -354,9 +348,8 @@ void draw_zeros(Ui& ui, const Mapping& mapping, const Rect& strip, float left, c
     const float middle = strip.centre().y;
     const float arm = ui.px(3.0F);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    for (std::size_t i = 0; i < view.series.size(); ++i) {
-        const Series& series = view.series[i];
-        const Colour colour = series_colour(ui.colours(), view.series, i);
+    for (const Series& series : view.series) {
+        const Colour colour = series.colour;
         float last = -std::numeric_limits<float>::infinity();
         for (std::size_t n = 0; n < series.x.size(); ++n) {
             const float x = mapping.pixel_x(series.x[n]);
@@ -393,8 +386,11 @@ void show_plot_readout(Ui& ui, const std::string& path, const Mapping& mapping, 
 
 } // namespace
 
-std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& view) {
+std::optional<double> line_plot(Ui& ui, std::string_view id, const PlotView& asked) {
     const std::string own = ui.path(id);
+    PlotView view = asked;
+    const std::vector<Series> looks = with_looks(ui.colours(), asked.series);
+    view.series = looks;
     const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_plot_height));
     const Slot slot(ui, 0.0F, height);
     const Rect& all = slot.rect();

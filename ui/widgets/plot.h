@@ -16,7 +16,8 @@ struct Series {
     std::string_view label;
     std::span<const double> x; ///< ascending
     std::span<const double> y; ///< as many; values that are not finite leave a gap
-    Colour colour = 0;         ///< 0: the next of the palette's series
+    Colour colour =
+        0; ///< 0: the next of the palette's series; where these are used up the stroke changes, too
     bool is_filled = false;
     Stroke stroke = Stroke::solid;
     Marker marker = Marker::none;  ///< at each value

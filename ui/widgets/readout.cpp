@@ -27,7 +27,8 @@ Colour digit_colour(const Palette& colours, AxisState state) {
     switch (state) {
     case AxisState::near_limit:
         return colours.warning;
-    case AxisState::at_limit:
+    case AxisState::beyond_limit:
+    case AxisState::at_switch:
         return colours.danger;
     case AxisState::not_homed:
     case AxisState::old:
@@ -41,9 +42,11 @@ Colour digit_colour(const Palette& colours, AxisState state) {
 std::string_view state_tip(AxisState state) {
     switch (state) {
     case AxisState::near_limit:
-        return "Close to the end of its travel.";
-    case AxisState::at_limit:
-        return "At the end of its travel.";
+        return "Near the end of its travel.";
+    case AxisState::beyond_limit:
+        return "Beyond its travel.";
+    case AxisState::at_switch:
+        return "Its limit switch is pressed.";
     case AxisState::not_homed:
         return "Not homed or in doubt: where it is is not known for certain.";
     case AxisState::old:

@@ -12,9 +12,10 @@ namespace millwright::widgets {
 enum class AxisState {
     normal,
     near_limit,
-    at_limit,
-    not_homed, ///< or in doubt
-    old,       ///< as last told by a machine that nobody hears any more
+    beyond_limit, ///< of its travel
+    at_switch,    ///< a limit switch is pressed
+    not_homed,    ///< or in doubt
+    old,          ///< as last told by a machine that nobody hears any more
 };
 
 struct AxisReading {

@@ -16,7 +16,7 @@ namespace millwright::widgets {
 struct Column {
     std::string_view label;
     std::string_view unit = {};
-    float share = 1.0F; ///< of the width, against the other columns
+    float share = 1.0F; ///< of the width, against the other columns, where each has what it needs
     bool is_number = false;
 };
 
@@ -33,7 +33,8 @@ struct TableView {
     std::string_view when_empty = "Nothing here yet.";
 };
 
-/// The row just clicked.
+/// The row just clicked. Where the box is too narrow for its columns it scrolls sideways; numbers are never
+/// cut.
 std::optional<std::ptrdiff_t> table(Ui& ui, std::string_view id, const TableView& view);
 
 } // namespace millwright::widgets

@@ -9,7 +9,8 @@ namespace millwright::widgets {
 
 namespace {
 
-// The series of both themes follow Okabe and Ito's set for colour-blind readers, lightened on dark ground.
+// The first six series of both themes follow Okabe and Ito's set for colour-blind readers, lightened on dark
+// ground.
 constexpr Palette dark{
     .window = rgb(0x111317),
     .pane = rgb(0x1A1D22),
@@ -26,7 +27,18 @@ constexpr Palette dark{
     .warning = rgb(0xF0B340),
     .danger = rgb(0xFF6B64),
     .on_danger = rgb(0x21060A),
-    .series = {rgb(0x56B4E9), rgb(0xE69F00), rgb(0x2CC295), rgb(0xF0E442), rgb(0xD78FBB), rgb(0xE8743B)},
+    .series = {rgb(0x56B4E9),
+               rgb(0xE69F00),
+               rgb(0x2CC295),
+               rgb(0xF0E442),
+               rgb(0xD78FBB),
+               rgb(0xE8743B),
+               rgb(0xA08CFF),
+               rgb(0xA5E05A),
+               rgb(0xB98B62),
+               rgb(0xA9EDEA),
+               rgb(0xFF5FA8),
+               rgb(0xAEB6C4)},
     .axis = {rgb(0xF0707A), rgb(0x7BC862), rgb(0x6FA4FF)},
 };
 
@@ -46,7 +58,18 @@ constexpr Palette light{
     .warning = rgb(0x8A5800),
     .danger = rgb(0xC21F27),
     .on_danger = rgb(0xFFFFFF),
-    .series = {rgb(0x0072B2), rgb(0xB86E00), rgb(0x008A66), rgb(0x8C7A00), rgb(0xA34D83), rgb(0xC24A00)},
+    .series = {rgb(0x0072B2),
+               rgb(0xB86E00),
+               rgb(0x008A66),
+               rgb(0x8C7A00),
+               rgb(0xA34D83),
+               rgb(0xC24A00),
+               rgb(0x5B3FD6),
+               rgb(0x4B7D1E),
+               rgb(0x6E4A2A),
+               rgb(0x00707A),
+               rgb(0xC2185B),
+               rgb(0x5A6472)},
     .axis = {rgb(0xC0303B), rgb(0x3A7F22), rgb(0x1F5FD0)},
 };
 

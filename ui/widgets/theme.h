@@ -45,8 +45,8 @@ struct Palette {
     Colour warning;
     Colour danger;
     Colour on_danger;
-    Colour series[6]; ///< lines of a plot, told apart by colour-blind people too
-    Colour axis[3];   ///< x, y, z
+    Colour series[12]; ///< lines of a plot; the first six are told apart by colour-blind people too
+    Colour axis[3];    ///< x, y, z
 };
 
 [[nodiscard]] const Palette& palette(Theme theme);

@@ -104,8 +104,11 @@ void where(Ui& ui, const TimelineView& view) {
         ui.beside();
     }
     const std::string time = clock_time(view.time_s) + (room < with_end ? "" : " / " + end);
-    fixed_words(ui, "", time, width_of(time) + ui.px(18.0F));
-    ui.beside();
+    const float time_width = width_of(time) + ui.px(18.0F);
+    if (room >= time_width + ui.px(gaps::small)) {
+        fixed_words(ui, "", time, time_width);
+        ui.beside();
+    }
 }
 
 Colour timeline_colour(const Palette& colours, std::span<const TimelineSeries> series, std::size_t i) {

@@ -108,7 +108,8 @@ public:
     void keep_clear(std::string_view path);
     [[nodiscard]] std::optional<Rect> place(std::string_view path) const;
     [[nodiscard]] const Places& places() const;
-    /// What did not fit its place in this frame and ends in an ellipsis: for the tests of the layout.
+    /// What did not fit its place in this frame, and ends in an ellipsis or at the pane's border: for the
+    /// tests of the layout.
     [[nodiscard]] std::span<const std::string> cut_texts() const;
 
     // ---- the keyboard
@@ -125,15 +126,17 @@ public:
     /// In the next frame arrows and page keys walk through no widgets, and the space bar presses none:
     /// somebody else listens to the keyboard. For as long as each frame says so.
     void keep_keys_from_widgets();
-    /// Gives the keyboard to the pane of that path; Tab then goes through its widgets.
+    /// Gives the keyboard to the pane of that path, of no content; Tab then goes through its widgets.
     void focus_pane(std::string_view path);
     /// Gives the keyboard to the field of that path when it is drawn next, soon, with all of its text
     /// selected; until then letters are meant for it.
     void focus_field(std::string_view path);
 
     // ---- panes and order (panes.cpp)
-    /// A fixed part of the window with its own scroll bar; enters the scope `id`. `title` may be empty.
-    Guard pane(std::string_view id, const Rect& rect, std::string_view title = {});
+    /// A fixed part of the window with its own scroll bar; enters the scope `id`. `title` may be empty. For
+    /// each `content` it keeps where it was scrolled to.
+    Guard
+    pane(std::string_view id, const Rect& rect, std::string_view title = {}, std::string_view content = {});
     /// The same without padding, for pictures and lists that reach the border.
     Guard bare_pane(std::string_view id, const Rect& rect);
     /// What is left to draw on: x and y of the next widget, width to the border, height to the bottom.
@@ -160,8 +163,11 @@ public:
     // ---- words and read-only values (values.cpp)
     void heading(std::string_view text);
     void text(std::string_view text); ///< wraps
-    /// One line as wide as its text, for bars: put several side by side with beside().
-    void words(std::string_view text, Tone tone = Tone::normal);
+    /// One line as wide as its text, for bars: put several side by side with beside(). `most`: pixels, 0: any
+    /// number; what does not fit ends in an ellipsis, and its tip is the whole of it.
+    void words(std::string_view text, Tone tone = Tone::normal, float most = 0.0F);
+    /// Pixels that words() of it take.
+    [[nodiscard]] float words_width(std::string_view text) const;
     void note(std::string_view text); ///< wraps, in the muted colour
     void value(std::string_view id,
                std::string_view label,

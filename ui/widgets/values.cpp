@@ -67,9 +67,16 @@ void Ui::text(std::string_view text) {
     wrapped(*this, text, colours().text);
 }
 
-void Ui::words(std::string_view text, Tone tone) {
-    const Slot slot(*this, std::ceil(text_width(look_.fonts.text, text)) + 1.0F, px(gaps::row));
-    draw_text(*this, look_.fonts.text, slot.rect(), tone_colour(colours(), tone), text);
+void Ui::words(std::string_view text, Tone tone, float most) {
+    const float width = words_width(text);
+    const Slot slot(*this, most > 0.0F ? std::min(width, most) : width, px(gaps::row));
+    if (draw_text(*this, look_.fonts.text, slot.rect(), tone_colour(colours(), tone), text)) {
+        offer_tip(*this, path(text), slot.rect(), text);
+    }
+}
+
+float Ui::words_width(std::string_view text) const {
+    return std::ceil(text_width(look_.fonts.text, text)) + 1.0F;
 }
 
 void Ui::note(std::string_view text) {

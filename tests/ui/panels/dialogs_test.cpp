@@ -35,7 +35,8 @@ void change(Person& person) {
 
 void choose_sample(Person& person) {
     person.click("menu/file");
-    person.click("menu/file/sample_sine");
+    person.hover(person.place("menu/file/samples").centre());
+    person.click("menu/file/samples/sample_sine");
     person.frames();
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/base/files.h"
 #include "core/project/project_file.h"
+#include "core/project/recent_files.h"
 #include "tests/ui/panels/person.h"
 #include "ui/panels/asked_file.h"
 #include "ui/panels/folder_view.h"
@@ -147,6 +148,23 @@ TEST_F(FileDialog, GoesToPlacesAndShowsOneKindOfFile) {
     EXPECT_TRUE(person_.sees(entries + "dome.json"));
 }
 
+/// The folder of the window's own files is a place like any other.
+TEST_F(FileDialog, TakesNoFileOfTheWindowsOwnForAProject) {
+    project::write_recent({person_.folder() / "mine.json"}, person_.folder() / "recent.json");
+    person_.press_key(render::Key::o, true);
+    person_.frames(2);
+    const std::string entries = "dialogs/files/entries/";
+    EXPECT_TRUE(person_.sees(entries + "mine.json"));
+    EXPECT_FALSE(person_.sees(entries + "recent.json"));
+    person_.choose("dialogs/files/filter", "projects");
+    EXPECT_TRUE(person_.sees(entries + "mine.json"));
+    EXPECT_FALSE(person_.sees(entries + "recent.json"));
+    person_.choose("dialogs/files/filter", "all");
+    EXPECT_TRUE(person_.sees(entries + "recent.json"));
+    person_.keep("file-dialog-own-files");
+    EXPECT_EQ(file_kind(person_.folder() / "recent.json"), "recent files");
+}
+
 TEST(FolderView, SizesAreShort) {
     EXPECT_EQ(size_text(0), "0 bytes");
     EXPECT_EQ(size_text(999), "999 bytes");
@@ -155,6 +173,17 @@ TEST(FolderView, SizesAreShort) {
     EXPECT_EQ(size_text(2'340'000), "2.3 MB");
     EXPECT_EQ(size_text(5'000'000'000), "5.0 GB");
     EXPECT_EQ(size_text(5'000'000'000'000), "5000 GB");
+}
+
+TEST(FolderView, ListsArmsAloneWhereAnArmIsAskedFor) {
+    const auto& asked = about(actions::FileQuestion::open_arm);
+    const FileFilter& known = filters_of(asked.question)[0];
+    const FolderListing arms = listed("assets/arms", asked, known);
+    EXPECT_FALSE(arms.entries.empty());
+    EXPECT_TRUE(std::ranges::all_of(
+        arms.entries, [](const FolderEntry& entry) { return entry.is_folder || entry.kind == "arm"; }));
+    const FolderListing machines = listed("assets/machines", asked, known);
+    EXPECT_TRUE(std::ranges::all_of(machines.entries, &FolderEntry::is_folder));
 }
 
 TEST(FolderView, EntriesHaveKindSizeAndDate) {

@@ -161,7 +161,8 @@ TEST(ArmWorkspaceU1, EveryItemOfTheMenusOfTheThesisIsThere) {
          {"view_from_above", "view_from_front", "view_from_right"}) { // Simulate > Xy, Xz, Yz
         const widgets::Rect before = person.place("view/tip");
         person.click("menu/view");
-        person.click(std::string("menu/view/") + side);
+        person.hover(person.place("menu/view/look_from").centre());
+        person.click(std::string("menu/view/look_from/") + side);
         person.frames(4);
         const widgets::Rect after = person.place("view/tip");
         EXPECT_GT(std::hypot(after.x - before.x, after.y - before.y), 5.0F) << side;

@@ -102,6 +102,25 @@ TEST_F(MachineJobs, AreNotEndedByClosingTheWindowUnlessAPersonSaysSo) {
     EXPECT_FALSE(grbl.moving());
 }
 
+TEST_F(MachineJobs, LeaveNothingBehindOfALineThatWasRefusedBefore) {
+    GrblBench grbl;
+    Person person;
+    connect(person, grbl);
+    write_file(person.folder() / "short.ngc", "G21 G90 G94\nG1 X5 F3000\nM2\n");
+    person.open(person.folder() / "short.ngc");
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.fill_in("lower/command", "G1 X5 F0");
+    ASSERT_TRUE(person.live_until([&] { return person.sees("lower/refused"); }));
+    ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, machine::DriverState::idle); }));
+    EXPECT_TRUE(person.sees("lower/refused")) << "until something else is done";
+    test::press_run(person);
+    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.running; }));
+    EXPECT_TRUE(person.live_until([&] { return !person.sees("lower/refused"); }));
+    EXPECT_TRUE(person.sees("lower/command"));
+    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
+}
+
 TEST_F(MachineJobs, ThatEndMeanwhileAreNotAskedAbout) {
     Person person;
     write_file(person.folder() / "short.ngc", "G21 G90 G94\nG1 X5 F3000\nM2\n");

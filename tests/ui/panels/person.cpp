@@ -37,11 +37,16 @@ Person::Person(const render::PixelSize& screen,
                const std::filesystem::path& recovery,
                const std::filesystem::path& jobs,
                const std::filesystem::path& settings)
-    : folder_(fresh_folder()), context_(screen),
+    : Person(screen, 1.0, Folders{recovery, jobs, settings}) {}
+
+Person::Person(const render::PixelSize& screen, double scale) : Person(screen, scale, Folders{}) {}
+
+Person::Person(const render::PixelSize& screen, double scale, const Folders& folders)
+    : folder_(fresh_folder()), context_(screen, scale),
       workshop_({.assets = "assets",
-                 .log_folder = jobs.empty() ? folder_ / "jobs" : jobs,
-                 .settings = (settings.empty() ? folder_ : settings) / "recent.json",
-                 .recovery = recovery,
+                 .log_folder = folders.jobs.empty() ? folder_ / "jobs" : folders.jobs,
+                 .settings = (folders.settings.empty() ? folder_ : folders.settings) / "recent.json",
+                 .recovery = folders.recovery,
                  .wake = [] {},
                  .start = small_sample()}) {
     desktop_ = std::make_unique<panels::Desktop>(context_, workshop_);

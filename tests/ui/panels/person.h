@@ -29,6 +29,8 @@ public:
                     const std::filesystem::path& recovery = {},
                     const std::filesystem::path& jobs = {},
                     const std::filesystem::path& settings = {});
+    /// `scale`: that of the monitor.
+    Person(const render::PixelSize& screen, double scale);
     Person(const Person&) = delete;
     Person& operator=(const Person&) = delete;
     ~Person();
@@ -83,6 +85,10 @@ public:
     [[nodiscard]] std::filesystem::path folder() const { return folder_; }
 
 private:
+    struct Folders {
+        std::filesystem::path recovery, jobs, settings;
+    };
+    Person(const render::PixelSize& screen, double scale, const Folders& folders);
     void frame();
     void frame_of_a_screen(); ///< takes as long as it says in input_, as beside a controller that runs in
                               ///< real time

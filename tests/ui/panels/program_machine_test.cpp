@@ -79,7 +79,7 @@ TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
     layers = {};
     layers.surface = layers.floor = layers.origin = false;
     layers.machine = true;
-    person.workshop().session().fit_wanted = true;
+    fit_program(person.workshop().session());
     stand_at(person, 3);
     const render::Picture before = person.picture_of("view/iso");
     person.keep("program-machine");

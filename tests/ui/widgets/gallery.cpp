@@ -144,7 +144,7 @@ void Gallery::draw_outline(Ui& ui) {
             "position",
             std::array<AxisReading, 3>{AxisReading{"X", -12.3456, "mm", 3},
                                        AxisReading{"Z", 148.2, "mm", 3, {}, AxisState::near_limit},
-                                       AxisReading{"A", 31.4, "°", 3, {}, AxisState::at_limit}});
+                                       AxisReading{"A", 31.4, "°", 3, {}, AxisState::beyond_limit}});
 }
 
 void Gallery::draw_view(Ui& ui) {

@@ -77,14 +77,16 @@ TEST_F(Menus, EscapeClosesAMenu) {
 class Lists : public testing::Test {
 protected:
     bool on = false;
+    int items = 18;
+    int chosen = -1;
     Stage stage{[this](Ui& ui) {
         const auto pane = ui.pane("bar", whole_screen);
         if (const auto file = menu(ui, "file", "File")) {
             menu_item(ui, "open", "Open ...");
             if (const auto more = submenu(ui, "more", "More")) {
                 on = menu_eye(ui, "floor", "Floor", on) ? !on : on;
-                for (int n = 0; n < 18; ++n) {
-                    menu_item(ui, std::to_string(n), "Item");
+                for (int n = 0; n < items; ++n) {
+                    chosen = menu_item(ui, std::to_string(n), "Item") ? n : chosen;
                 }
             }
         }
@@ -119,6 +121,39 @@ TEST_F(Lists, ALongListStaysOnTheScreen) {
     stage.frames(3);
     EXPECT_GE(stage.place("bar/file/more/floor").y, 0.0F);
     EXPECT_LE(stage.place("bar/file/more/17").bottom(), whole_screen.bottom());
+}
+
+TEST_F(Lists, AListThatIsHigherThanTheWindowScrollsToItsLastRow) {
+    items = 60;
+    stage.click("bar/file");
+    stage.frames(2);
+    stage.move(stage.place("bar/file/more").centre());
+    stage.frames(3);
+    const Rect first = stage.place("bar/file/more/floor");
+    EXPECT_GE(first.y, 0.0F);
+    EXPECT_FALSE(stage.ui().places().find("bar/file/more/59")->visible);
+    stage.move({first.centre().x, 300.0F});
+    stage.frames(2);
+    for (int n = 0; n < 40; ++n) {
+        stage.wheel(-3.0F);
+        stage.frames(2);
+    }
+    ASSERT_TRUE(stage.ui().places().find("bar/file/more/59")->visible);
+    EXPECT_LE(stage.place("bar/file/more/59").bottom(), whole_screen.bottom());
+    stage.click("bar/file/more/59");
+    EXPECT_EQ(chosen, 59);
+}
+
+TEST_F(Lists, AnItemOfAListInAMenuClosesBoth) {
+    stage.click("bar/file");
+    stage.frames(2);
+    stage.move(stage.place("bar/file/more").centre());
+    stage.frames(3);
+    stage.click("bar/file/more/3");
+    stage.frames(3);
+    EXPECT_EQ(chosen, 3);
+    EXPECT_FALSE(stage.ui().place("bar/file/more/3"));
+    EXPECT_FALSE(stage.ui().place("bar/file/open"));
 }
 
 TEST_F(Lists, AnEyeSwitchesAndTheListStaysForTheNext) {

@@ -2,11 +2,14 @@
 #include "core/base/error.h"
 #include "tests/ui/stage/stage.h"
 #include "tests/ui/widgets/whole_screen.h"
+#include "ui/widgets/internal/line_style.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace millwright::widgets {
@@ -37,6 +40,28 @@ protected:
         }
     }};
 };
+
+TEST(PlotLooks, OfSeveralDozenCurvesNoTwoAreDrawnAlike) {
+    const std::vector<Series> many(36);
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        std::set<std::pair<Colour, Stroke>> looks;
+        for (const Series& series : with_looks(palette(theme), many)) {
+            EXPECT_NE(series.colour, 0U);
+            looks.emplace(series.colour, series.stroke);
+        }
+        EXPECT_EQ(looks.size(), many.size());
+    }
+}
+
+TEST(PlotLooks, WhatACurveHasOfItsOwnItKeeps) {
+    std::vector<Series> series(14);
+    series[13].stroke = Stroke::dotted;
+    series[0].colour = rgb(0x102030);
+    const std::vector<Series> looks = with_looks(palette(Theme::dark), series);
+    EXPECT_EQ(looks[13].stroke, Stroke::dotted);
+    EXPECT_EQ(looks[12].stroke, Stroke::dashed);
+    EXPECT_EQ(looks[0].colour, rgb(0x102030));
+}
 
 TEST_F(Plot, AClickGivesTheXThere) {
     stage.frames(2);

@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -50,6 +51,31 @@ TEST_P(EachTheme, LinesOfAPlotCanBeSeenOnItsGround) {
     const Palette& p = palette(GetParam());
     for (const Colour line : p.series) {
         EXPECT_GE(contrast(line, p.field), 3.0) << std::hex << line;
+    }
+}
+
+/// CIE L*a*b* of an opaque colour.
+std::array<double, 3> lab_of(Colour colour) {
+    std::array<double, 3> linear{};
+    for (unsigned k = 0; k < 3; ++k) {
+        const double c = (colour >> (8 * k) & 0xFFU) / 255.0;
+        linear[k] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    }
+    const auto [r, g, b] = linear;
+    const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0; };
+    const double x = f((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.95047);
+    const double y = f(0.2126 * r + 0.7152 * g + 0.0722 * b);
+    const double z = f((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.08883);
+    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
+TEST_P(EachTheme, NoTwoLinesOfAPlotHaveNearlyTheSameColour) {
+    const Palette& p = palette(GetParam());
+    for (std::size_t i = 0; i < std::size(p.series); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const auto a = lab_of(p.series[i]), b = lab_of(p.series[k]);
+            EXPECT_GE(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 20.0) << i << ", " << k;
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 #include "ui/viewport/internal/axis_gizmo.h"
 
 #include "ui/render/ink.h"
+#include "ui/viewport/internal/view_controls.h"
 
 #include <glm/vec2.hpp>
 #include <imgui.h>
@@ -18,7 +19,6 @@ using render::StandardView;
 // Pixels at scale 1.
 constexpr float arm = 30.0F;
 constexpr float ball = 8.5F;
-constexpr float inset = 8.0F; // from the picture's corner
 
 struct End {
     int axis = 0;
@@ -79,9 +79,8 @@ void draw_end(widgets::Ui& ui, const Pane& pane, ImVec2 middle, const End& end, 
 } // namespace
 
 std::optional<StandardView> axis_gizmo(widgets::Ui& ui, const Pane& pane) {
-    const float size = ui.px(gizmo_size);
-    const widgets::Rect place = {
-        pane.rect.right() - size - ui.px(inset), pane.rect.y + ui.px(inset), size, size};
+    const widgets::Rect place = view_controls(ui, pane.rect, 0).axes;
+    const float size = place.w;
     const ImVec2 middle = {place.centre().x, place.centre().y};
     ImGui::SetCursorScreenPos({place.x, place.y});
     ImGui::PushAllowKeyboardFocus(false); // Tab does not stop here

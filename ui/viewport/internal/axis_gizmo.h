@@ -12,7 +12,4 @@ namespace millwright::viewport {
 /// The side whose end was clicked.
 [[nodiscard]] std::optional<render::StandardView> axis_gizmo(widgets::Ui& ui, const Pane& pane);
 
-/// What it takes of the picture, width and height, at scale 1.
-inline constexpr float gizmo_size = 92.0F;
-
 } // namespace millwright::viewport

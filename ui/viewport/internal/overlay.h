@@ -1,4 +1,4 @@
-// Words and signs over the picture of a view: names of places, scale bar, legend, the selection's box.
+// Words and signs over the picture of a view: names of places, scale bar, caption, the selection's box.
 #pragma once
 
 #include "ui/render/view_colors.h"
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace millwright::viewport {
+
+inline constexpr float overlay_margin = 14.0F; ///< from the picture's border, pixels at scale 1
 
 /// One picture in the window.
 struct Pane {
@@ -28,45 +30,23 @@ struct Pane {
 [[nodiscard]] std::vector<Label>
 visible_labels(const SceneView& view, const Scene& scene, const SurfacePicker& picker, const Pane& pane);
 
-/// Words stand above their places, or below them or further away where they would cover others; those that
-/// find no room are left out. Returns the grounds of the words.
-std::vector<widgets::Rect> draw_labels(widgets::Ui& ui, const Pane& pane, std::span<const Label> labels);
+/// Words stand above their places, or below them, aside or further away where they would cover others or
+/// `fixed`; those that find no room are left out. Returns the grounds of the words.
+std::vector<widgets::Rect> draw_labels(widgets::Ui& ui,
+                                       const Pane& pane,
+                                       std::span<const Label> labels,
+                                       std::span<const widgets::Rect> fixed = {});
 
 /// A round length at `point` (scene), at the lower left.
 void draw_scale_bar(widgets::Ui& ui, const Pane& pane, const glm::dvec3& point);
-
-/// Where the legends of a scene stand in a picture, and what of it they leave free.
-struct LegendPlaces {
-    std::vector<widgets::Rect> each = {};
-    bool lying = false;
-    widgets::Rect free = {};
-};
-
-/// Below each other at the left above the scale bar, or beside each other where the picture is too low.
-[[nodiscard]] LegendPlaces
-upright_legends(const widgets::Ui& ui, const widgets::Rect& picture, const Scene& scene);
-
-/// Lying beside each other in a strip at the bottom of `strip`, from `left` on.
-[[nodiscard]] LegendPlaces
-lying_legends(const widgets::Ui& ui, const widgets::Rect& picture, float left, const Scene& scene);
-
-/// Upright in a wide picture; lying, beside the scale bar, in a narrow one.
-[[nodiscard]] LegendPlaces
-legends_of(const widgets::Ui& ui, const widgets::Rect& picture, const Scene& scene);
-
-/// What the colours of errors, weight and others mean; nothing where there are none. `beside`: another scene
-/// that is drawn in the same colours of the errors.
-void draw_legends(widgets::Ui& ui,
-                  const LegendPlaces& places,
-                  const render::ViewColors& colors,
-                  const Scene& scene,
-                  const Scene* beside = nullptr);
-
-/// As high as a strip of lying legends.
-[[nodiscard]] float legend_strip_height(const widgets::Ui& ui);
+/// With its words.
+[[nodiscard]] widgets::Rect scale_bar_place(const widgets::Ui& ui, const Pane& pane, const glm::dvec3& point);
 
 /// The name of a picture among others, at the upper left, and below it what the picture leaves out.
 void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std::string_view left_out = {});
+/// The ground of both.
+[[nodiscard]] widgets::Rect
+caption_place(const widgets::Ui& ui, const Pane& pane, std::string_view name, std::string_view left_out);
 
 void draw_box(const Pane& pane, const Hand::Box& box);
 
@@ -77,7 +57,11 @@ void draw_surface_tool(widgets::Ui& ui,
                        const SurfacePicker& picker,
                        const SurfaceHand& hand);
 
-/// What is being dragged or pointed at, beside it.
-void draw_hint(widgets::Ui& ui, const Pane& pane, const Scene& scene, const Hand& hand);
+/// What is being dragged or pointed at, beside it; not over `fixed`.
+void draw_hint(widgets::Ui& ui,
+               const Pane& pane,
+               const Scene& scene,
+               const Hand& hand,
+               std::span<const widgets::Rect> fixed);
 
 } // namespace millwright::viewport

@@ -4,6 +4,8 @@
 #include "ui/render/convert.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/viewport/internal/axis_gizmo.h"
+#include "ui/viewport/internal/legends.h"
+#include "ui/viewport/internal/view_controls.h"
 #include "ui/viewport/internal/view_notes.h"
 #include "ui/viewport/machine_sight.h"
 #include "ui/viewport/navigation.h"
@@ -63,19 +65,35 @@ std::string handle_id(const ControlPointId& id) {
 } // namespace
 
 ViewPane::ViewPane(std::string id, std::string caption, StandardView side, render::Projection projection)
-    : id_(std::move(id)), caption_(std::move(caption)) {
-    for (Sight& sight : cameras_) {
-        sight.camera = render::Camera().seen_from(side).with(projection);
-    }
+    : id_(std::move(id)), caption_(std::move(caption)),
+      first_(render::Camera().seen_from(side).with(projection)) {
+    sights_.try_emplace(at_, Sight{.camera = first_});
 }
 
 void ViewPane::set_camera(const render::Camera& camera) {
-    cameras_[at_] = {.camera = camera, .fitted = true};
+    sight() = {.camera = camera, .fitted = true};
+}
+
+void ViewPane::look_at(const Scene& scene) {
+    at_ = {scene.sight, scene.arm ? 2 : scene.layers.machine ? 1 : 0};
+    sights_.try_emplace(at_, Sight{.camera = first_});
+}
+
+void ViewPane::fit_all() {
+    for (auto& [key, sight] : sights_) {
+        sight.fitted = false;
+    }
+}
+
+void ViewPane::fit_unturned() {
+    for (auto& [key, sight] : sights_) {
+        sight.fitted = sight.fitted && sight.camera.pose() != sight.fitted_pose;
+    }
 }
 
 std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect& place) {
     const render::PixelSize size = size_of(place);
-    at_ = frame.scene.arm ? 2 : frame.scene.layers.machine ? 1 : 0;
+    look_at(frame.scene);
     if (target_.size() != size) {
         target_.begin(size);
         target_.end();
@@ -87,7 +105,7 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
     in_use_ = pointer.hovered || pointer.held || pointer.released;
     take_keys(frame.ui, pointer);
     fit_if_needed(frame, place);
-    cameras_[at_].camera = navigated(camera(), pointer, size);
+    sight().camera = navigated(camera(), pointer, size);
 
     const Pane pane = {.rect = place, .view = view_of(frame, size), .colors = frame.colors};
     const bool esc = in_use_ && !frame.ui.keys_claimed() && render::key_pressed(Key::escape);
@@ -111,15 +129,18 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
 }
 
 void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
-    Sight& sight = cameras_[at_];
+    Sight& sight = this->sight();
     const bool legends = frame.details && frame.legends;
-    const widgets::Rect free = legends ? legends_of(frame.ui, place, frame.scene).free : place;
+    widgets::Rect free = legends ? legends_of(frame.ui, place, frame.scene).free : place;
     const float left = free.x - place.x, below = place.bottom() - free.bottom();
     const bool legend_has_come = left > sight.left_out + 1.0F || below > sight.below_out + 1.0F;
     if (legend_has_come && sight.camera.pose() == sight.fitted_pose) {
         sight.fitted = false; // one that goes leaves the view as it is: it may be back soon
     }
     if (!sight.fitted && !is_empty(frame.view.content())) {
+        if (frame.details) {
+            free.w -= view_controls(frame.ui, place, frame.buttons).taken;
+        }
         fit_into(frame, place, free);
         sight.left_out = left;
         sight.below_out = below;
@@ -128,7 +149,7 @@ void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
 
 /// The camera looks at the middle of the whole picture, so that it is moved aside by half of what is taken.
 void ViewPane::fit_into(const Frame3D& frame, const widgets::Rect& place, const widgets::Rect& free) {
-    Sight& sight = cameras_[at_];
+    Sight& sight = this->sight();
     if (frame.scene.layers.machine && sight.camera.pose().projection == render::Projection::perspective) {
         sight.camera = part_in_sight(frame.scene, sight.camera);
     }
@@ -153,8 +174,8 @@ void ViewPane::take_keys(const widgets::Ui& ui, const widgets::Pointer& pointer)
         fit();
     }
     for (const auto& [key, side] : side_keys) {
-        if (at_ != 2 && render::key_pressed(key)) { // an arm's joints have these keys
-            cameras_[at_].camera = camera().seen_from(side);
+        if (at_.frame != 2 && render::key_pressed(key)) { // an arm's joints have these keys
+            sight().camera = camera().seen_from(side);
             fit();
         }
     }
@@ -201,14 +222,35 @@ void ViewPane::paint(const Frame3D& frame, const render::View& view, render::Edg
     edges_ = edges;
 }
 
+/// What no words may cover.
+std::vector<widgets::Rect> ViewPane::taken_places(const Frame3D& frame, const Pane& pane) const {
+    std::vector<widgets::Rect> taken;
+    const widgets::Rect words = caption_place(frame.ui, pane, caption_, view_notes(frame.scene, pane.view));
+    if (words.w > 0.0F) {
+        taken.push_back(words);
+    }
+    if (!frame.details) {
+        return taken;
+    }
+    const ViewControls controls = view_controls(frame.ui, pane.rect, frame.buttons);
+    taken.insert(taken.end(),
+                 {controls.axes, controls.buttons, scale_bar_place(frame.ui, pane, camera().pose().target)});
+    if (frame.legends) {
+        const LegendPlaces legends = legends_of(frame.ui, pane.rect, frame.scene);
+        taken.insert(taken.end(), legends.each.begin(), legends.each.end());
+    }
+    return taken;
+}
+
 void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     const std::vector<Label> labels = visible_labels(frame.view, frame.scene, frame.picker, pane);
     int drawn = 0;
-    for (const widgets::Rect& words : draw_labels(frame.ui, pane, labels)) {
+    const std::vector<widgets::Rect> taken = taken_places(frame, pane);
+    for (const widgets::Rect& words : draw_labels(frame.ui, pane, labels, taken)) {
         frame.ui.record("label_" + std::to_string(drawn++), words);
     }
     draw_surface_tool(frame.ui, pane, frame.scene, frame.picker, hand_.surface());
-    draw_hint(frame.ui, pane, frame.scene, hand_);
+    draw_hint(frame.ui, pane, frame.scene, hand_, taken);
     if (hand_.box()) {
         draw_box(pane, *hand_.box());
     }
@@ -222,7 +264,7 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
         draw_legends(frame.ui, legends_of(frame.ui, pane.rect, frame.scene), pane.colors, frame.scene);
     }
     if (const auto side = axis_gizmo(frame.ui, pane)) {
-        cameras_[at_].camera = camera().seen_from(*side);
+        sight().camera = camera().seen_from(*side);
         fit();
         frame.ui.change_in(0.0);
     }

@@ -6,7 +6,7 @@
 #include "ui/viewport/hand.h"
 #include "ui/viewport/internal/overlay.h"
 
-#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,26 +21,33 @@ struct Frame3D {
     const SceneView& view;
     const SurfacePicker& picker;
     render::ViewColors colors;
-    bool details = true; ///< with axes and scale bar
+    bool details = true; ///< with axes, buttons and scale bar
+    int buttons = 0;     ///< below the axes
     bool legends = true; ///< with these, too
     const SceneView* also =
         nullptr; ///< seen by the same camera in another picture: fitted into this one, too
 };
 
-/// Of the scene's frames - workpiece, machine, arm - each picture keeps a camera of its own.
+/// For each Scene::sight, and in it for each of the scene's frames - workpiece, machine, arm - a picture
+/// keeps a camera of its own.
 class ViewPane {
 public:
     ViewPane(std::string id, std::string caption, render::StandardView side, render::Projection projection);
 
+    /// From now on the camera is that of this scene.
+    void look_at(const Scene& scene);
     /// Draws into `place` and lets the mouse work. Records its handles if it is `active`.
     [[nodiscard]] std::vector<ViewEvent> draw(const Frame3D& frame, const widgets::Rect& place);
 
     [[nodiscard]] const std::string& id() const { return id_; }
-    [[nodiscard]] const render::Camera& camera() const { return cameras_[at_].camera; }
+    [[nodiscard]] const render::Camera& camera() const { return sight().camera; }
     void set_camera(const render::Camera& camera);
     void set_caption(std::string caption) { caption_ = std::move(caption); }
     /// Takes in everything at the next draw().
-    void fit() { cameras_[at_].fitted = false; }
+    void fit() { sight().fitted = false; }
+    /// The same of every camera, or of those alone that nobody has turned since they were fitted.
+    void fit_all();
+    void fit_unturned();
 
     [[nodiscard]] const Hand& hand() const { return hand_; }
     /// The mouse is in it or works in it.
@@ -55,6 +62,13 @@ private:
         float left_out = 0.0F; ///< of the picture at its left, pixels
         float below_out = 0.0F;
     };
+    /// Which camera.
+    struct SightKey {
+        int sight = 0;
+        int frame = 0; ///< 0 workpiece, 1 machine, 2 arm
+
+        friend auto operator<=>(const SightKey&, const SightKey&) = default;
+    };
     /// All that the picture depends on.
     struct Drawn {
         Scene scene;
@@ -66,20 +80,24 @@ private:
         friend bool operator==(const Drawn&, const Drawn&) = default;
     };
 
+    [[nodiscard]] Sight& sight() { return sights_.at(at_); }
+    [[nodiscard]] const Sight& sight() const { return sights_.at(at_); }
     void fit_if_needed(const Frame3D& frame, const widgets::Rect& place);
     void fit_into(const Frame3D& frame, const widgets::Rect& place, const widgets::Rect& free);
     void take_keys(const widgets::Ui& ui, const widgets::Pointer& pointer);
     [[nodiscard]] render::View view_of(const Frame3D& frame, const render::PixelSize& size) const;
     void draw_picture(const Frame3D& frame, const render::View& view, const widgets::Pointer& pointer);
     void paint(const Frame3D& frame, const render::View& view, render::Edges edges);
+    [[nodiscard]] std::vector<widgets::Rect> taken_places(const Frame3D& frame, const Pane& pane) const;
     void draw_over(const Frame3D& frame, const Pane& pane);
     void record_handles(const Frame3D& frame, const Pane& pane) const;
     void record_arm(const Frame3D& frame, const Pane& pane) const;
 
     std::string id_;
     std::string caption_;
-    std::array<Sight, 3> cameras_;
-    std::size_t at_ = 0; ///< 0 workpiece, 1 machine, 2 arm
+    render::Camera first_; ///< as each of them begins
+    std::map<SightKey, Sight> sights_;
+    SightKey at_;
     render::ViewTarget target_;
     std::optional<Drawn> drawn_;
     render::Edges edges_ = render::Edges::smooth; ///< of what was drawn

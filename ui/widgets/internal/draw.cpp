@@ -11,6 +11,7 @@ namespace millwright::widgets {
 namespace {
 
 constexpr float default_label_share = 0.42F;
+constexpr std::string_view ellipsis = "…";
 
 Rect next_cell(Ui& ui, float height) {
     Ui::State::Cells& cells = ui.state().cells.back();
@@ -28,6 +29,14 @@ Rect next_cell(Ui& ui, float height) {
     }
     ++cells.next;
     return {x, cells.line.y, right - x, height};
+}
+
+/// The longest start of `text`, cut between characters, that is at most `width` wide.
+std::string_view start_of(const ImFont* font, std::string_view text, float width) {
+    const char* end = text.data();
+    font->CalcTextSizeA(
+        font->FontSize, std::max(width, 1.0F), 0.0F, text.data(), text.data() + text.size(), &end);
+    return text.substr(0, static_cast<std::size_t>(end - text.data()));
 }
 
 } // namespace
@@ -133,13 +142,6 @@ float text_width(const ImFont* font, std::string_view text) {
     return font->CalcTextSizeA(font->FontSize, 1e9F, 0.0F, text.data(), text.data() + text.size()).x;
 }
 
-std::string_view start_of(const ImFont* font, std::string_view text, float width) {
-    const char* end = text.data();
-    font->CalcTextSizeA(
-        font->FontSize, std::max(width, 1.0F), 0.0F, text.data(), text.data() + text.size(), &end);
-    return text.substr(0, static_cast<std::size_t>(end - text.data()));
-}
-
 bool draw_text(
     Ui& ui, const ImFont* font, const Rect& rect, Colour colour, std::string_view text, Align align) {
     if (text.empty()) {
@@ -154,7 +156,12 @@ bool draw_text(
     };
     if (width <= rect.w + 0.5F) {
         const float free = rect.w - width;
-        put(rect.x + (align == Align::left ? 0.0F : align == Align::right ? free : 0.5F * free), text);
+        const float x = rect.x + (align == Align::left ? 0.0F : align == Align::right ? free : 0.5F * free);
+        put(x, text);
+        const bool beyond = x < list.GetClipRectMin().x - 1.0F || x + width > list.GetClipRectMax().x + 1.0F;
+        if (beyond && !ui.state().scrolls_sideways) {
+            ui.state().cut_texts.emplace_back(text);
+        }
         return false;
     }
     ui.state().cut_texts.emplace_back(text);

@@ -70,15 +70,10 @@ inline constexpr double disabled_opacity = 0.45;
 
 [[nodiscard]] float text_width(const ImFont* font, std::string_view text);
 
-inline constexpr std::string_view ellipsis = "…";
-
-/// The longest start of `text`, cut between characters, that is at most `width` wide.
-[[nodiscard]] std::string_view start_of(const ImFont* font, std::string_view text, float width);
-
 enum class Align { left, centre, right };
 
 /// One line of text in the middle of `rect`'s height; what does not fit ends in an ellipsis.
-/// True if it was cut; Ui::cut_texts() tells so too.
+/// True if it was cut; Ui::cut_texts() has it then, and also where the pane ends before the text.
 bool draw_text(Ui& ui,
                const ImFont* font,
                const Rect& rect,

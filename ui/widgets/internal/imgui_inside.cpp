@@ -55,6 +55,21 @@ void overlaid_button(const std::string& id, const Rect& place, int buttons) {
 #endif
 }
 
+void close_lists() {
+    const ImGuiContext& g = *ImGui::GetCurrentContext();
+    const auto is_list = [&g](int level) {
+        const ImGuiWindow* window = g.BeginPopupStack[level].Window;
+        return window != nullptr && (window->Flags & ImGuiWindowFlags_Modal) == 0;
+    };
+    int level = g.BeginPopupStack.Size - 1;
+    while (level > 0 && is_list(level - 1)) {
+        --level;
+    }
+    if (level >= 0) {
+        ImGui::ClosePopupToLevel(level, true);
+    }
+}
+
 void keep_wheel() {
     ImGui::SetItemUsingMouseWheel();
 }

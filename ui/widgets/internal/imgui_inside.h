@@ -35,6 +35,9 @@ void focus_next_item();
 /// An invisible button for these of ImGui's mouse buttons; items over it that come later win.
 void overlaid_button(const std::string& id, const Rect& place, int buttons);
 
+/// Inside an open list: closes it with all lists that it opened from, and no dialog below them.
+void close_lists();
+
 /// The wheel over the last item is the item's own: the pane behind does not scroll.
 void keep_wheel();
 

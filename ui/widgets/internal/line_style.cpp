@@ -3,6 +3,7 @@
 #include "ui/widgets/internal/curve.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace millwright::widgets {
@@ -37,6 +38,21 @@ void draw_dashes(const std::vector<ImVec2>& run, float on, float off, Colour col
 }
 
 } // namespace
+
+std::vector<Series> with_looks(const Palette& colours, std::span<const Series> series) {
+    constexpr std::array strokes{Stroke::solid, Stroke::dashed, Stroke::dotted};
+    std::vector<Series> all(series.begin(), series.end());
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        if (all[n].colour != 0) {
+            continue;
+        }
+        all[n].colour = colours.series[n % std::size(colours.series)];
+        if (all[n].stroke == Stroke::solid) {
+            all[n].stroke = strokes[n / std::size(colours.series) % strokes.size()];
+        }
+    }
+    return all;
+}
 
 void draw_stroke(const std::vector<ImVec2>& run, Stroke stroke, Colour colour, float thickness, float dash) {
     if (stroke == Stroke::solid || run.size() < 2) {

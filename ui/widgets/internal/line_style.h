@@ -1,12 +1,17 @@
-// What tells curves apart beside their colour, of which there are six: dashes, and a sign at each value.
+// What tells curves apart: their colour, then dashes, and a sign at each value.
 #pragma once
 
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/plot.h"
 
+#include <span>
 #include <vector>
 
 namespace millwright::widgets {
+
+/// The series with the colour that each is drawn in. Where there are more than the palette has, the next ones
+/// are dashed, and then dotted.
+[[nodiscard]] std::vector<Series> with_looks(const Palette& colours, std::span<const Series> series);
 
 /// `dash`: px. Dashes go on round corners.
 void draw_stroke(const std::vector<ImVec2>& run, Stroke stroke, Colour colour, float thickness, float dash);

@@ -1,5 +1,7 @@
 #include "ui/widgets/internal/rows.h"
 
+#include "ui/widgets/internal/scroll_bar.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,6 @@ namespace millwright::widgets {
 namespace {
 
 constexpr double rows_a_notch = 3.0;
-constexpr float bar_width = 10.0F;
 
 double& scroll_of(Ui& ui, const std::string& path) {
     return ui.state().memory[path + "@top"];
@@ -18,35 +19,14 @@ void take_wheel_and_keys(const Ui& ui, const Rect& box, double& top, double in_s
     if (!ImGui::IsWindowHovered() || !ImGui::IsMouseHoveringRect(upper_left(box), lower_right(box))) {
         return;
     }
-    top -= rows_a_notch * static_cast<double>(ImGui::GetIO().MouseWheel);
+    if (!ImGui::GetIO().KeyShift) { // else it goes sideways
+        top -= rows_a_notch * static_cast<double>(ImGui::GetIO().MouseWheel);
+    }
     if (ui.was_typing()) {
         return;
     }
     top += key_pressed(ImGuiKey_PageDown) ? in_sight : 0.0;
     top -= key_pressed(ImGuiKey_PageUp) ? in_sight : 0.0;
-}
-
-/// The grip is dragged by where it was taken; a click beside it moves its middle there.
-void scroll_bar(
-    Ui& ui, const std::string& path, const Rect& bar, double& top, double in_sight, double count) {
-    const double share = std::min(1.0, in_sight / count);
-    const float grip = std::max(ui.px(20.0F), bar.h * static_cast<float>(share));
-    const double most = count - in_sight;
-    const double travel = static_cast<double>(bar.h - grip);
-    const auto grip_y = [&] { return bar.y + static_cast<float>(travel * std::clamp(top / most, 0.0, 1.0)); };
-    const Press now = press(ui, path + "/scroll", bar, {}, {}, Reach::mouse);
-    double& taken = ui.state().memory[path + "@taken"];
-    if (now.held && travel > 0.0) {
-        const float mouse = ImGui::GetIO().MousePos.y;
-        if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-            const bool on_grip = mouse >= grip_y() && mouse < grip_y() + grip;
-            taken = static_cast<double>(on_grip ? mouse - grip_y() : 0.5F * grip);
-        }
-        top = most * std::clamp((static_cast<double>(mouse - bar.y) - taken) / travel, 0.0, 1.0);
-    }
-    const Colour colour = faded(ui.colours().muted, now.held ? 0.8 : now.hovered ? 0.6 : 0.35);
-    const float in = ui.px(2.0F);
-    fill({bar.x + in, grip_y(), bar.w - 2.0F * in, grip}, colour, 0.5F * (bar.w - 2.0F * in));
 }
 
 } // namespace
@@ -58,10 +38,10 @@ Rows::Rows(Ui& ui, const std::string& path, const Rect& box, std::ptrdiff_t coun
     const auto rows = static_cast<double>(count);
     scrolls_ = in_sight < rows;
     if (scrolls_) {
-        const float width = ui.px(bar_width);
+        const float width = ui.px(scroll_bar_width);
         inside_.w -= width;
         take_wheel_and_keys(ui, box, top, in_sight);
-        scroll_bar(ui, path, {inside_.right(), box.y, width, box.h}, top, in_sight, rows);
+        scroll_bar(ui, path + "/scroll", {{inside_.right(), box.y, width, box.h}, in_sight, rows}, top);
     }
     top = std::clamp(top, 0.0, std::max(0.0, rows - in_sight));
     top_ = top;

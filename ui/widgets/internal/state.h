@@ -74,6 +74,7 @@ struct Ui::State {
     std::string under_mouse_before;     ///< the same of the frame before: the one on top
     std::vector<Hint> hints;            ///< of this frame
     std::vector<std::string> cut_texts; ///< of this frame
+    bool scrolls_sideways = false;      ///< what is drawn now: what is out of its box is not cut
     std::vector<Cells> cells;
     std::vector<float> widths;
     std::vector<float> label_shares;

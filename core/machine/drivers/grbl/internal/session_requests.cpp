@@ -31,6 +31,7 @@ void Session::start(ProgramLines program, double now, std::function<int(int)> ah
             {},
             mode == "G51" ? "cancel it with G50" : "cancel it with G8");
     }
+    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
     ahead_.begin(std::move(ahead), program.blocks);
     begin(std::move(program), Activity::program, now);
 }

@@ -58,6 +58,7 @@ void ShellSession::start(const gcode::Listing& listing,
                          const std::string& path,
                          double now) {
     require_rest("program");
+    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
     listing_ = listing;
     file_ = file;
     finish(Stage::running);

@@ -73,6 +73,7 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     for (const std::string& line : lines) {
         check_guard(line);
     }
+    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
     finish(Stage::loading);
     program_lines_ = static_cast<int>(lines.size());
     executed_ = 0;

@@ -210,6 +210,7 @@ void VirtualAxes::start(Work work) {
         throw Error(
             "the virtual machine does not stand where the motion begins", {}, "plan it from the position");
     }
+    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
     execute(std::move(work), Activity::program);
 }
 

@@ -49,6 +49,16 @@ TEST(GrblCommand, IsRefusedInPlainWordsAndLeavesTheMachineReady) {
     EXPECT_EQ(wire.grbl.position()[0], 5.0);
 }
 
+TEST(GrblCommand, ThatWasRefusedIsForgottenWhenAProgramBegins) {
+    GrblWire wire;
+    const CommandAnswer refused = execute(wire, "G1 X2").answer;
+    ASSERT_EQ(refused.state, CommandAnswer::State::refused);
+    wire.start("G0 X1\n");
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::none);
+    EXPECT_EQ(wire.session.status().answer.text, "");
+    EXPECT_EQ(wire.session.status().answer.number, refused.number);
+}
+
 TEST(GrblCommand, IsNotTakenWhileAProgramRuns) {
     GrblWire wire;
     wire.start("G0 X50\nG0 X0\n");

@@ -63,6 +63,8 @@ TEST(ShellSession, ExecutesSingleLinesAndTellsWhatIsWrongWithThem) {
     EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::refused);
     EXPECT_NE(wire.session.status().answer.text, "");
     EXPECT_NEAR(wire.linuxcnc.position()[0], 3.0, 1e-9) << "after a refused line the rest is left out";
+    wire.start(square_at_one_feed);
+    EXPECT_EQ(wire.session.status().answer.state, CommandAnswer::State::none);
 }
 
 TEST(ShellSession, JogsAsFarAsTheHandSays) {
