@@ -7,7 +7,7 @@ std::string_view to_text(Stop stop) {
     case Stop::none:
         return "running";
     case Stop::halted:
-        return "halted at the end of the program";
+        return "halted at the end";
     case Stop::overflow:
         return "a number did not fit the word";
     case Stop::no_number:

@@ -214,8 +214,8 @@ TEST_F(ImportCommand, SaysWhatIsWrong) {
     const std::string broken = written("broken.step", "ISO-10303-21;\nHEADER;\n");
     EXPECT_THAT(refusal({"import", broken, "--out", path("p.json")}), HasSubstr("broken.step: "));
     EXPECT_FALSE(std::filesystem::exists(path("p.json")));
-    EXPECT_THAT(refusal({"import", written("a.txt", "x")}),
-                HasSubstr("a.txt: this kind of file is not imported"));
+    EXPECT_THAT(refusal({"import", written("a.doc", "x")}),
+                HasSubstr("a.doc: this kind of file is not imported"));
     EXPECT_THAT(refusal({"import", exported("d.step"), "--out", path("p.json"), "--face", "7"}),
                 HasSubstr("no face 7"));
     EXPECT_THAT(refusal({"import", exported("e.step"), "--out", path("p.json"), "--degree", "40"}),

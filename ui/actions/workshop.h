@@ -282,6 +282,7 @@ private:
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
     std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
+    std::weak_ptr<const project::ImportSource> fitted_import_{}; ///< the view was fitted to it
     std::uint64_t followed_import_ = 0;           ///< revision whose failure was told
     std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
     bool arm_failed_ = false;                     ///< the arm that ships could not be read

@@ -40,7 +40,10 @@ void Workshop::follow_import() {
         return;
     }
     followed_import_ = now->revision;
-    session_.fit_wanted_in(Workspace::design) = true;
+    if (now->source != fitted_import_.lock()) { // not where another face is chosen: a click would move what it hit
+        fitted_import_ = now->source;
+        session_.fit_wanted_in(Workspace::design) = true;
+    }
     if (now->failure) {
         Diagnostic told = *now->failure;
         told.place.file = now->file.filename();

@@ -60,7 +60,7 @@ void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                faults,
                stream != nullptr && now.arm.moving()
                    ? buffer_text(*stream)
-                   : "G1 X300 Z-50 ; from where the tool is, in mm; G2, G3 arcs; each block ends with ;");
+                   : "G1 X300 Z-50 ; relative, in mm; G2, G3 arcs; blocks end with ;");
     editor_.draw(ui, now, ask, faults);
 }
 

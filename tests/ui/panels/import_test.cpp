@@ -130,13 +130,13 @@ TEST_F(Import, OfTheProjectsPathNothingIsPlottedBesideWhatIsLookedAt) {
 
 TEST_F(Import, TheDialogListsTheFilesThatCanBeRead) {
     (void)written("dome.ply", surface_in(dome_project));
-    (void)written("notes.txt", std::string("nothing"));
+    (void)written("notes.md", std::string("nothing"));
     const fs::path project = person_.folder() / "mine.json";
     fs::copy_file(dome_project, project);
     person_.open(project);
     person_.press_key(render::Key::i, true);
     EXPECT_TRUE(person_.sees("dialogs/files/entries/dome.ply"));
-    EXPECT_FALSE(person_.sees("dialogs/files/entries/notes.txt"));
+    EXPECT_FALSE(person_.sees("dialogs/files/entries/notes.md"));
     EXPECT_FALSE(person_.sees("dialogs/files/entries/mine.json"));
     person_.click("dialogs/files/entries/dome.ply");
     person_.keep("import-dialog");

@@ -42,7 +42,7 @@ Person::Person(const render::PixelSize& screen,
 Person::Person(const render::PixelSize& screen, double scale) : Person(screen, scale, Folders{}) {}
 
 Person::Person(const render::PixelSize& screen, double scale, const Folders& folders)
-    : folder_(fresh_folder()), context_(screen, scale),
+    : scale_(static_cast<float>(scale)), folder_(fresh_folder()), context_(screen, scale),
       workshop_({.assets = "assets",
                  .log_folder = folders.jobs.empty() ? folder_ / "jobs" : folders.jobs,
                  .settings = (folders.settings.empty() ? folder_ : folders.settings) / "recent.json",
@@ -166,7 +166,8 @@ void Person::bring_into_sight(std::string_view path) {
             return;
         }
         const widgets::Rect pane = place(path.substr(0, path.find('/')));
-        hover({pane.x + 3.0F, pane.centre().y}); // beside its widgets, some of which keep the wheel
+        // Beside its widgets, some of which keep the wheel, and off the splitter at its edge.
+        hover({pane.x + 3.0F * scale_, pane.centre().y});
         input_.wheel = before.centre().y < pane.centre().y ? 1.0F : -1.0F;
         frames(3);
         if (place(path) == before && !visible()) {

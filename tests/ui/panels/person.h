@@ -95,6 +95,7 @@ private:
     void press_anew();        ///< what is held down
     void press();             ///< and lets go, where the mouse is
 
+    float scale_; ///< of the monitor
     std::filesystem::path folder_;
     render::OffscreenContext context_;
     actions::Workshop workshop_;
