@@ -72,9 +72,7 @@ std::vector<Mcs51Row> mcs51_rows(const CordicCompareOptions& options) {
         }
         rows.push_back({line, cordic::run_mcs51_line(code, line, options.mcs51)});
         const auto& run = rows.back().run;
-        const bool computed =
-            std::isfinite(run.vx) && std::isfinite(run.vy) && std::abs(run.vx) + std::abs(run.vy) > 0.0;
-        if (!computed) {
+        if (!std::isfinite(run.vx) || !std::isfinite(run.vy)) {
             throw Error(
                 fmt::format(
                     "of the line {} the program gives no velocity: vx {}, vy {}", text, run.vx, run.vy),

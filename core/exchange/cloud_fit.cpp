@@ -130,8 +130,17 @@ MeshFit fit_cloud(const std::vector<Vec3>& points, const FitSettings& given, con
     for (const Vec3& point : thinned_out(points, static_cast<std::size_t>(settings.points))) {
         samples.push_back({point, rectangle->place_of(point).cwiseMax(0.0).cwiseMin(1.0), std::nullopt});
     }
-    constexpr double room = 0.1, least_weight = 1e-10, most_weight = 1.0;
-    for (double weight = least_weight; weight <= most_weight; weight *= 10.0) {
+    // The patch is a rectangle seen along its normal: where the points leave its corners empty, as those of a
+    // twisted part do, it reaches beyond them.
+    constexpr double near = 0.1, far = 0.4; // of their diagonal
+    constexpr double least_weight = 1e-10, most_weight = 1.0;
+    std::vector<std::pair<double, double>> tries; // weight of the fairness, room
+    for (const double room : {near, far}) {
+        for (double weight = least_weight; weight <= most_weight; weight *= 10.0) {
+            tries.emplace_back(weight, room);
+        }
+    }
+    for (const auto& [weight, room] : tries) {
         progress.report(0.1, "fitting the patch");
         const LeastSquares squares(settings.degree_u, settings.degree_v, weight);
         FitRounds fit = fair_rounds(squares, samples, settings, progress);

@@ -282,16 +282,17 @@ private:
     std::optional<render::Gamepad> gamepad_;
     std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
     std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
-    std::weak_ptr<const project::ImportSource> fitted_import_{}; ///< the view was fitted to it
-    std::uint64_t followed_import_ = 0;           ///< revision whose failure was told
-    std::uint64_t followed_plot_ = 0;             ///< revision of the plot whose program was opened
-    bool arm_failed_ = false;                     ///< the arm that ships could not be read
-    std::optional<int> settings_sent_;            ///< the card's answer to them is still to be told
-    bool tells_of_file_ = false;                  ///< it is being read: how that ended is still to be told
-    bool follows_job_ = false;                    ///< a job was running when it was last looked at
-    std::filesystem::path gcode_;                 ///< opened by a person; empty: none
-    BeginAt gcode_begin_;                         ///< of its job, while the plot's program has its place
-    bool plot_plays_ = false;                     ///< the program of the plot has its place
+    /// The view was fitted to it.
+    std::weak_ptr<const project::ImportSource> fitted_import_{};
+    std::uint64_t followed_import_ = 0; ///< revision whose failure was told
+    std::uint64_t followed_plot_ = 0;   ///< revision of the plot whose program was opened
+    bool arm_failed_ = false;           ///< the arm that ships could not be read
+    std::optional<int> settings_sent_;  ///< the card's answer to them is still to be told
+    bool tells_of_file_ = false;        ///< it is being read: how that ended is still to be told
+    bool follows_job_ = false;          ///< a job was running when it was last looked at
+    std::filesystem::path gcode_;       ///< opened by a person; empty: none
+    BeginAt gcode_begin_;               ///< of its job, while the plot's program has its place
+    bool plot_plays_ = false;           ///< the program of the plot has its place
 };
 
 } // namespace millwright::actions

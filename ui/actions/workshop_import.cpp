@@ -40,7 +40,8 @@ void Workshop::follow_import() {
         return;
     }
     followed_import_ = now->revision;
-    if (now->source != fitted_import_.lock()) { // not where another face is chosen: a click would move what it hit
+    if (now->source !=
+        fitted_import_.lock()) { // not where another face is chosen: a click would move what it hit
         fitted_import_ = now->source;
         session_.fit_wanted_in(Workspace::design) = true;
     }

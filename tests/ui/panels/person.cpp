@@ -15,12 +15,28 @@ namespace millwright::test {
 
 namespace {
 
+/// Removed when the program ends: the workshop's threads write to them up to their end.
+struct MadeFolders {
+    std::vector<std::filesystem::path> made{};
+    MadeFolders() = default;
+    MadeFolders(const MadeFolders&) = delete;
+    MadeFolders& operator=(const MadeFolders&) = delete;
+    ~MadeFolders() {
+        for (const auto& folder : made) {
+            std::error_code ignored;
+            std::filesystem::remove_all(folder, ignored);
+        }
+    }
+};
+
 std::filesystem::path fresh_folder() {
     static int count = 0;
+    static MadeFolders folders;
     const auto folder = std::filesystem::temp_directory_path() /
                         ("millwright_person_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
+    folders.made.push_back(folder);
     return folder;
 }
 
@@ -55,7 +71,6 @@ Person::Person(const render::PixelSize& screen, double scale, const Folders& fol
 
 Person::~Person() {
     desktop_.reset();
-    std::filesystem::remove_all(folder_);
 }
 
 void Person::open(const std::filesystem::path& project_file) {

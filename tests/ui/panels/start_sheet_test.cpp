@@ -113,6 +113,7 @@ TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
     show_machine();
     person.press_key(render::Key::f9);
     wait_for_check();
+    person.frames(2);
     person.click("dialogs/start/start_check");
     const std::string answer = "dialogs/start/answer";
     ASSERT_TRUE(person.live_until([&] { return person.sees(answer); }));

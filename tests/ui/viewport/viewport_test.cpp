@@ -223,7 +223,7 @@ TEST_F(ViewportTest, SelectsByABox) {
     show(ViewKind::design);
     const widgets::Point a = handle("control_point(1,1)");
     const widgets::Point b = handle("control_point(2,2)");
-    move(std::min(a.x, b.x) - 200.0F, std::min(a.y, b.y) - 12.0F);
+    move(std::min(a.x, b.x) - 100.0F, std::min(a.y, b.y) - 12.0F);
     press();
     input.mouse_x = std::max(a.x, b.x) + 12.0F;
     input.mouse_y = std::max(a.y, b.y) + 12.0F;
