@@ -96,6 +96,8 @@ protected:
         fs::create_symlink(fs::absolute("assets"), checkout / "assets");
         fs::create_directories(checkout / "tmp");
         write_content(checkout / "part.ngc", "G21 G90 G94\nG1 X1 Y1 F3000\nM30\n");
+        write_content(checkout / "probe.csv",
+                      "0,0,0\n0,20,1\n0,40,0\n20,0,1\n20,20,3\n20,40,1\n40,0,0\n40,20,1\n40,40,0\n");
         write_content(checkout / "left.json", strip_project("left", 0.0));
         write_content(checkout / "right.json", strip_project("right", 40.2));
         fs::copy_file("assets/samples/cover.step", checkout / "part.step");

@@ -202,7 +202,7 @@ TEST_F(Import, AFaceIsChosenByAClickInTheView) {
     }
     drop("assets/samples/cover.step");
     person_.frames();
-    constexpr widgets::Point middle{560.0F, 400.0F}; // of the view
+    constexpr widgets::Point middle{500.0F, 270.0F}; // of the face on top
     person_.click_at(middle);
     person_.wait_idle();
     const int first = bench().choice().face;
