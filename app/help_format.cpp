@@ -30,7 +30,7 @@ bool is_between(const std::string& text, double least, double most) {
 }
 
 /// A default that says something: no empty text, no empty list, no number in place of a name, and none beyond
-/// the range, as what stands for "not given" is.
+/// the range, as the value for "not given" is.
 bool is_told(const std::string& value, const ValueText& of) {
     if (value.empty() || value == "[]" || value == "\"\"") {
         return false;

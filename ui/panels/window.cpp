@@ -177,7 +177,7 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
     }
 }
 
-/// What was told of a machine's fault is over with it, with its link, and when a job begins.
+/// Notices of a machine's fault end with the fault, with its link, and when a job begins.
 void Window::forget_machine_notices(const Workbench& now) {
     const actions::ControllerView& machine = now.controller;
     const MachineSeen seen{machine.connected(),
