@@ -184,7 +184,7 @@ TEST(Multigrid, GoesOnFromItsCloneAsItself) {
     EXPECT_EQ(solver.norm(), twin->norm());
 }
 
-#ifndef __SANITIZE_ADDRESS__ // which has an allocator of its own
+#ifndef MILLWRIGHT_OWN_ALLOCATOR
 TEST(Multigrid, TakesTheMemoryThatItAnnounces) {
     const auto held = [] {
         const struct mallinfo2 info = mallinfo2();
