@@ -58,7 +58,7 @@ void PositionMemory::remind(Driver& driver) {
     }
     // Found as if it had been switched on.
     if (const bool anew = !driver.status().position_doubt.empty(); kept_moving_ && anew && !kept_lost_) {
-        kept_ = "a program was running when it was last seen here, and it was reset or switched off since";
+        kept_ = "it was at work when it was last seen here, and it was reset or switched off since";
         kept_lost_ = true;
     }
     if (kept_.empty()) {
@@ -68,7 +68,8 @@ void PositionMemory::remind(Driver& driver) {
 }
 
 void PositionMemory::keep(const DriverStatus& status) {
-    const bool runs = is_at_work(status.state) && status.activity == Activity::program;
+    const bool runs = is_at_work(status.state) &&
+                      (status.activity == Activity::program || status.activity == Activity::command);
     const bool moving = runs || (status.link_lost && kept_moving_);
     if (status.state == DriverState::disconnected ||
         (status.position_doubt == kept_ && status.position_lost == kept_lost_ && moving == kept_moving_)) {

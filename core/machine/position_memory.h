@@ -10,9 +10,8 @@ namespace millwright::machine {
 class Driver;
 struct DriverStatus;
 
-/// Of one controller. Nothing is on disk unless something is in doubt, or a program runs: whoever finds the
-/// controller reset after a broken link or a program of ours that was killed knows then that it was cut off
-/// in motion.
+/// Of one controller. Nothing is on disk unless something is in doubt, or a program or a command runs: if the
+/// controller is found reset after a broken link, or after Millwright was killed, it was cut off in motion.
 class PositionMemory {
 public:
     /// `controller` tells it from others that are remembered in `folder`: its kind and address.
@@ -30,7 +29,7 @@ private:
     std::string controller_;
     std::string kept_;         ///< what was last kept; empty: nothing
     bool kept_lost_ = false;   ///< DriverStatus::position_lost, of that
-    bool kept_moving_ = false; ///< a program was running when it was last seen
+    bool kept_moving_ = false; ///< a program or a command was running when it was last seen
 };
 
 } // namespace millwright::machine

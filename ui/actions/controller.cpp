@@ -119,9 +119,10 @@ void Controller::reset() {
 }
 
 void Controller::reconnect() {
-    tell_in_background([](machine::Driver& driver) {
+    tell_in_background([this](machine::Driver& driver) {
         driver.close();
         driver.connect();
+        memory_->remind(driver);
     });
 }
 

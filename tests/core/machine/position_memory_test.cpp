@@ -129,7 +129,7 @@ TEST_F(PositionMemoryOf, AControllerThatWasResetWhileAProgramRanHasLostItsPositi
     ASSERT_FALSE(fresh.session.status().position_lost);
     memory().remind(found);
     EXPECT_THAT(fresh.session.status().position_doubt,
-                HasSubstr("a program was running when it was last seen here"));
+                HasSubstr("it was at work when it was last seen here"));
     EXPECT_TRUE(fresh.session.status().position_lost);
 }
 

@@ -108,17 +108,20 @@ TEST_F(MachineLink, SendsACoordinateStreamAndMakesALostLinkAgainWithoutMoving) {
     EXPECT_EQ(text.substr(heading, text.find('\n', heading) - heading), last); // it begins where it was
 }
 
+/// At a port of this computer, 0 for any that is free; which one it is.
+std::pair<std::uint16_t, std::unique_ptr<machine::GrblServer>> serve_grbl(std::uint16_t port,
+                                                                          machine::SteadyClock& clock) {
+    auto listener = std::make_unique<machine::TcpServer>(port);
+    listener->open();
+    const std::uint16_t opened = listener->port();
+    std::vector<std::unique_ptr<machine::Link>> links;
+    links.push_back(std::move(listener));
+    return {opened, std::make_unique<machine::GrblServer>(std::move(links), clock)};
+}
+
 TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
     machine::SteadyClock clock;
-    const auto serve = [&](std::uint16_t port) {
-        auto listener = std::make_unique<machine::TcpServer>(port);
-        listener->open();
-        const std::uint16_t opened = listener->port();
-        std::vector<std::unique_ptr<machine::Link>> links;
-        links.push_back(std::move(listener));
-        return std::pair{opened, std::make_unique<machine::GrblServer>(std::move(links), clock)};
-    };
-    auto [port, grbl] = serve(0);
+    auto [port, grbl] = serve_grbl(0, clock);
     choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
     connect();
     person.workshop().run("machine.reset");
@@ -134,7 +137,7 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
     ASSERT_TRUE(person.live_until([this] { return machine().link == LinkState::none; }));
     ASSERT_TRUE(machine().failure.has_value());
 
-    auto again = serve(port).second;
+    auto again = serve_grbl(port, clock).second;
     person.frames(3);
     connect();
     person.frames(30);
@@ -143,6 +146,27 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
         again->with_controller([](machine::GrblEmulator& it) { return it.truth().last_motion; });
     EXPECT_LE(last_motion, 0.0);
     EXPECT_FALSE(again->with_controller([](machine::GrblEmulator& it) { return it.moving(); }));
+}
+
+TEST_F(MachineLink, AfterReconnectAGrblThatWasResetInMotionIsNotTrusted) {
+    machine::SteadyClock clock;
+    auto [port, grbl] = serve_grbl(0, clock);
+    choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
+    connect();
+    person.workshop().run("machine.reset");
+    ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
+    person.fill_in("lower/command", "G1 X80 F300");
+    ASSERT_TRUE(person.live_until([this] { return is(DriverState::running); }));
+    grbl.reset();
+    ASSERT_TRUE(person.live_until([this] { return machine().status.link_lost; }));
+    ASSERT_FALSE(machine().status.position_lost);
+    const auto again = serve_grbl(port, clock).second; // at zero, as a board that was reset
+    person.frames(3);
+    person.click("inspector/connection/machine_reconnect");
+    ASSERT_TRUE(person.live_until([this] { return !machine().status.link_lost; }));
+    ASSERT_TRUE(person.live_until([this] { return machine().status.position_lost; }));
+    EXPECT_THAT(machine().status.position_doubt, HasSubstr("it was at work when it was last seen here"));
+    person.keep("machine-reset-in-motion");
 }
 
 /// As behind a link that broke in a job: the controller goes on with what it has.

@@ -1,4 +1,5 @@
 // A program that the controller reads in its check mode ($C): nothing moves, and it says what it refuses.
+#include "core/base/counted.h"
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/machine/drivers/grbl/internal/session.h"
@@ -104,7 +105,7 @@ void Session::finish_check(double now) {
     answer_.state = all_read ? CommandAnswer::State::done : CommandAnswer::State::refused;
     if (all_read) {
         answer_.text =
-            fmt::format("{} read all {} lines in check mode and refuses none", name(), checked_lines_);
+            fmt::format("{} read {} in check mode and refuses none", name(), counted(checked_lines_, "line"));
     }
     overrides_.forget();
     ask_again(Stage::ready, now, modes_before_check_);
