@@ -245,6 +245,7 @@ private:
     void follow_begin();
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
+    void open_processor_text(const std::function<void()>& open);
     void write_assembler(const std::string& title, const std::string& text);
     void write_microprogram(const std::string& title, const std::string& text);
     [[nodiscard]] bool follow_arm(double seconds);

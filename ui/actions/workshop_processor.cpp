@@ -69,9 +69,18 @@ void Workshop::write_microprogram(const std::string& title, const std::string& t
     processor_->set(choice);
 }
 
-void Workshop::open_assembler(const fs::path& file) {
+/// In a project that has no file and in which nothing was done, what is opened counts as saved: it is a file.
+void Workshop::open_processor_text(const std::function<void()>& open) {
+    const bool nothing_to_lose = document().file.empty() && !changed();
     session_.question = FileQuestion::none;
-    write_assembler("Open " + file.filename().string(), assembler_text(file));
+    open();
+    if (nothing_to_lose) {
+        document().saved = history_.current();
+    }
+}
+
+void Workshop::open_assembler(const fs::path& file) {
+    open_processor_text([&] { write_assembler("Open " + file.filename().string(), assembler_text(file)); });
 }
 
 void Workshop::save_assembler(const fs::path& file) {
@@ -96,8 +105,7 @@ void Workshop::start_microprogram() {
 }
 
 void Workshop::open_microprogram(const fs::path& file) {
-    session_.question = FileQuestion::none;
-    write_microprogram("Open " + file.filename().string(), read_file(file));
+    open_processor_text([&] { write_microprogram("Open " + file.filename().string(), read_file(file)); });
 }
 
 void Workshop::save_microprogram(const fs::path& file) {

@@ -103,6 +103,7 @@ TEST_F(ProcessorTexts, AFileOfAssemblerTextIsNoGCode) {
     person_.workshop().open(file("own.asm", line_and_end));
     person_.frames(2);
     EXPECT_EQ(person_.workshop().session().workspace, actions::Workspace::processor);
+    EXPECT_FALSE(person_.workshop().look().changed()); // nothing to save, nothing to recover
     EXPECT_EQ(bench().choice().source, ProcessorSource::assembler);
     EXPECT_EQ(text(), line_and_end);
     EXPECT_EQ(cordic::to_text(bench().image().format), "q12.20");
