@@ -34,8 +34,9 @@ struct BlockPlace {
 };
 
 constexpr float diagram_columns = 12.0F;
-constexpr float gap_across = 14.0F; // between two columns, px
-constexpr float gap_down = 10.0F;   // between two rows
+constexpr float diagram_width = 590.0F; // px, in which all that the boxes say has room
+constexpr float gap_across = 14.0F;     // between two columns, px
+constexpr float gap_down = 10.0F;       // between two rows
 constexpr int diagram_rows = 4;
 
 constexpr std::array<BlockPlace, 14> blocks{{
@@ -160,7 +161,7 @@ void draw_block(Ui& ui,
     for (std::size_t n = 0; n < lines.size() && y + line <= box.bottom() + ui.px(2.0F); ++n) {
         const Rect place{box.x + pad, y, inside, line};
         sketch.text(place, lines[n], colours.text, widgets::TextAlign::left, widgets::TextFont::mono);
-        ui.record(fmt::format("{}_line_{}", block.id, n), place);
+        ui.record(fmt::format("{}_line_{}", block.id, n), sketch.shown(place));
         y += line;
     }
 }
@@ -169,11 +170,12 @@ void draw_block(Ui& ui,
 
 void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
     const Processor& processor = now.processor.debugger().processor();
-    const widgets::Canvas canvas = widgets::canvas(ui, "diagram", place, 0);
+    Sketch sketch(ui, "diagram", place, ui.px(diagram_width));
+    (void)widgets::canvas(ui, "diagram", sketch.rect(), 0);
+    const Rect& drawing = sketch.drawing();
     const auto scope = ui.scope("blocks");
-    Sketch sketch(ui, canvas.rect);
     const float margin = ui.px(6.0F);
-    const Rect inside{place.x, place.y + margin, place.w, place.h - 2.0F * margin};
+    const Rect inside{drawing.x, drawing.y + margin, drawing.w, drawing.h - 2.0F * margin};
     Boxes boxes;
     for (std::size_t n = 0; n < blocks.size(); ++n) {
         boxes[n] = block_rect(ui, blocks[n], inside);
@@ -194,7 +196,7 @@ void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
         const auto block = static_cast<Block>(n);
         const bool lit = lights(block, processor.state());
         draw_block(ui, sketch, blocks[n], boxes[n], lit, lines_of(block, processor));
-        ui.record(blocks[n].id, boxes[n]);
+        ui.record(blocks[n].id, sketch.shown(boxes[n]));
     }
 }
 

@@ -134,9 +134,7 @@ void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
     const std::size_t done = processor.published().size();
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const Rect inside = below_title(
-        ui,
-        place,
-        fmt::format("Tool path, {} of {}", done, counted(now.processor.set_points(), "set-point")));
+        ui, place, fmt::format("Path: {} of {}", done, counted(now.processor.set_points(), "point")));
     const widgets::Canvas canvas = widgets::canvas(ui, "path", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-point.");
@@ -194,8 +192,8 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
     const Rect inside = below_title(
         ui,
         place,
-        late.empty() ? std::string("CORDIC path against the exact one")
-                     : fmt::format("CORDIC path, exact path; {} late", counted(late.size(), "set-point")));
+        late.empty() ? std::string("Off the exact path")
+                     : fmt::format("Off the exact path; {} late", counted(late.size(), "set-point")));
     (void)widgets::canvas(ui, "map", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-point.");

@@ -78,7 +78,7 @@ void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) co
     const Permission held = job == nullptr                   ? none
                             : job->state == QueueState::held ? Permission{}
                                                              : Permission::refused("It is not held.");
-    const auto row = ui.row(8);
+    const auto row = ui.row(8, ui.px(96.0F));
     action_button(ui, now, ask, catalogue_, "queue.run_next", Rank::primary, "Run next");
     action_button(ui, now, ask, catalogue_, "queue.add", Rank::normal, "Add this");
     const auto on_chosen = [&](std::string_view id,

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace millwright::panels {
@@ -34,6 +35,7 @@ constexpr float timeline_height = 92.0F;
 constexpr float emergency_width = 184.0F;
 constexpr float seam = 2.0F;
 constexpr float smallest_view = 240.0F;
+constexpr float smallest_diagram = 440.0F;    ///< of the processor, with the buttons below it
 constexpr double between_looks_at_pad = 0.02; ///< s
 constexpr double between_looks_for_pad = 0.5; ///< s
 
@@ -65,6 +67,10 @@ float actions::PaneSizes::*lower_size(const actions::Session& session) {
     default:
         return &actions::PaneSizes::lower;
     }
+}
+
+float smallest_middle(const actions::Session& session) {
+    return session.workspace == Workspace::processor ? smallest_diagram : smallest_view;
 }
 
 /// What a pane shows: where it is scrolled to is kept for each.
@@ -121,11 +127,15 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
     const float s = ui.px(seam);
     const float top = ui.px(menu_height);
     const float bottom = height - ui.px(status_height);
-    // Sizes may be those of a larger window: the view keeps its room.
-    const float wide = std::max(0.0F, width - ui.px(smallest_view));
+    // Sizes may be those of a larger window: the view keeps its room, and the left side gives more of it.
+    const float wanted_right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
+    const float wanted_left = sizes.outline_shown ? ui.px(sizes.*left_size(session)) : 0.0F;
+    const float missing =
+        std::max(0.0F, wanted_left + wanted_right + ui.px(smallest_middle(session)) - width);
+    const float left =
+        std::max(0.0F, wanted_left - std::round((wanted_right > 0.0F ? 0.7F : 1.0F) * missing));
+    const float right = std::max(0.0F, wanted_right - (missing - (wanted_left - left)));
     const float high = std::max(0.0F, height - ui.px(smallest_view + timeline_height + menu_height));
-    const float right = sizes.inspector_shown ? std::min(ui.px(sizes.inspector), wide) : 0.0F;
-    const float left = sizes.outline_shown ? std::min(ui.px(sizes.*left_size(session)), wide - right) : 0.0F;
     const float lower = sizes.lower_shown ? std::min(ui.px(sizes.*lower_size(session)), high) : 0.0F;
     const float emergency = ui.px(emergency_width);
     const float middle_top = top + s;
@@ -334,21 +344,34 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
                           const Rect& bar,
                           widgets::SizeOf side,
                           float actions::PaneSizes::*size,
+                          float now_px,
                           float min,
                           float max) {
-        if (const auto dragged = widgets::splitter(
-                ui, id, {bar, side, ui.px(sizes.*size), ui.px(min), std::max(ui.px(min), max)})) {
-            ask_.show([size, value = *dragged / ui.px(1.0F)](actions::Session& session) {
+        if (const auto dragged =
+                widgets::splitter(ui, id, {bar, side, now_px, ui.px(min), std::max(ui.px(min), max)})) {
+            const float unit = ui.px(1.0F);
+            // A window that is too small for all sizes shows smaller ones; they hold from now on.
+            ask_.show([size,
+                       value = *dragged / unit,
+                       left = place.outline.w / unit,
+                       right = place.inspector.w / unit](actions::Session& session) {
+                if (session.panes.outline_shown) {
+                    session.panes.*left_size(session) = left;
+                }
+                if (session.panes.inspector_shown) {
+                    session.panes.inspector = right;
+                }
                 session.panes.*size = value;
             });
         }
     };
-    const float spare = width - ui.px(smallest_view);
+    const float spare = width - ui.px(smallest_middle(now.session));
     if (sizes.outline_shown) {
         drag("outline",
              {place.outline.w, place.outline.y, s, place.outline.h},
              widgets::SizeOf::left,
              left_size(now.session),
+             place.outline.w,
              140.0F,
              spare - place.inspector.w);
     }
@@ -357,6 +380,7 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
              {place.inspector.x - s, place.inspector.y, s, place.inspector.h},
              widgets::SizeOf::right,
              &actions::PaneSizes::inspector,
+             place.inspector.w,
              240.0F,
              spare - place.outline.w);
     }
@@ -365,6 +389,7 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
              {0.0F, place.lower.y - s, place.lower.w, s},
              widgets::SizeOf::below,
              lower_size(now.session),
+             place.lower.h + s,
              90.0F,
              height - ui.px(smallest_view + timeline_height + menu_height));
     }

@@ -132,9 +132,14 @@ Guard Ui::section(std::string_view id, std::string_view title, bool open_at_firs
     return {*this, [](Ui& ui) { ui.state().places.leave(); }, memory->second > 0.5};
 }
 
-Guard Ui::row(int count) {
+Guard Ui::row(int count, float least_width) {
     expects(count > 0, "a row has at least one widget");
-    state_->cells.push_back({count, 0, {}});
+    const float gap = px(gaps::small);
+    const float room = ImGui::GetContentRegionAvail().x + gap;
+    const int fitting =
+        least_width > 0.0F ? std::max(static_cast<int>(room / (least_width + gap)), 1) : count;
+    const int lines = (count + fitting - 1) / fitting;
+    state_->cells.push_back({(count + lines - 1) / lines, 0, count, {}});
     return {*this, [](Ui& ui) { ui.state().cells.pop_back(); }};
 }
 

@@ -1,6 +1,7 @@
 #include "ui/widgets/sketch.h"
 
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/sideways.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,31 @@ Align align_of(TextAlign align) {
 
 } // namespace
 
-Sketch::Sketch(Ui& ui, const Rect& rect) : ui_(ui), rect_(rect) {
-    ImGui::PushClipRect(upper_left(rect), lower_right(rect), true);
+Sketch::Sketch(Ui& ui, const Rect& rect) : ui_(ui), rect_(rect), drawing_(rect) {
+    ImGui::PushClipRect(upper_left(rect_), lower_right(rect_), true);
+}
+
+Sketch::Sketch(Ui& ui, std::string_view id, const Rect& place, float width) : ui_(ui), rect_(place) {
+    const std::string own = ui.path(id);
+    Sideways sideways(ui, own, rect_);
+    drawing_ = {rect_.x, rect_.y, std::max(width, rect_.w), rect_.h};
+    sideways.content(drawing_.w, rect_.w);
+    drawing_.x -= sideways.shift();
+    ui.state().scrolls_sideways = drawing_.w > rect_.w;
+    ImGui::PushClipRect(upper_left(rect_), lower_right(rect_), true);
 }
 
 Sketch::~Sketch() {
     ImGui::PopClipRect();
+    ui_.state().scrolls_sideways = false;
+}
+
+Rect Sketch::shown(const Rect& place) const {
+    const float left = std::max(place.x, rect_.x), top = std::max(place.y, rect_.y);
+    return {left,
+            top,
+            std::max(std::min(place.right(), rect_.right()) - left, 0.0F),
+            std::max(std::min(place.bottom(), rect_.bottom()) - top, 0.0F)};
 }
 
 void Sketch::line(Point from, Point to, Colour colour, float thickness) {

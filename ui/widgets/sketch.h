@@ -16,11 +16,17 @@ class Sketch {
 public:
     /// Until it goes out of scope drawing is clipped to `rect`.
     Sketch(Ui& ui, const Rect& rect);
+    /// Of a drawing that needs `width` pixels: where the place is narrower it scrolls sideways, above a bar.
+    Sketch(Ui& ui, std::string_view id, const Rect& place, float width);
     Sketch(const Sketch&) = delete;
     Sketch& operator=(const Sketch&) = delete;
     ~Sketch();
 
     [[nodiscard]] const Rect& rect() const { return rect_; }
+    /// To draw in: as `rect`, or wider, and partly out of sight.
+    [[nodiscard]] const Rect& drawing() const { return drawing_; }
+    /// What is in sight of a place.
+    [[nodiscard]] Rect shown(const Rect& place) const;
 
     void line(Point from, Point to, Colour colour, float thickness = 1.0F);
     void path(std::span<const Point> points, Colour colour, float thickness = 1.0F);
@@ -38,7 +44,8 @@ public:
 
 private:
     Ui& ui_;
-    Rect rect_;
+    Rect rect_;    ///< that is seen
+    Rect drawing_; ///< wider where it scrolls
 };
 
 } // namespace millwright::widgets

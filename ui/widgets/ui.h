@@ -143,8 +143,9 @@ public:
     [[nodiscard]] Rect rest() const;
     /// A heading that folds what follows away; draw it only if the guard is true. Enters the scope `id`.
     Guard section(std::string_view id, std::string_view title, bool open_at_first = true);
-    /// The next `count` widgets without a label share one line in equal parts.
-    Guard row(int count);
+    /// The next `count` widgets without a label share one line in equal parts, or as few lines as leave each
+    /// of them `least_width` pixels.
+    Guard row(int count, float least_width = 0.0F);
     /// Widgets that would take all the width that is left take this much until the guard ends.
     Guard width(float width);
     /// Share of the width that labels take until the guard ends; 0.42 else.

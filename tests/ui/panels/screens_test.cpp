@@ -22,14 +22,12 @@ struct Monitor {
     render::PixelSize size;
     double scale;
     const char* name;
-    bool narrow =
-        false; ///< below the 1100 points that the Processor workspace and rows of eight buttons need
 };
 
 /// The last one is 1024 x 700 at the size in which it is read.
 constexpr std::array monitors{Monitor{{1280, 800}, 1.0, "1280x800"},
-                              Monitor{{1024, 700}, 1.0, "1024x700", true},
-                              Monitor{{1280, 875}, 1.25, "1280x875_at_125", true},
+                              Monitor{{1024, 700}, 1.0, "1024x700"},
+                              Monitor{{1280, 875}, 1.25, "1280x875_at_125"},
                               Monitor{{3840, 2160}, 2.0, "3840x2160_at_200"}};
 
 constexpr std::array every_workspace{
@@ -137,9 +135,6 @@ protected:
             person.press_key(render::Key::escape);
         }
         for (const std::string& tab : tabs) {
-            if (GetParam().narrow && (tab == own + "queue" || tab == own + "motion_file")) {
-                continue;
-            }
             if (!person.sees(tab)) {
                 person.click(own + "more");
                 person.frames(2);
@@ -151,9 +146,6 @@ protected:
 
     void look_everywhere() {
         for (const std::string_view workspace : every_workspace) {
-            if (GetParam().narrow && workspace == "processor") {
-                continue;
-            }
             person.workshop().run("view." + std::string(workspace));
             person.frames(3);
             open_sections();

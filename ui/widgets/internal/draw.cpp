@@ -15,6 +15,7 @@ constexpr std::string_view ellipsis = "…";
 
 Rect next_cell(Ui& ui, float height) {
     Ui::State::Cells& cells = ui.state().cells.back();
+    cells.next = cells.next == cells.count ? 0 : cells.next; // the next line
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (cells.next == 0) {
         cells.line = {at.x, at.y, ImGui::GetContentRegionAvail().x, height};
@@ -28,6 +29,7 @@ Rect next_cell(Ui& ui, float height) {
         ImGui::SetCursorScreenPos({x, cells.line.y});
     }
     ++cells.next;
+    --cells.left;
     return {x, cells.line.y, right - x, height};
 }
 
@@ -42,7 +44,7 @@ std::string_view start_of(const ImFont* font, std::string_view text, float width
 } // namespace
 
 Slot::Slot(Ui& ui, float width, float height) {
-    if (!ui.state().cells.empty() && ui.state().cells.back().next < ui.state().cells.back().count) {
+    if (!ui.state().cells.empty() && ui.state().cells.back().left > 0) {
         rect_ = next_cell(ui, height);
     } else {
         const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -47,8 +47,9 @@ struct Ui::State {
         std::string reason;
     };
     struct Cells {
-        int count = 0;
+        int count = 0; ///< side by side
         int next = 0;
+        int left = 0; ///< that have no place yet
         Rect line;
     };
 
