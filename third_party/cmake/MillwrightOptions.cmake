@@ -64,9 +64,10 @@ endif()
 if(CMAKE_BUILD_TYPE STREQUAL "Debug" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(millwright_options INTERFACE -Wno-maybe-uninitialized)
 endif()
-# clang gives this warning for defaulted comparisons too, where g++ knows better.
+# clang gives the first warning for defaulted comparisons too, and the second for a local name that another file of the
+# same unit has, too; g++ knows better.
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    target_compile_options(millwright_options INTERFACE -Wno-float-equal)
+    target_compile_options(millwright_options INTERFACE -Wno-float-equal -Wno-shadow)
 endif()
 if(MILLWRIGHT_CHECKED)
     target_compile_definitions(millwright_options INTERFACE _GLIBCXX_ASSERTIONS)
