@@ -1,12 +1,11 @@
 #include "core/base/text.h"
 
-#include "core/base/error.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace millwright {
 
@@ -56,11 +55,19 @@ std::string_view wide_encoding(std::string_view bytes) {
     return (a + c == 0 && mostly(b + d, half)) || (mostly(a + c, half) && b + d == 0) ? "UTF-16" : "";
 }
 
+std::optional<Diagnostic> wide_text_fault(std::string_view bytes, const std::filesystem::path& file) {
+    const std::string_view encoding = wide_encoding(bytes);
+    if (encoding.empty()) {
+        return std::nullopt;
+    }
+    return Diagnostic{.place = {.file = file, .line = 1},
+                      .message = fmt::format("the file is text in {}", encoding),
+                      .hint = "save it as ASCII or UTF-8"};
+}
+
 void refuse_wide_text(std::string_view bytes, const std::filesystem::path& file) {
-    if (const std::string_view encoding = wide_encoding(bytes); !encoding.empty()) {
-        throw Error({.place = {.file = file, .byte = 0},
-                     .message = fmt::format("the file is text in {}", encoding),
-                     .hint = "save it as ASCII or UTF-8"});
+    if (auto fault = wide_text_fault(bytes, file)) {
+        throw Error(std::move(*fault));
     }
 }
 

@@ -2,7 +2,10 @@
 // put in front of text.
 #pragma once
 
+#include "core/base/error.h"
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,8 +22,11 @@ namespace millwright {
 /// letter has zero bytes on one side. Empty if they are not.
 [[nodiscard]] std::string_view wide_encoding(std::string_view bytes);
 
-/// Throws Error at byte 0 of `file` if `bytes` are text in UTF-16 or UTF-32: its zero bytes would end every
-/// number after one digit.
+/// What is wrong with `file`, at its first line, if `bytes` are text in UTF-16 or UTF-32: its zero bytes
+/// would end every number after one digit.
+[[nodiscard]] std::optional<Diagnostic> wide_text_fault(std::string_view bytes,
+                                                        const std::filesystem::path& file);
+/// Throws Error with it if there is one.
 void refuse_wide_text(std::string_view bytes, const std::filesystem::path& file);
 
 /// `value` with exactly `decimals` digits after the point, never "-0.000". Throws Defect if not finite.

@@ -23,7 +23,10 @@ PlcBit input_of(std::string_view name) {
 
 ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name) {
     ReadInputs read;
-    refuse_wide_text(text, name);
+    if (auto fault = wide_text_fault(text, name)) {
+        read.errors.push_back(std::move(*fault));
+        return read;
+    }
     text = without_byte_order_mark(text);
     for (int line = 1; !text.empty(); ++line) {
         const std::vector<LineWord> words = words_of(take_line(text));

@@ -75,7 +75,10 @@ public:
         : name_(std::move(name)), constants_(constants) {}
 
     AssembledMicroprogram assemble(std::string_view text) {
-        refuse_wide_text(text, name_);
+        if (auto fault = wide_text_fault(text, name_)) {
+            result_.errors.push_back(std::move(*fault));
+            return std::move(result_);
+        }
         text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;

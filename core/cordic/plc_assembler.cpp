@@ -47,7 +47,10 @@ public:
     explicit PlcAssembler(std::filesystem::path name) : name_(std::move(name)) {}
 
     PlcProgram assemble(std::string_view text) {
-        refuse_wide_text(text, name_);
+        if (auto fault = wide_text_fault(text, name_)) {
+            made_.errors.push_back(std::move(*fault));
+            return std::move(made_);
+        }
         text = without_byte_order_mark(text);
         while (!text.empty()) {
             ++line_;

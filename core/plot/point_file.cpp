@@ -99,7 +99,10 @@ std::string point_file_text(const std::vector<Vec3>& points, int decimals) {
 
 PointFile read_points(std::string_view text, const std::filesystem::path& file) {
     PointFile read;
-    refuse_wide_text(text, file);
+    if (auto fault = wide_text_fault(text, file)) {
+        read.diagnostics.push_back(std::move(*fault));
+        return read;
+    }
     text = without_byte_order_mark(text);
     bool first = true;
     for (int number = 1; !text.empty(); ++number) {
