@@ -248,7 +248,10 @@ ReaderSettings with_line_ends(std::string_view bytes,
 } // namespace internal
 
 Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings) {
-    refuse_wide_text(bytes, file);
+    if (auto fault = wide_text_fault(bytes, file)) {
+        fault->place = {.file = file, .byte = 0};
+        throw Error(std::move(*fault));
+    }
     std::optional<Diagnostic> notice;
     const ReaderSettings chosen = internal::with_line_ends(bytes, file, settings, notice);
     Plot plot = internal::Reading(bytes, file, chosen).read();

@@ -316,7 +316,7 @@ TEST(BadPlots, TextInUtf16IsRefused) {
                                     stretched(plot, 0, 1),
                                     stretched(plot, 1, 0)}) {
         EXPECT_THAT(test::reason([&] { (void)read_hpgl(text, "wide.plt"); }),
-                    HasSubstr("wide.plt:1: the file is text in UTF-16"));
+                    HasSubstr("wide.plt byte 0: the file is text in UTF-16"));
         const PointFile points = read_points(text, "wide.csv");
         ASSERT_EQ(points.diagnostics.size(), 1U);
         EXPECT_THAT(to_text(points.diagnostics[0]), HasSubstr("wide.csv:1: the file is text in UTF-16"));
