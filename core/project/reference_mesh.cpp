@@ -137,7 +137,16 @@ ReferenceMesh reference_mesh(const ImportSource& source,
                              const ImportedSurface* imported,
                              const Progress& progress) {
     ReferenceMesh reference;
-    if (imported != nullptr && imported->fit && !imported->fit->side.triangles.empty()) {
+    if (imported != nullptr && imported->points) {
+        reference.fitted.points = imported->points->points;
+        reference.deviation = imported->points->deviation.at_points;
+        reference.largest = imported->points->deviation.max;
+    } else if (source.points) {
+        reference.rest.points = source.points->points;
+        for (Vec3& point : reference.rest.points) {
+            point *= choice.mm_per_unit;
+        }
+    } else if (imported != nullptr && imported->fit && !imported->fit->side.triangles.empty()) {
         const exchange::MeshFit& fit = *imported->fit;
         reference.fitted = fit.side;
         reference.deviation = fit.deviation.at_points;

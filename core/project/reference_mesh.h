@@ -1,5 +1,5 @@
-// What of another program's file stands beside the design: the triangles that a patch was fitted to, with
-// their distances from it, and all else that the file has.
+// What of another program's file is shown beside the design: the triangles or measured points that a patch
+// was fitted to, with their distances from it, and all else that the file has.
 #pragma once
 
 #include "core/base/progress.h"
@@ -11,7 +11,7 @@
 namespace millwright::project {
 
 struct ReferenceMesh {
-    exchange::TriangleMesh fitted;
+    exchange::TriangleMesh fitted; ///< measured points: without triangles; so is `rest` then
     std::vector<double> deviation; ///< one a point of `fitted`, mm; above zero on the side of the normal
     double largest = 0.0;          ///< as it is told, without sign
     exchange::TriangleMesh rest;   ///< other faces of the file, other sides of the mesh

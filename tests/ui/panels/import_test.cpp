@@ -75,10 +75,13 @@ TEST_F(Import, MeasuredPointsAreASurfaceThroughThemOrNearThem) {
     person_.wait_idle();
     EXPECT_EQ(bench().latest()->surface->surface.patches.size(), 1U);
     EXPECT_TRUE(person_.sees("view/deviation_legend"));
+    EXPECT_EQ(bench().latest()->reference->fitted.points.size(), 64U); // drawn beside the surface
     person_.keep("import-points");
     person_.click("inspector/import/patch/cloud");
     person_.wait_idle();
     EXPECT_EQ(bench().latest()->surface->points->rows, 0);
+    EXPECT_EQ(bench().latest()->reference->fitted.points.size(), 64U);
+    person_.keep("import-cloud");
     person_.click("inspector/import/import_take");
     person_.wait_idle();
     EXPECT_EQ(person_.project().surface.patches.size(), 1U);

@@ -1,4 +1,4 @@
-// Triangles of another program's file beside the design, and how far those that were fitted are from it.
+// Triangles or measured points of a file beside the design, and how far those that were fitted are from it.
 
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
@@ -10,6 +10,7 @@ namespace {
 
 using exchange::TriangleMesh;
 
+constexpr double above_surface = 0.004;     // of the radius of what is shown: points lie on the surface
 constexpr std::size_t most_outline = 2'000; // points that the view is fitted to
 
 /// Normals are the mean of those of the triangles around, by area. `values` may be empty.
@@ -34,6 +35,18 @@ render::MeshBuffer reference_buffer(const TriangleMesh& mesh, const std::vector<
     return {vertices, corners};
 }
 
+/// Of what has no triangles.
+render::PointBuffer measured_points(const TriangleMesh& mesh, const std::vector<double>& values) {
+    std::vector<render::PointVertex> points;
+    if (mesh.triangles.empty()) {
+        for (std::size_t n = 0; n < mesh.points.size(); ++n) {
+            points.push_back({.position = render::to_float(mesh.points[n]),
+                              .value = values.empty() ? 0.0F : static_cast<float>(values[n])});
+        }
+    }
+    return render::PointBuffer(points);
+}
+
 void add_outline(std::vector<Vec3>& outline, const TriangleMesh& mesh) {
     const std::size_t stride = mesh.points.size() / most_outline + 1;
     for (std::size_t n = 0; n < mesh.points.size(); n += stride) {
@@ -51,9 +64,13 @@ public:
         outline_.clear();
         fitted_ = {};
         rest_ = {};
+        fitted_points_ = {};
+        rest_points_ = {};
         if (reference_) {
             fitted_ = reference_buffer(reference_->fitted, reference_->deviation);
             rest_ = reference_buffer(reference_->rest, {});
+            fitted_points_ = measured_points(reference_->fitted, reference_->deviation);
+            rest_points_ = measured_points(reference_->rest, {});
             add_outline(outline_, reference_->fitted);
             add_outline(outline_, reference_->rest);
         }
@@ -68,17 +85,19 @@ public:
                                          .back_color = canvas.colors.neutral[3]};
         if (scene.layers.reference) {
             canvas.painter.mesh(rest_, plain, canvas.view);
+            draw_points(rest_points_, plain.coloring, canvas);
         }
         if (surface_colors(scene) == SurfaceColors::deviation) {
+            const render::Coloring by_deviation{.from = render::ColorFrom::value,
+                                                .scale = deviation_colors(scene)};
             canvas.painter.mesh(
                 fitted_,
-                {.coloring = {.from = render::ColorFrom::value, .scale = deviation_colors(scene)},
-                 .model = canvas.s_T_w,
-                 .back_color = {},
-                 .highlight = 0.05F},
+                {.coloring = by_deviation, .model = canvas.s_T_w, .back_color = {}, .highlight = 0.05F},
                 canvas.view);
+            draw_points(fitted_points_, by_deviation, canvas);
         } else if (scene.layers.reference) {
             canvas.painter.mesh(fitted_, plain, canvas.view);
+            draw_points(fitted_points_, plain.coloring, canvas);
         }
     }
 
@@ -88,8 +107,22 @@ public:
     }
 
 private:
+    static void
+    draw_points(const render::PointBuffer& points, const render::Coloring& coloring, const Canvas& canvas) {
+        if (points.count() > 0) {
+            canvas.painter.points(points,
+                                  {.coloring = coloring,
+                                   .model = canvas.s_T_w,
+                                   .size_px = 6.0F,
+                                   .ring_px = 1.0F,
+                                   .ring_color = with_opacity(canvas.colors.neutral[1], 1.0F)},
+                                  nearer(canvas, above_surface * radius(canvas.content)));
+        }
+    }
+
     std::shared_ptr<const project::ReferenceMesh> reference_;
     render::MeshBuffer fitted_, rest_;
+    render::PointBuffer fitted_points_, rest_points_; ///< measured points
     std::vector<Vec3> outline_;
 };
 

@@ -61,7 +61,10 @@ public:
         const render::MeshStyle style = {.coloring = {.color = with_opacity(colors.surface, 1.0F)},
                                          .model = canvas.s_T_w,
                                          .back_color = colors.surface_back};
-        if (surface_colors(scene) == SurfaceColors::plain) {
+        const SurfaceColors shown = surface_colors(scene);
+        const bool measured_points =
+            shown == SurfaceColors::deviation && scene.reference->fitted.triangles.empty();
+        if (shown == SurfaceColors::plain || measured_points) {
             canvas.painter.mesh(mesh_, style, canvas.view);
         }
         if (outside_.index_count() > 0) {
