@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -66,24 +67,31 @@ KeptOutputs::KeptOutputs(std::vector<fs::path> files) : files_(std::move(files))
         if (real.empty() || WrittenFiles().holds(real)) {
             continue;
         }
-        if (fs::path name = kept_name(real); named_twice(real, name)) {
-            kept_.emplace_back(real, std::move(name));
-        } // else nothing can be written there either
+        fs::path name = kept_name(real);
+        if (!named_twice(real, name)) {
+            name.clear(); // nothing can be written there either
+        }
+        kept_.emplace_back(real, std::move(name));
     }
 }
 
 KeptOutputs::~KeptOutputs() {
+    std::vector<fs::path> not_ours;
     for (const auto& [file, name] : kept_) {
-        if (is_untouched(file, name)) {
+        if (name.empty()) {
+            not_ours.push_back(file);
+        } else if (is_untouched(file, name)) {
             std::error_code ignored;
             fs::remove(name, ignored);
+            not_ours.push_back(file);
         } else {
             say_kept(file, name);
         }
     }
     std::vector<fs::path> written;
     for (const fs::path& file : files_) {
-        if (fs::path real = file_to_lose(file); !real.empty()) {
+        fs::path real = file_to_lose(file);
+        if (!real.empty() && std::ranges::find(not_ours, real) == not_ours.end()) {
             written.push_back(std::move(real));
         }
     }

@@ -18,7 +18,8 @@ namespace millwright::app {
 void say_kept(const std::filesystem::path& file, const std::filesystem::path& name);
 
 /// While a command runs that writes `files`. At the end those that it replaced, and that were not as a
-/// command had written them last, are there under another name, and what it wrote is remembered.
+/// command had written them last, are there under another name, and what it wrote is remembered. A file that
+/// it left alone stays what it was: of others, or ours.
 class KeptOutputs {
 public:
     explicit KeptOutputs(std::vector<std::filesystem::path> files);
@@ -28,7 +29,8 @@ public:
 
 private:
     std::vector<std::filesystem::path> files_;
-    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> kept_; ///< with a second name each
+    /// Of others, each with its second name; empty where it cannot have one.
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> kept_;
 };
 
 } // namespace millwright::app

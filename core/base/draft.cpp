@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <deque>
 #include <mutex>
 #include <set>
 #include <string>
@@ -84,28 +85,57 @@ void remove_abandoned(const fs::path& folder) {
     }
 }
 
-/// As the kernel's protected_symlinks, which does not know that we go where the link leads.
+/// Whether somebody may have put the link there who is neither the user, nor root, nor the folder's owner.
 bool is_planted(const fs::path& link) {
     struct stat of_link {};
     struct stat of_folder {};
-    const fs::path folder = link.has_parent_path() ? link.parent_path() : fs::path(".");
-    if (::lstat(link.c_str(), &of_link) != 0 || ::stat(folder.c_str(), &of_folder) != 0) {
+    if (::lstat(link.c_str(), &of_link) != 0 || ::stat(link.parent_path().c_str(), &of_folder) != 0) {
         return false;
     }
-    constexpr mode_t for_everybody = S_ISVTX | S_IWOTH;
-    return (of_folder.st_mode & for_everybody) == for_everybody && of_link.st_uid != ::geteuid() &&
+    constexpr mode_t others_write = S_IWGRP | S_IWOTH;
+    return (of_folder.st_mode & others_write) != 0 && of_link.st_uid != 0 && of_link.st_uid != ::geteuid() &&
            of_link.st_uid != of_folder.st_uid;
+}
+
+/// Throws Error for such a link on the way to `target`, at its end, or behind another link.
+void refuse_planted_links(const fs::path& target) {
+    constexpr int most_links = 40; // as the kernel
+    const fs::path whole = fs::absolute(target);
+    std::deque<fs::path> rest(whole.begin(), whole.end());
+    fs::path at;
+    std::error_code none;
+    for (int links = 0; !rest.empty() && links <= most_links;) {
+        const fs::path part = std::exchange(rest.front(), {});
+        rest.pop_front();
+        if (part.empty() || part == ".") {
+            continue;
+        }
+        if (part == "..") {
+            at = at.parent_path();
+            continue;
+        }
+        const fs::path next = part.is_absolute() ? part : at / part;
+        if (!fs::is_symlink(fs::symlink_status(next, none))) {
+            at = next;
+            continue;
+        }
+        if (is_planted(next)) {
+            throw Error("cannot write: " + next.string() +
+                            " is a link of another user in a folder in which others may write",
+                        target);
+        }
+        const fs::path to = fs::read_symlink(next, none);
+        rest.insert(rest.begin(), to.begin(), to.end());
+        ++links;
+    }
 }
 
 /// Behind the link, if it is one.
 fs::path resolved(const fs::path& target) {
+    refuse_planted_links(target);
     std::error_code failure;
     if (!fs::is_symlink(fs::symlink_status(target, failure))) {
         return target;
-    }
-    if (is_planted(target)) {
-        throw Error("cannot write: it is a link of another user in a folder that is open to everybody",
-                    target);
     }
     fs::path real = fs::weakly_canonical(target, failure);
     if (failure) {

@@ -15,8 +15,8 @@ enum class Privacy { shared, own }; ///< as the umask says; nobody but the user
 class Draft {
 public:
     /// Refuses a `target` that is a folder, that the user may not write, that is write-protected, even for
-    /// root, and one behind a link that a stranger has put into a folder where everybody may put files.
-    /// Behind any other link the link's target is meant.
+    /// root, and one behind a link, also of a folder, that a stranger may have put into a folder in which
+    /// others may write. Behind any other link the link's target is meant.
     explicit Draft(const std::filesystem::path& target, Privacy privacy = Privacy::shared);
     Draft(const Draft&) = delete;
     Draft& operator=(const Draft&) = delete;

@@ -73,6 +73,27 @@ TEST_F(KeptFiles, AProgramThatAPersonHasEditedIsKeptUnderAnotherName) {
     EXPECT_TRUE(drafts().empty());
 }
 
+TEST_F(KeptFiles, ACommandThatFailsMakesNoFileItsOwn) {
+    const fs::path good = scratch / "good.ngc", bad = scratch / "bad.ngc", mine = scratch / "p.ngc";
+    write_content(good, "G00 Z5\nG01 Z1 F100\nM02\n");
+    write_content(bad, "G1 X10 F0\n");
+    const auto convert = [&](const fs::path& from) {
+        return run({"gcode", "convert", from, "--machine", "router-xyz", "--post", "grbl", "--out", mine});
+    };
+    write_content(mine, "my notes");
+    EXPECT_EQ(convert(bad).exit_code, 1);
+    EXPECT_EQ(content_of(mine), "my notes");
+    EXPECT_FALSE(fs::exists(scratch / "p-kept-1.ngc"));
+    EXPECT_THAT(convert(good).err, HasSubstr("what was there is now in p-kept-1.ngc"));
+    EXPECT_EQ(content_of(scratch / "p-kept-1.ngc"), "my notes");
+    write_content(mine, "edited"); // a program of ours that a person has changed
+    EXPECT_EQ(convert(bad).exit_code, 1);
+    EXPECT_THAT(convert(good).err, HasSubstr("what was there is now in p-kept-2.ngc"));
+    EXPECT_EQ(content_of(scratch / "p-kept-2.ngc"), "edited");
+    EXPECT_EQ(convert(bad).exit_code, 1); // ours stays ours
+    EXPECT_EQ(convert(good).err, "");
+}
+
 /// The contents of all files in `folder`, those with a dot in front only where `hidden`.
 std::vector<std::string> contents(const fs::path& folder, bool hidden) {
     std::vector<std::string> found;

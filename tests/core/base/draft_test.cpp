@@ -136,13 +136,31 @@ TEST_F(DraftTest, ALinkOfAStrangerInAnOpenFolderIsNotFollowed) {
     if (::geteuid() != 0) {
         GTEST_SKIP() << "only root can give links away";
     }
-    write_file(folder_ / "secret", "old");
+    constexpr uid_t stranger = 12345;
+    fs::create_directory(folder_ / "home");
+    write_file(folder_ / "home/secret", "old");
     fs::create_directory(folder_ / "open");
-    fs::permissions(folder_ / "open", fs::perms(01777));
-    fs::create_symlink(folder_ / "secret", folder_ / "open/out");
-    ASSERT_EQ(::lchown((folder_ / "open/out").c_str(), 12345, 12345), 0);
-    EXPECT_NE(refusal(folder_ / "open/out").find("link of another user"), std::string::npos);
-    EXPECT_EQ(read_file(folder_ / "secret"), "old");
+    fs::create_symlink(folder_ / "home/secret", folder_ / "open/out");
+    fs::create_symlink("../home", folder_ / "open/folder");
+    fs::create_symlink(folder_ / "open/out", folder_ / "ours"); // behind it lies that of the stranger
+    for (const char* const link : {"open/out", "open/folder"}) {
+        ASSERT_EQ(::lchown((folder_ / link).c_str(), stranger, stranger), 0);
+    }
+    for (const unsigned mode : {01777U, 0777U, 02775U}) {
+        ASSERT_EQ(::chmod((folder_ / "open").c_str(), mode), 0);
+        for (const char* const name : {"open/out", "open/folder/secret", "open/folder/new", "ours"}) {
+            EXPECT_NE(refusal(folder_ / name).find("link of another user"), std::string::npos)
+                << name << mode;
+        }
+    }
+    EXPECT_EQ(read_file(folder_ / "home/secret"), "old");
+    ASSERT_EQ(::chown((folder_ / "open").c_str(), stranger, stranger), 0); // who owns the folder may
+    write_file(folder_ / "open/out", "new");
+    EXPECT_EQ(read_file(folder_ / "home/secret"), "new");
+    ASSERT_EQ(::chown((folder_ / "open").c_str(), 0, 0), 0);
+    ASSERT_EQ(::chmod((folder_ / "open").c_str(), 0755), 0); // where nobody else writes it is no trap
+    write_file(folder_ / "open/folder/secret", "newer");
+    EXPECT_EQ(read_file(folder_ / "home/secret"), "newer");
 }
 
 TEST_F(DraftTest, OfAKilledProgramIsRemovedByTheNextAndThatOfALivingOneIsNot) {
