@@ -19,7 +19,7 @@ void add_gouges_option(CLI::App& command, bool& allowed) {
 }
 
 std::string gouges_of(const OpenedProject& opened, const project::Plan& plan) {
-    return plan.cut ? project::gouge_text(opened.project.tool, *plan.cut) : std::string();
+    return plan.cut ? project::gouge_text(opened.project, *plan.cut) : std::string();
 }
 
 void answer_for_gouges(const OpenedProject& opened,

@@ -255,6 +255,17 @@ int convert_gcode(const GcodeOptions& options) {
     if (run.found.start_notice) {
         fmt::print(stderr, "warning: {}\n", to_text(*run.found.start_notice));
     }
+    const bool spindle_turns = std::ranges::any_of(run.found.program.blocks, [](const gcode::Block& block) {
+        return block.kind == gcode::BlockKind::spindle_on;
+    });
+    if (!spindle_turns && run.found.first_rpm > 0.0) {
+        fmt::print(
+            stderr,
+            "warning: {}: the program sets a spindle speed, {:g} 1/min, and never switches the spindle on "
+            "(M3): the speed is left out\n",
+            options.file,
+            run.found.first_rpm);
+    }
     if (!options.origin.empty()) {
         fmt::print(stderr,
                    "warning: {}: the positions count from the machine's zero, as --origin places the work "

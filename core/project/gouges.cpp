@@ -2,6 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/text.h"
+#include "core/project/cut_remarks.h"
 
 #include <fmt/format.h>
 
@@ -34,12 +35,12 @@ std::string blocks_text(const DeepestBite& found) {
 
 } // namespace
 
-std::string gouge_text(const ToolInput& tool, const CutStudy& cut) {
+std::string gouge_text(const Project& project, const CutStudy& cut) {
     std::string text;
     if (const DeepestBite cutter = deepest_of(cut, false); cutter.bite != nullptr) {
         text = fmt::format("the cutter goes up to {} mm below the surface, where {} mm are allowed ({})",
                            fixed(cutter.bite->bite.depth, 4),
-                           shortest(tool.gouge_limit_mm),
+                           shortest(project.tool.gouge_limit_mm),
                            blocks_text(cutter));
     }
     if (const DeepestBite holder = deepest_of(cut, true); holder.bite != nullptr) {
@@ -48,7 +49,7 @@ std::string gouge_text(const ToolInput& tool, const CutStudy& cut) {
                             fixed(holder.bite->bite.depth, 4),
                             blocks_text(holder));
     }
-    return text;
+    return text.empty() ? text : text + "; " + checked_text(project);
 }
 
 } // namespace millwright::project

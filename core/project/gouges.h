@@ -2,14 +2,15 @@
 #pragma once
 
 #include "core/project/cut_study.h"
-#include "core/project/tool_input.h"
+#include "core/project/project.h"
 
 #include <string>
 
 namespace millwright::project {
 
 /// "the cutter goes up to 10.2421 mm below the surface, where 0.1 mm are allowed (163 blocks, the deepest in
-/// line 47)", and the same of the holder; empty if no block of the program gouges the part.
-[[nodiscard]] std::string gouge_text(const ToolInput& tool, const CutStudy& cut);
+/// line 47)", and the same of the holder, with checked_text(); empty if no block of the program gouges the
+/// part.
+[[nodiscard]] std::string gouge_text(const Project& project, const CutStudy& cut);
 
 } // namespace millwright::project

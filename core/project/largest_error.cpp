@@ -29,7 +29,8 @@ std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& wo
                          .tip;
     const double found = moves[*worst].closest;
     const double tolerance = std::max(1e-3 * found, 1e-4);
-    return geometry::distance_bounds(workpiece.patch, tip, found, tolerance);
+    return geometry::DistanceBounds{
+        geometry::distance_bounds(workpiece.patch, tip, found, tolerance).at_least, found};
 }
 
 } // namespace millwright::project

@@ -8,10 +8,10 @@
 
 namespace millwright::project {
 
-/// Between which figures the largest `closest` of the moves inside tracks surely lies, mm: of the place where
-/// it was found. The other moves are at most as far off by what was found, so that the bounds are those of
-/// the maximum. Nothing with a cutter, whose error is no distance of its tip, or without a move inside a
-/// track.
+/// Between which figures the largest `closest` of the moves inside tracks surely lies, mm. At least: how far
+/// the tip is off at the place where it was found. At most: what was found, since no move is farther off than
+/// the point of the surface that was found for it. Nothing with a cutter, whose error is no distance of its
+/// tip, or without a move inside a track.
 [[nodiscard]] std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& workpiece,
                                                                            const Evaluation& evaluation);
 

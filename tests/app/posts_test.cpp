@@ -54,6 +54,9 @@ TEST_F(Posts, ConvertSaysWhatTheControlHasToHave) {
     const Ended placed = run(
         {"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--origin", "100,100,-50"});
     EXPECT_THAT(placed.err, HasSubstr("with a work offset (G54) of zero"));
+    write_content(file, "G21 G90\nS1500\nG0 X1 Y1 Z5\nG1 Z-1 F100\nM2\n");
+    const Ended still = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "linuxcnc-xyz"});
+    EXPECT_THAT(still.err, HasSubstr("sets a spindle speed, 1500 1/min, and never switches the spindle on"));
 }
 
 TEST_F(Posts, ConvertCutsFeedsUntilTheTipStaysOnTheProgramsWay) {

@@ -1,5 +1,6 @@
 // What a person can do with the arm as a whole; its joints and its goal are moved by panels and the view.
 #include "ui/actions/arm_bench.h"
+#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
 
@@ -35,6 +36,9 @@ Permission moves(const Workbench& now) {
 Permission can_enable(const Workbench& now) {
     if (!now.controller.connected() || !now.controller.can.power) {
         return Permission::refused("Nothing is connected whose motors get their power from here.");
+    }
+    if (const Permission in_sight = seen(now); !in_sight.allowed) {
+        return in_sight;
     }
     if (now.controller.status.powered) {
         return Permission::refused("The motors have power.");

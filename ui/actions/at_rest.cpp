@@ -1,5 +1,7 @@
 #include "ui/actions/at_rest.h"
 
+#include "ui/actions/workbench.h"
+
 namespace millwright::actions {
 
 using machine::DriverState;
@@ -20,6 +22,13 @@ Permission at_rest(const ControllerView& machine) {
     return state == DriverState::idle || state == DriverState::stopped
                ? Permission{}
                : Permission::refused("The machine is moving.");
+}
+
+Permission seen(const Workbench& now) {
+    const Workspace at = now.session.workspace;
+    return at == Workspace::machine || at == Workspace::arm
+               ? Permission{}
+               : Permission::refused("In the workspaces Machine (F6) and Arm (Shift+F6) only: it moves.");
 }
 
 namespace {

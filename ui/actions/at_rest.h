@@ -6,8 +6,14 @@
 
 namespace millwright::actions {
 
+struct Workbench;
+
 /// Yes while it stands and waits; else why not, and what there is to press.
 [[nodiscard]] widgets::Permission at_rest(const ControllerView& machine);
+
+/// Refused outside of the workspaces in which the machine and what it does are seen: a word typed into the
+/// palette must move nothing there.
+[[nodiscard]] widgets::Permission seen(const Workbench& now);
 
 /// A connected arm moves, or its motors have power: whoever leaves it ends that.
 [[nodiscard]] bool arm_moves(const ControllerView& machine);

@@ -1,4 +1,5 @@
 // Connecting a machine and what it can do as a whole. Its axes are moved by the panel (jog_hand.h).
+#include "ui/actions/at_rest.h"
 #include "ui/actions/controller.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/workshop.h"
@@ -58,6 +59,9 @@ Permission can_reconnect(const Workbench& now) {
 Permission can_home(const Workbench& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
+    }
+    if (const Permission in_sight = seen(now); !in_sight.allowed) {
+        return in_sight;
     }
     if (!now.controller.can.home) {
         const std::string_view why = now.controller.can.why_no_home;

@@ -27,6 +27,12 @@ Permission can_send_plot(const Workbench& now) {
     return now.job.running ? Permission::refused("A job is running.") : has_path(now);
 }
 
+Permission has_path_without_points(const Workbench& now) {
+    const Permission path = has_path(now);
+    return path.allowed && now.plot.latest()->points ? Permission::refused("It is a file of points already.")
+                                                     : path;
+}
+
 Permission can_play_plot(const Workbench& now) {
     if (const Permission path = has_path(now); !path.allowed) {
         return path;
@@ -112,6 +118,17 @@ void add_plot_actions(Actions& actions) {
          icons::save},
         has_path,
         [](Hands& hands) { hands.workshop.write_plot_path(); });
+    add(actions,
+        {"plot.write_points",
+         menu,
+         "Write the points",
+         "A file of the points that the table is sent, one per period, beside the plot, or in your own "
+         "folder; "
+         "no other file is replaced.",
+         "",
+         icons::save},
+        has_path_without_points,
+        [](Hands& hands) { hands.workshop.write_plot_points(); });
     add(actions,
         {"plot.to_machine",
          menu,

@@ -2,7 +2,9 @@
 
 #include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
+#include "core/machine/point_job.h"
 #include "core/plot/path_file.h"
+#include "core/plot/point_file.h"
 #include "core/project/assets.h"
 
 #include <fmt/format.h>
@@ -73,14 +75,17 @@ double PlotBench::tool_diameter() const {
     return settings().tip.kind == plot::TipKind::point ? 0.0 : settings().tip.diameter;
 }
 
+std::shared_ptr<const kinematics::MachineModel> PlotBench::model() const {
+    return std::make_shared<const kinematics::MachineModel>(
+        kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
+}
+
 void PlotBench::play_table(double timeline_s) {
     const auto now = latest();
     if (!now || !now->path) {
         throw Error("there is no path to be played");
     }
-    auto model = std::make_shared<const kinematics::MachineModel>(
-        kinematics::read_machine(project::machine_path(settings().machine, file().parent_path(), assets_)));
-    table_->play(table_choice_, {now->path, file(), std::move(model), now->spindle_rpm(), now->points});
+    table_->play(table_choice_, {now->path, file(), model(), now->spindle_rpm(), now->points});
     played_ = file();
     timeline_at_play_ = timeline_s;
 }
@@ -120,6 +125,17 @@ fs::path PlotBench::write_path(const fs::path& folder) const {
     expects(now != nullptr && now->path != nullptr, "there is a path to be written");
     const fs::path target = free_place(folder, file().stem().string(), "path");
     write_file(target, plot::path_file_text(*now->path));
+    return target;
+}
+
+fs::path PlotBench::write_points(const fs::path& folder) const {
+    const auto now = latest();
+    expects(now != nullptr && now->path != nullptr, "there is a path to be decoded");
+    const machine::Job job =
+        machine::path_points_job(*now->path, file(), model(), {.decoding = table_choice_.decoding});
+    const fs::path target = free_place(folder, file().stem().string(), "csv");
+    constexpr int decimals = 4;
+    write_file(target, plot::point_file_text(job.points->points, decimals));
     return target;
 }
 

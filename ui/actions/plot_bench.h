@@ -73,11 +73,16 @@ public:
     [[nodiscard]] std::filesystem::path write_program(const std::filesystem::path& folder) const;
     /// The path as a file that can be opened again, in the same way.
     [[nodiscard]] std::filesystem::path write_path(const std::filesystem::path& folder) const;
+    /// The points that a table is sent from its usual start, by the settings of the table, in the same way.
+    [[nodiscard]] std::filesystem::path write_points(const std::filesystem::path& folder) const;
 
     void cancel() { worker_.cancel(); }
     void wait_idle() const { worker_.wait_idle(); }
 
 private:
+    /// The machine of the settings. Throws Error.
+    [[nodiscard]] std::shared_ptr<const kinematics::MachineModel> model() const;
+
     std::filesystem::path assets_;
     project::PlotInput input_;
     std::uint64_t before_ = 0; ///< revision that was there when the file was last read

@@ -143,8 +143,8 @@ std::string Workbench::gouge_warning() const {
         return {};
     }
     const auto& cut = plan->plan.cut;
-    const std::string text = cut ? project::gouge_text(plan->project.tool, *cut)
-                                 : "the program has not been checked for gouges yet";
+    const std::string text =
+        cut ? project::gouge_text(plan->project, *cut) : "the program has not been checked for gouges yet";
     return text.empty() ? text : as_sentence(text);
 }
 

@@ -186,6 +186,7 @@ public:
     void write_plot(bool to_machine);
     /// Where its program would be written.
     void write_plot_path();
+    void write_plot_points();
     [[nodiscard]] ProcessorBench& processor() { return *processor_; }
     /// Compiles the program that is chosen there. What is wrong with it is shown there.
     void load_processor(ProcessorSource source);

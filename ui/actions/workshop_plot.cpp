@@ -151,6 +151,11 @@ void Workshop::write_plot_path() {
     tell(session_, widgets::Severity::good, "Path written.", path.string());
 }
 
+void Workshop::write_plot_points() {
+    const fs::path points = plot_->write_points(place_of_program(plot_->file(), options_));
+    tell(session_, widgets::Severity::good, "Points written.", points.string());
+}
+
 void Workshop::finish_writing_plot() {
     const auto made = plot_->latest();
     if (!writes_plot_ || !made || !made->finished || !plot_->is_current(*made) ||

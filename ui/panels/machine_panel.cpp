@@ -202,7 +202,14 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         if (report.driver.sent_blocks > report.driver.executed_blocks) {
             ui.value("sent", "Blocks sent", fmt::format("{}", report.driver.sent_blocks));
         }
-        if (ui.progress("progress", report.progress_text(), report.fraction())) {
+        int block = report.driver.executed_blocks;
+        if (report.answers && report.line > 0 &&
+            report.driver.block > block) { // the last that is known is behind
+            ui.value("confirmed", "Blocks confirmed", fmt::format("{}", block));
+            ui.value("line", "Line", fmt::format("about {}", report.line));
+            block = report.driver.block;
+        }
+        if (ui.progress("progress", fmt::format("Block {} of {}", block, report.blocks), report.fraction())) {
             ask.run("machine.stop");
         }
     } else if (now.job.outcome) {

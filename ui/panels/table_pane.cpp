@@ -301,6 +301,7 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     }
     if (!has_points) {
         point_fields(ui, points, ask);
+        action_button(ui, now, ask, catalogue_, "plot.write_points");
     }
     record_fields(ui, choice.record, ask);
 }

@@ -1,5 +1,7 @@
 #include "core/project/gouges.h"
 
+#include "core/project/cut_remarks.h"
+
 #include <gtest/gtest.h>
 
 namespace millwright::project {
@@ -17,22 +19,25 @@ BlockBite bite(int line, double depth, bool by_holder = false) {
 TEST(GougeText, IsEmptyWhereNoBlockGouges) {
     CutStudy cut;
     cut.deepest = 0.05; // within the limit
-    EXPECT_EQ(gouge_text(ToolInput{}, cut), "");
+    EXPECT_EQ(gouge_text(Project{}, cut), "");
 }
 
 TEST(GougeText, NamesTheDeepestLineOfCutterAndHolder) {
-    ToolInput tool;
-    tool.gouge_limit_mm = 0.25;
+    Project project;
+    project.tool.gouge_limit_mm = 0.25;
+    const std::string checked = "; " + checked_text(project);
     CutStudy cut;
     cut.bites = {bite(20, 0.5), bite(31, 10.2421), bite(40, 0.75)};
-    EXPECT_EQ(gouge_text(tool, cut),
+    EXPECT_EQ(gouge_text(project, cut),
               "the cutter goes up to 10.2421 mm below the surface, where 0.25 mm are allowed (3 blocks, the "
-              "deepest in line 31)");
+              "deepest in line 31)" +
+                  checked);
     cut.bites.push_back(bite(52, 1.5, true));
-    EXPECT_EQ(gouge_text(tool, cut),
+    EXPECT_EQ(gouge_text(project, cut),
               "the cutter goes up to 10.2421 mm below the surface, where 0.25 mm are allowed (3 blocks, the "
               "deepest in line 31); the holder goes up to 1.5000 mm into the part (1 block, the deepest in "
-              "line 52)");
+              "line 52)" +
+                  checked);
 }
 
 } // namespace

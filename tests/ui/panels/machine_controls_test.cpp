@@ -72,6 +72,21 @@ TEST_F(MachineWithSwitches, IsHomed) {
     EXPECT_TRUE(person.live_until([&] { return std::abs(status().position[0] - at[0]) < 0.01; }));
 }
 
+TEST_F(MachineWithSwitches, AreNotMovedByAWordInThePaletteElsewhere) {
+    ASSERT_TRUE(rests());
+    person.workshop().run("view.design");
+    person.frames(2);
+    person.workshop().run("machine.home");
+    person.press_key(render::Key::k, true);
+    person.frames(2);
+    person.type("home");
+    person.frames(2);
+    person.press_key(render::Key::enter);
+    person.frames(30);
+    EXPECT_NE(status().activity, machine::Activity::homing);
+    EXPECT_FALSE(grbl.moving());
+}
+
 TEST_F(MachineControls, ProbeThePartAndSayWhereItIs) {
     person.fill_in("inspector/finding/probe_speed", "600");
     press("inspector/finding/probe");

@@ -1,5 +1,7 @@
 // One file after another in the Plot & Picture workspace: what is shown, told and sent is of the open one.
 #include "core/base/files.h"
+#include "core/plot/decode_path.h"
+#include "core/plot/point_file.h"
 #include "tests/ui/panels/plot_person.h"
 
 #include <gmock/gmock.h>
@@ -140,6 +142,29 @@ TEST(PlotFiles, AnotherFileIsPlayedFromItsBeginning) {
     bench.drop(file_in(bench, "turns.ngc", with_s));
     ASSERT_GT(bench.person.workshop().look().duration(), 0.0);
     EXPECT_DOUBLE_EQ(bench.person.workshop().look().time(), 0.0);
+}
+
+TEST(PlotFiles, ThePointsThatATableIsSentAreWritten) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    actions::TableChoice choice = bench.person.workshop().look().plot.table_choice();
+    choice.decoding.velocity = 12.0;
+    choice.decoding.period = 0.05;
+    bench.person.workshop().plot().set_table(choice);
+    bench.person.click("lower/tabs/table");
+    bench.person.click("lower/plot_write_points");
+    bench.settle();
+    const fs::path written = bench.folder / "everyday.csv";
+    ASSERT_TRUE(fs::exists(written));
+    const auto read = plot::read_points(read_file(written), written);
+    EXPECT_TRUE(read.diagnostics.empty());
+    const std::vector<Vec3> whole =
+        plot::decode_path(*bench.made().path, choice.decoding, std::nullopt, std::nullopt).points;
+    ASSERT_EQ(read.points.size(), whole.size());
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+        EXPECT_LT((read.points[n] - whole[n]).norm(), 1e-4);
+    }
+    bench.drop(written);
+    EXPECT_TRUE(bench.made().points);
 }
 
 } // namespace
