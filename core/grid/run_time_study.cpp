@@ -100,16 +100,16 @@ private:
     std::optional<double> machine_;
 };
 
-/// The parts of the same iterations, each timed.
+/// The parts of the same iterations, each by the processor time that it takes on one thread.
 RunTimeProfile profile_of(int side, int iterations, const StudyClocks& clocks) {
     set_thread_count(1);
     const WeightPtr weight = weight_w1_on(side);
     const EllipticSettings settings = timed_settings(iterations);
     const EquationRules rules{settings.functional, settings.derivatives};
     RunTimeProfile profile{.side = side};
-    double last = clocks.wall();
+    double last = clocks.processor();
     const auto lap = [&](double& part) {
-        const double now = clocks.wall();
+        const double now = clocks.processor();
         part += now - last;
         last = now;
     };
@@ -121,7 +121,7 @@ RunTimeProfile profile_of(int side, int iterations, const StudyClocks& clocks) {
         equations = all_equations(nodes, w, rules);
         lap(profile.equations);
     };
-    last = clocks.wall();
+    last = clocks.processor();
     sweep();
     double lowest = infinity;
     for (int n = 0; n < iterations; ++n) {
@@ -135,6 +135,16 @@ RunTimeProfile profile_of(int side, int iterations, const StudyClocks& clocks) {
     }
     expects(lowest > 0.0, "the grids of the study stay sound");
     return profile;
+}
+
+/// Of as many as the runs have.
+RunTimeProfile fastest_profile(int side, const RunTimeSettings& settings, const StudyClocks& clocks) {
+    RunTimeProfile fastest = profile_of(side, settings.iterations, clocks);
+    for (int n = 1; n < settings.repeats; ++n) {
+        const RunTimeProfile other = profile_of(side, settings.iterations, clocks);
+        fastest = other.sum() < fastest.sum() ? other : fastest;
+    }
+    return fastest;
 }
 
 } // namespace
@@ -178,7 +188,7 @@ run_time_study(const RunTimeSettings& settings, const StudyClocks& clocks, const
                                   .speed_up = best.front().wall / best[t].wall,
                                   .same_nodes = best[t].nodes == best.front().nodes});
         }
-        study.profiles.push_back(profile_of(side, settings.iterations, clocks));
+        study.profiles.push_back(fastest_profile(side, settings, clocks));
     }
     study.one_thread_share = one_thread_wall > 0.0 ? one_thread_processor / one_thread_wall : 1.0;
     study.other_cores = usage.other_cores();

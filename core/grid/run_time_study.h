@@ -40,6 +40,7 @@ struct RunTime {
 };
 
 /// Wall time in the parts of all iterations, one thread, s.
+/// Processor time of one thread, s, of the fastest of the repeats.
 struct RunTimeProfile {
     int side = 0;
     double weight = 0.0;    ///< w at every node

@@ -28,7 +28,8 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
         if (line.front() == '^') {
             throw Error(fmt::format("'{}' means a control character, which has no place in a line", line),
                         {},
-                        "Stop, emergency stop and unlock do what ^A, ^K and others would");
+                        "stop, emergency stop and unlock do what ^A, ^K and others would; what the reports "
+                        "would tell (^B, ^C, ^F, ^G, ^P, ^V) the driver asks for and shows all the time");
         }
         if (jogs_without_end(line)) {
             throw Error(fmt::format("'{}' would jog until somebody thinks of stopping it", line),
