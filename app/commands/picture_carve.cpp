@@ -1,7 +1,6 @@
 #include "app/commands/picture_carve.h"
 
 #include "app/carving.h"
-#include "app/finite_number.h"
 #include "app/picture_choice.h"
 #include "app/traced_picture.h"
 #include "app/watched_work.h"
@@ -20,7 +19,6 @@ namespace {
 struct PictureCarveOptions {
     PictureChoice picture;
     plot::TraceSettings tracing;
-    double chord_tolerance = 0.005;
     CarvingOptions carving;
 };
 
@@ -30,10 +28,8 @@ int carve(const PictureCarveOptions& options) {
         read_chosen(options.picture, work.progress().part(0.0, 0.2), options.carving.json ? stderr : stdout);
     work.finish();
     const auto paths = traced_outlines(sized, options.picture, options.tracing);
-    carve_strokes(plot::strokes_of(paths, sized.pitch, options.chord_tolerance),
-                  options.picture.file,
-                  options.carving,
-                  work);
+    const double chords = plot::carving_chords(options.carving.settings.tolerance);
+    carve_strokes(plot::strokes_of(paths, sized.pitch, chords), options.picture.file, options.carving, work);
     return 0;
 }
 
@@ -44,9 +40,6 @@ void add_picture_carve(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand("carve", "V-carve what is dark in it");
     add_picture_options(command, options->picture);
     add_tracing_options(command, options->tracing);
-    command.add_option("--arc-tolerance", options->chord_tolerance, "As near to the curves, mm")
-        ->check(above_zero())
-        ->capture_default_str();
     add_carving_options(command, options->carving);
     command.callback([&chosen, options] { chosen = [options] { return carve(*options); }; });
 }

@@ -304,11 +304,14 @@ int carve(const PlotOptions& options) {
     if (takes_points(*options.command, options.file)) {
         throw Error("these are points of a table: they surround nothing", options.file);
     }
-    ProgramReading reading = options.program;
-    reading.chord_tolerance = options.reading.arc_tolerance;
+    PlotOptions fine = options;
+    if (!fine.reading.arc_tolerance) {
+        fine.reading.arc_tolerance = plot::carving_chords(options.carving.settings.tolerance);
+    }
+    fine.program.chord_tolerance = fine.reading.arc_tolerance;
     WatchedWork work;
     const Strokes strokes =
-        is_program(options) ? program_strokes(options.file, reading) : read_plot_to_use(options).strokes;
+        is_program(options) ? program_strokes(options.file, fine.program) : read_plot_to_use(fine).strokes;
     carve_strokes(strokes, options.file, options.carving, work);
     return 0;
 }

@@ -120,6 +120,8 @@ void PlotDerivation::cut_drawing() {
     if (carved) { // whole outlines
         reading.fill = reading.fill == plot::FillMode::hatched ? plot::FillMode::outline : reading.fill;
         reading.dashes = false;
+        reading.arc_tolerance =
+            reading.arc_tolerance.value_or(plot::carving_chords(settings_.carving_tolerance));
     }
     const plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
     result_.notices = plot::notices(read, result_.input.file);
@@ -190,8 +192,9 @@ void PlotDerivation::cut_picture() {
         return cut_strokes(plot::strokes_of(plot::trace(picture, settings_.tracing), pitch, settings_.chords),
                            Vec2::Zero());
     case PictureUse::carving:
-        return carve_strokes(
-            plot::strokes_of(plot::trace(picture, settings_.tracing), pitch, settings_.chords));
+        return carve_strokes(plot::strokes_of(plot::trace(picture, settings_.tracing),
+                                              pitch,
+                                              plot::carving_chords(settings_.carving_tolerance)));
     case PictureUse::halftone:
         return use(plot::halftone(picture,
                                   pitch,

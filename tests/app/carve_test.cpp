@@ -85,6 +85,16 @@ TEST_F(CarveCommand, APictureIsCarvedWhereItIsDark) {
     EXPECT_LT(answer.at("deviation_mm").get<double>(), 0.01);
 }
 
+// Its 72 chords had a branch each up to the corner between them, and a lift.
+TEST_F(CarveCommand, ACircleOfAPlotIsOneCone) {
+    write_content(drawing, "IN;SP1;PU1000,1000;CI400;PU;");
+    const Ended ended = carve({"--tool", "v:90:40", "--json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json answer = json::parse(ended.out);
+    EXPECT_EQ(answer.at("lifts"), 1);
+    EXPECT_NEAR(answer.at("depth_mm").get<double>(), 10.0, 0.01);
+}
+
 TEST_F(CarveCommand, AGCodeProgramIsCarvedByItsClosedCuts) {
     drawing = folder / "outline.ngc";
     write_content(drawing,

@@ -183,7 +183,9 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
                              project::turn_policies(),
                              set.tracing.turns,
                              [](Project& draft, auto turns) { draft.plot.settings.tracing.turns = turns; });
-    numbers(ui, ask, set, {"chords_mm"});
+    if (set.use == PictureUse::outlines) {
+        numbers(ui, ask, set, {"chords_mm"});
+    }
 }
 
 void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {

@@ -326,7 +326,7 @@ Carving v_carving(const Strokes& drawn, const CarvingSettings& settings, const P
     const double share = clearance_tolerance(settings) / 4.0;
     progress.report(0.0, "Finding the middle of the outlines");
     const MedialAxis axis =
-        medial_axis(outlines.region, {.sampling = share, .pruning = share}, progress.part(0.0, 0.6));
+        medial_axis(outlines.region, {.sampling = share, .pruning = 2.0 * share}, progress.part(0.0, 0.6));
     if (axis.parts == 0) {
         throw Error("the outlines enclose no area: there is nothing to carve");
     }

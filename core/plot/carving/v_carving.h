@@ -34,6 +34,12 @@ struct CarvingSettings {
     friend bool operator==(const CarvingSettings&, const CarvingSettings&) = default;
 };
 
+/// How near chords have to keep to curves that are carved within `tolerance`, mm: the corners between them
+/// are pruned then, and are no branches that the bit would go up.
+[[nodiscard]] constexpr double carving_chords(double tolerance) {
+    return 0.1 * tolerance;
+}
+
 struct CarvingFigures {
     int parts = 0;     ///< of the carved area, each carved as a whole
     double area = 0.0; ///< inside the outlines, square mm

@@ -37,8 +37,8 @@ struct ToolTip {
 [[nodiscard]] double mouth_radius(const ToolTip& tip, double depth);
 
 /// `point`, `ball:DIAMETER`, `flat:DIAMETER`, `v:DEGREES`, `v:DEGREES:DIAMETER` (6 mm if not given) or
-/// `v:DEGREES:DIAMETER:END`, whose end is the width of a flat end or `r` and the radius of a round one. Throws
-/// Error quoting what is none of them or out of its range.
+/// `v:DEGREES:DIAMETER:END`, whose end is the width of a flat end or `r` and the radius of a round one.
+/// Throws Error quoting what is none of them or out of its range.
 [[nodiscard]] ToolTip parse_tool_tip(std::string_view text);
 
 /// As `parse_tool_tip` takes it.
