@@ -147,12 +147,12 @@ double planned_seconds(const plot::CutPath& path, const CuttingOptions& options,
     return seconds_of(posted_text(path, machine, options, {}, std::nullopt), machine, options, progress);
 }
 
-void write_program(const plot::CutPath& path,
-                   const CuttingOptions& options,
-                   const plot::ToolTip& tip,
-                   const std::vector<std::string>& header,
-                   const Progress& progress,
-                   std::optional<double> seconds) {
+WrittenProgram write_program_files(const plot::CutPath& path,
+                                   const CuttingOptions& options,
+                                   const plot::ToolTip& tip,
+                                   const std::vector<std::string>& header,
+                                   const Progress& progress,
+                                   std::optional<double> seconds) {
     if (path.empty()) {
         throw Error("there is nothing to cut");
     }
@@ -178,16 +178,32 @@ void write_program(const plot::CutPath& path,
     if (!seconds) {
         seconds = seconds_of(text, machine, options, progress.part(0.6, 1.0));
     }
-    const plot::PathLengths lengths = plot::lengths(placed(path, origin_of(options)));
+    return {path.size(),
+            static_cast<std::size_t>(text.text.listing.line_count()),
+            plot::lengths(placed(path, origin_of(options))),
+            *seconds,
+            machine.name()};
+}
+
+void print_program(const WrittenProgram& written) {
     constexpr double m = 1e-3;
     fmt::print("{}: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
-               counted(path.size(), "point"),
-               m * lengths.cut,
-               m * lengths.travel);
+               counted(written.points, "point"),
+               m * written.lengths.cut,
+               m * written.lengths.travel);
     fmt::print("{}, {} on {}\n",
-               counted(text.text.listing.line_count(), "line"),
-               plot::time_for_people(*seconds),
-               machine.name());
+               counted(written.lines, "line"),
+               plot::time_for_people(written.seconds),
+               written.machine);
+}
+
+void write_program(const plot::CutPath& path,
+                   const CuttingOptions& options,
+                   const plot::ToolTip& tip,
+                   const std::vector<std::string>& header,
+                   const Progress& progress,
+                   std::optional<double> seconds) {
+    print_program(write_program_files(path, options, tip, header, progress, seconds));
 }
 
 } // namespace millwright::app

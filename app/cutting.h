@@ -9,6 +9,7 @@
 #include "core/plot/picture/tool_tip.h"
 #include "core/project/plot_input.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -59,9 +60,29 @@ void add_drawing_origin(CLI::App& command, std::vector<double>& origin);
                                      const CuttingOptions& options,
                                      const Progress& progress = Progress());
 
-/// Writes the program to `options.out`, after it was read back, and the preview of what `tip` leaves; says
-/// how many lines it has and how long the machine takes by the planner, `seconds` if that is known already.
-/// `header` stands on its top. Throws Error, or Cancelled.
+/// What was written.
+struct WrittenProgram {
+    std::size_t points = 0; ///< of the path
+    std::size_t lines = 0;
+    plot::PathLengths lengths; ///< where it lies on the machine
+    double seconds = 0.0;      ///< that the machine takes by the planner
+    std::string machine;
+};
+
+/// Writes the program to `options.out`, after it was read back, and the preview of what `tip` leaves.
+/// `seconds` of the planner if they are known already; `header` stands on its top. Throws Error, or
+/// Cancelled.
+[[nodiscard]] WrittenProgram write_program_files(const plot::CutPath& path,
+                                                 const CuttingOptions& options,
+                                                 const plot::ToolTip& tip,
+                                                 const std::vector<std::string>& header,
+                                                 const Progress& progress = Progress(),
+                                                 std::optional<double> seconds = std::nullopt);
+
+/// How many lines it has, how far it goes and how long the machine takes.
+void print_program(const WrittenProgram& written);
+
+/// Both.
 void write_program(const plot::CutPath& path,
                    const CuttingOptions& options,
                    const plot::ToolTip& tip,

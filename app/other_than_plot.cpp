@@ -59,7 +59,7 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
         throw Error(
             "this is a picture, no plot",
             file,
-            fmt::format("'millwright picture relief {0}', trace or engrave makes a path of it", name));
+            fmt::format("'millwright picture relief {0}', trace, carve or engrave makes a path of it", name));
     }
     if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
         throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),

@@ -81,13 +81,14 @@ std::string invert_hint(const PictureChoice& choice, bool helps, const InvertHin
                                    : hints.invert;
 }
 
-SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress) {
+SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress, std::FILE* out) {
     plot::ReadPicture read = read_choice(choice, choice.reading.invert, progress);
     for (const Diagnostic& notice : read.notices) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }
     const double pitch = plot::pixel_pitch(choice.size, read.picture);
-    fmt::print("{} x {} pixels of {:.4g} mm: {:.2f} x {:.2f} mm\n",
+    fmt::print(out,
+               "{} x {} pixels of {:.4g} mm: {:.2f} x {:.2f} mm\n",
                read.picture.width,
                read.picture.height,
                pitch,

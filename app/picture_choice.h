@@ -4,6 +4,7 @@
 #include "core/plot/picture/picture.h"
 #include "core/plot/picture/picture_size.h"
 
+#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -28,8 +29,9 @@ struct SizedPicture {
     double pitch = 0.0; ///< of its pixels, mm
 };
 
-/// Reads it and says on standard error what a person should know. Throws Error.
-[[nodiscard]] SizedPicture read_chosen(const PictureChoice& choice, const Progress& progress);
+/// Reads it, says its size on `out`, and on standard error what a person should know. Throws Error.
+[[nodiscard]] SizedPicture
+read_chosen(const PictureChoice& choice, const Progress& progress, std::FILE* out = stdout);
 
 /// Whether there is something to make of it with the other --invert. Throws as read_chosen().
 [[nodiscard]] bool inverting_helps(const PictureChoice& choice,

@@ -47,7 +47,7 @@ void add_to(CLI::App& command) {
 } // namespace
 
 void add_threads_option(CLI::App& app) {
-    static const std::array<std::vector<const char*>, 13> computing{{{"plan"},
+    static const std::array<std::vector<const char*>, 15> computing{{{"plan"},
                                                                      {"cutter"},
                                                                      {"render"},
                                                                      {"run"},
@@ -56,9 +56,11 @@ void add_threads_option(CLI::App& app) {
                                                                      {"study", "fewest-points"},
                                                                      {"study", "set-up"},
                                                                      {"cordic", "accuracy"},
+                                                                     {"picture", "carve"},
                                                                      {"picture", "relief"},
                                                                      {"picture", "engrave"},
                                                                      {"picture", "trace"},
+                                                                     {"plot", "carve"},
                                                                      {"plot", "toolpath"}}};
     add_to(app);
     for (const std::vector<const char*>& words : computing) {

@@ -1,5 +1,6 @@
 #include "app/commands/picture_command.h"
 
+#include "app/commands/picture_carve.h"
 #include "app/commands/picture_engrave.h"
 #include "app/commands/picture_relief.h"
 #include "app/commands/picture_trace.h"
@@ -13,6 +14,7 @@ namespace millwright::app {
 void add_picture_command(CLI::App& app, Command& chosen) {
     CLI::App& group = *app.add_subcommand("picture", "Make something to cut of a picture");
     group.require_subcommand(1);
+    add_picture_carve(group, chosen);
     add_picture_engrave(group, chosen);
     add_picture_relief(group, chosen);
     add_picture_trace(group, chosen);

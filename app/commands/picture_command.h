@@ -1,4 +1,4 @@
-// `millwright picture`: pictures that are cut: reliefs, traced outlines, dots.
+// `millwright picture`: pictures that are cut: reliefs, traced outlines, V-carvings, dots.
 #pragma once
 
 #include "app/command.h"

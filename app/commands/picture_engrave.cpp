@@ -131,7 +131,7 @@ void add_picture_engrave(CLI::App& group, Command& chosen) {
         ->capture_default_str();
     command.add_option("--angle", options->angle_deg, "Of a halftone's rows to x, degrees")
         ->capture_default_str();
-    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
+    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point")
         ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
     command.add_option("--depth", options->depth, "Of dithered dots, mm")

@@ -100,7 +100,7 @@ void add_picture_relief(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand("relief", "Cut it as deep as its pixels are bright");
     add_picture_options(command, options->picture);
     command.add_option("--depth", options->depth, "Of white, mm")->check(above_zero())->required();
-    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM] or point")
+    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point")
         ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
     command.add_option("--out", options->cutting.out, "G-code file")->required();

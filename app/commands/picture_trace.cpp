@@ -1,9 +1,9 @@
 #include "app/commands/picture_trace.h"
 
 #include "app/finite_number.h"
-#include "app/names.h"
 #include "app/picture_choice.h"
 #include "app/stroke_cutting.h"
+#include "app/traced_picture.h"
 #include "app/watched_work.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -18,7 +18,6 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,15 +26,6 @@
 namespace millwright::app {
 
 namespace {
-
-using plot::TurnPolicy;
-
-const std::map<std::string, TurnPolicy> turn_policies = {{"black", TurnPolicy::connect_black},
-                                                         {"white", TurnPolicy::connect_white},
-                                                         {"left", TurnPolicy::left},
-                                                         {"right", TurnPolicy::right},
-                                                         {"minority", TurnPolicy::minority},
-                                                         {"majority", TurnPolicy::majority}};
 
 struct PictureTraceOptions {
     PictureChoice picture;
@@ -72,31 +62,6 @@ void expect_outlines_alone(const PictureTraceOptions& options) {
     }
 }
 
-[[noreturn]] void refuse_empty(const plot::Picture& picture, const PictureTraceOptions& options) {
-    plot::TraceSettings with_specks = options.tracing;
-    with_specks.speckle = 0;
-    if (!plot::trace(picture, with_specks).empty()) {
-        throw Error(fmt::format("nothing dark in it has more than {} {}, and so small specks are left out",
-                                options.tracing.speckle,
-                                options.tracing.speckle == 1 ? "pixel" : "pixels"),
-                    options.picture.file,
-                    "--speckle 0 traces them, too");
-    }
-    const bool helps = inverting_helps(options.picture, [&](const SizedPicture& other) {
-        return !plot::trace(other.picture, options.tracing).empty();
-    });
-    const auto [darkest, brightest] = std::ranges::minmax(picture.gray);
-    throw Error(
-        "nothing in it is dark enough to be traced",
-        options.picture.file,
-        fmt::format("{}; {}",
-                    darkest == brightest ? "all of it is equally bright" : "--threshold says what is dark",
-                    invert_hint(options.picture,
-                                helps,
-                                {.invert = "--invert traces what is bright",
-                                 .plain = "without --invert what is dark is traced"})));
-}
-
 int trace(const PictureTraceOptions& options) {
     const std::filesystem::path out = options.cutting.cutting.out;
     const bool drawing = is_drawing(out);
@@ -106,10 +71,7 @@ int trace(const PictureTraceOptions& options) {
     WatchedWork work;
     const SizedPicture sized = read_chosen(options.picture, work.progress());
     work.finish();
-    const auto paths = plot::trace(sized.picture, options.tracing);
-    if (paths.empty()) {
-        refuse_empty(sized.picture, options);
-    }
+    const auto paths = traced_outlines(sized, options.picture, options.tracing);
     std::size_t curves = 0;
     for (const plot::TracedPath& path : paths) {
         curves += path.curves.size();
@@ -138,23 +100,7 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand("trace", "Outline what is dark in it");
     add_picture_options(command, options->picture);
     command.add_option("--out", options->cutting.cutting.out, "SVG file (.svg) or G-code file")->required();
-    plot::TraceSettings& tracing = options->tracing;
-    command.add_option("--threshold", tracing.threshold, "What is not brighter is dark, 0 to 1")
-        ->capture_default_str();
-    command.add_option("--speckle", tracing.speckle, "Leave out what has so few pixels")
-        ->check(not_below_zero())
-        ->capture_default_str();
-    command.add_option("--corner", tracing.corner, "0: corners stay, 1.334: all are smoothed")
-        ->capture_default_str();
-    command.add_option("--tolerance", tracing.tolerance, "Join curves that change so little, pixels")
-        ->check(not_below_zero())
-        ->capture_default_str();
-    command
-        .add_option(
-            "--turns", tracing.turns, "Where dark pixels touch at corners: black, white, left, right, ...")
-        ->transform(one_of(turn_policies))
-        ->type_name(listed(turn_policies))
-        ->default_str("minority");
+    add_tracing_options(command, options->tracing);
     const std::size_t of_both = command.get_options().size();
     command
         .add_option("--arc-tolerance", options->chord_tolerance, "Of a program: as near to the curves, mm")

@@ -1,5 +1,6 @@
 #include "app/commands/plot_command.h"
 
+#include "app/carving.h"
 #include "app/commands/plot_play.h"
 #include "app/commands/plot_points.h"
 #include "app/commands/plot_program.h"
@@ -7,6 +8,7 @@
 #include "app/names.h"
 #include "app/origin_choice.h"
 #include "app/stroke_cutting.h"
+#include "app/watched_work.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -73,6 +75,7 @@ struct PlotOptions {
     std::optional<double> fastest;
     int decimals = 2;
     StrokeCutting cutting;
+    CarvingOptions carving;
     ProgramReading program;
     const CLI::App* command = nullptr; ///< that was called
 };
@@ -297,6 +300,22 @@ int toolpath(const PlotOptions& options) {
     return 0;
 }
 
+int carve(const PlotOptions& options) {
+    if (takes_points(*options.command, options.file)) {
+        throw Error("these are points of a table: they surround nothing", options.file);
+    }
+    PlotOptions fine = options;
+    if (!fine.reading.arc_tolerance) {
+        fine.reading.arc_tolerance = plot::carving_chords(options.carving.settings.tolerance);
+    }
+    fine.program.chord_tolerance = fine.reading.arc_tolerance;
+    WatchedWork work;
+    const Strokes strokes =
+        is_program(options) ? program_strokes(options.file, fine.program) : read_plot_to_use(fine).strokes;
+    carve_strokes(strokes, options.file, options.carving, work);
+    return 0;
+}
+
 CLI::App&
 add_reader(CLI::App& group, const char* name, const char* text, const std::shared_ptr<PlotOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
@@ -312,7 +331,7 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
     command.add_option("--fill", options->reading.fill, "What is filled: hatched, outline or none")
         ->transform(one_of(by_id(project::fill_modes())))
         ->type_name(listed(by_id(project::fill_modes())))
-        ->default_str("hatched");
+        ->default_str(options->reading.fill == plot::FillMode::outline ? "outline" : "hatched");
     command.add_flag("--solid", options->solid, "Dashed lines are drawn solid");
     command
         .add_option("--line-ends",
@@ -403,12 +422,23 @@ void add_toolpath(CLI::App& group, const std::shared_ptr<PlotOptions>& options, 
     on_call(command, options, chosen, toolpath);
 }
 
+/// Whole outlines are carved: the edges of what is filled, and dashed ones solid.
+void add_carve(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<PlotOptions>();
+    options->reading.fill = plot::FillMode::outline;
+    options->solid = true;
+    CLI::App& command = add_reader(group, "carve", "V-carve what its closed strokes surround", options);
+    add_carving_options(command, options->carving);
+    on_call(command, options, chosen, carve);
+}
+
 } // namespace
 
 void add_plot_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<PlotOptions>();
     CLI::App& group = *app.add_subcommand("plot", "Read an HPGL plot, or a G-code program as one");
     group.require_subcommand(1);
+    add_carve(group, chosen);
     add_decode(group, options, chosen);
     add_info(group, options, chosen);
     add_toolpath(group, options, chosen);

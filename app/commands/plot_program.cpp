@@ -383,6 +383,10 @@ std::vector<Vec3> program_points(const std::string& file,
     return plot::decode_path(program.path, decoding, fastest).points;
 }
 
+plot::Strokes program_strokes(const std::string& file, const ProgramReading& reading) {
+    return read_cut_program_to_cut(file, reading).strokes;
+}
+
 int program_toolpath(const std::string& file,
                      const ProgramReading& reading,
                      StrokeCutting cutting,

@@ -48,6 +48,9 @@ int program_view(const std::string& file,
                                                plot::DecodeSettings decoding,
                                                const std::optional<double>& fastest,
                                                bool flat);
+/// What it cuts, whatever the height. Throws Error as read_cut_program(), and where nobody can say where it
+/// is.
+[[nodiscard]] plot::Strokes program_strokes(const std::string& file, const ProgramReading& reading);
 /// As it stands, or anew of its strokes where an option of `command` shapes these.
 int program_toolpath(const std::string& file,
                      const ProgramReading& reading,

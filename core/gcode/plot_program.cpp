@@ -128,6 +128,7 @@ private:
             break;
         case plot::TipKind::v:
             cutter.half_angle = tip.angle / 2.0;
+            cutter.corner_radius = tip.end_radius;
             cutter.kind = "engraving tool";
             break;
         }

@@ -14,11 +14,17 @@ using plot::LineEnds;
 using plot::TipKind;
 using plot::TurnPolicy;
 
-constexpr std::array<Choice<PictureUse>, 4> of_use{{
+constexpr std::array<Choice<PictureUse>, 5> of_use{{
     {PictureUse::relief, "relief", "Relief", "As deep as pixels are bright"},
     {PictureUse::outlines, "outlines", "Outlines", "Around what is dark, by tracing"},
+    {PictureUse::carving, "carving", "V-carving", "What is dark, by a V-bit along its middle"},
     {PictureUse::halftone, "halftone", "Halftone", "Dots whose size says how dark it is"},
     {PictureUse::dots, "dots", "Dots", "Dots of one size, as many as it is dark"},
+}};
+
+constexpr std::array<Choice<DrawingUse>, 2> of_drawing_use{{
+    {DrawingUse::strokes, "strokes", "Strokes", "Along its lines, beside them or filled"},
+    {DrawingUse::carving, "carving", "V-carving", "Closed outlines, by a V-bit along their middle"},
 }};
 
 constexpr std::array<Choice<GrayRule>, 2> of_gray{{
@@ -69,6 +75,9 @@ constexpr std::array<Choice<TurnPolicy>, 6> of_turns{{
 
 std::span<const Choice<PictureUse>> picture_uses() {
     return of_use;
+}
+std::span<const Choice<DrawingUse>> drawing_uses() {
+    return of_drawing_use;
 }
 std::span<const Choice<GrayRule>> gray_rules() {
     return of_gray;

@@ -7,6 +7,7 @@
 namespace millwright::project {
 
 [[nodiscard]] std::span<const Choice<PictureUse>> picture_uses();
+[[nodiscard]] std::span<const Choice<DrawingUse>> drawing_uses();
 [[nodiscard]] std::span<const Choice<plot::GrayRule>> gray_rules();
 [[nodiscard]] std::span<const Choice<plot::TipKind>> tip_kinds();
 [[nodiscard]] std::span<const Choice<plot::CutterSide>> cutter_sides();

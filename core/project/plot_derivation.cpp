@@ -53,9 +53,7 @@ void PlotDerivation::make_path() {
     } else if (result_.picture) {
         cut_picture();
     } else {
-        const plot::Plot read = plot::read_hpgl_file(result_.input.file, settings_.hpgl);
-        result_.notices = plot::notices(read, result_.input.file);
-        cut_strokes(read.strokes, read.end);
+        cut_drawing();
     }
     if (result_.path->empty()) {
         throw Error("there is nothing to cut", result_.input.file);
@@ -114,6 +112,23 @@ void PlotDerivation::time_as_drawn() {
         failure->message = "there is no time of it as drawn: " + failure->message;
     }
     note(std::move(failure));
+}
+
+void PlotDerivation::cut_drawing() {
+    plot::ReaderSettings reading = settings_.hpgl;
+    const bool carved = is_carved(result_.input);
+    if (carved) { // whole outlines
+        reading.fill = reading.fill == plot::FillMode::hatched ? plot::FillMode::outline : reading.fill;
+        reading.dashes = false;
+        reading.arc_tolerance =
+            reading.arc_tolerance.value_or(plot::carving_chords(settings_.carving_tolerance));
+    }
+    const plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
+    result_.notices = plot::notices(read, result_.input.file);
+    if (carved) {
+        return carve_strokes(read.strokes);
+    }
+    cut_strokes(read.strokes, read.end);
 }
 
 /// As it stands, like a path file.
@@ -176,6 +191,10 @@ void PlotDerivation::cut_picture() {
     case PictureUse::outlines:
         return cut_strokes(plot::strokes_of(plot::trace(picture, settings_.tracing), pitch, settings_.chords),
                            Vec2::Zero());
+    case PictureUse::carving:
+        return carve_strokes(plot::strokes_of(plot::trace(picture, settings_.tracing),
+                                              pitch,
+                                              plot::carving_chords(settings_.carving_tolerance)));
     case PictureUse::halftone:
         return use(plot::halftone(picture,
                                   pitch,
@@ -192,6 +211,27 @@ void PlotDerivation::cut_picture() {
     use(plot::cut_path(
         plot::dithered(picture, pitch, {.pitch = settings_.dot_pitch, .join = settings_.join_dots}),
         cut_of({level})));
+}
+
+void PlotDerivation::carve_strokes(const plot::Strokes& drawn) {
+    plot::Carving made = plot::v_carving(drawn,
+                                         {.tip = settings_.tip,
+                                          .largest_depth = settings_.largest_depth,
+                                          .depth_per_pass = settings_.depth_per_pass,
+                                          .clear_floor = settings_.clear_floor,
+                                          .step_over = settings_.step_over,
+                                          .tolerance = settings_.carving_tolerance,
+                                          .close_gaps = settings_.close_gaps,
+                                          .cutting = settings_.level.cutting,
+                                          .plunging = settings_.level.plunging,
+                                          .safe_height = settings_.safe_height},
+                                         progress_.part(0.2, 0.5));
+    for (Diagnostic& notice : made.notices) {
+        note(std::move(notice));
+    }
+    result_.carved = made;
+    result_.cuts = cuts_by_depth(made.path, settings_.origin);
+    use(std::move(made.path));
 }
 
 /// `pixel`: side of a square one, mm.
@@ -311,7 +351,8 @@ void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     for (const plot::Level& level : in_order) {
         if (level.enabled) {
             result_.cuts.push_back(
-                {level.pen, cuts_of(plot::cut_path(planned, cut_of(standing({level}))), settings_.origin)});
+                {.pen = level.pen,
+                 .path = cuts_of(plot::cut_path(planned, cut_of(standing({level}))), settings_.origin)});
             progress_.check();
         }
     }
@@ -339,7 +380,7 @@ void PlotDerivation::use(plot::CutPath path) {
             tools.insert(point.tool);
         }
         for (const int tool : tools) {
-            result_.cuts.push_back({tool, cuts_with(path, tool)});
+            result_.cuts.push_back({.pen = tool, .path = cuts_with(path, tool)});
         }
     }
     result_.air = travel_of(path);

@@ -67,6 +67,26 @@ bool is_plot_file(const fs::path& file) {
            std::ranges::find(endings, ending_of(file)) != endings.end();
 }
 
+bool is_drawing_file(const fs::path& file) {
+    return is_plot_file(file) && !is_picture_file(file) && !is_path_file(file) && !is_point_file(file);
+}
+
+bool is_carved(const PlotInput& input) {
+    return is_picture_file(input.file)
+               ? input.settings.use == PictureUse::carving
+               : is_drawing_file(input.file) && input.settings.drawing_use == DrawingUse::carving;
+}
+
+bool is_cut_by_tip(const PlotInput& input) {
+    return is_carved(input) || (is_picture_file(input.file) && input.settings.use != PictureUse::outlines);
+}
+
+void take_v_bit(PlotSettings& settings) {
+    if (settings.tip == PlotSettings().tip) {
+        settings.tip = plot::CarvingSettings().tip;
+    }
+}
+
 void repeat_level(std::vector<plot::Level>& levels, std::size_t n) {
     const plot::Level again = levels.at(n);
     levels.insert(levels.begin() + static_cast<std::ptrdiff_t>(n) + 1, again);
@@ -93,7 +113,8 @@ void use_material(PlotSettings& settings,
     take(settings.level);
     settings.levels = levels;
     std::ranges::for_each(settings.levels, take);
-    if (settings.depth > deepest) {
+    const bool carved = settings.use == PictureUse::carving || settings.drawing_use == DrawingUse::carving;
+    if (settings.depth > deepest || carved) {
         settings.depth_per_pass = deepest;
     }
     settings.spindle_rpm = values.spindle_rpm.value;

@@ -2,6 +2,7 @@
 // core: lengths mm, angles rad, speeds mm/s; plot_settings.h turns them into people's.
 #pragma once
 
+#include "core/plot/carving/v_carving.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/hpgl/settings.h"
 #include "core/plot/material_table.h"
@@ -22,13 +23,17 @@
 namespace millwright::project {
 
 /// What becomes of a picture.
-enum class PictureUse { relief, outlines, halftone, dots };
+enum class PictureUse { relief, outlines, carving, halftone, dots };
+
+/// What becomes of a drawing of strokes.
+enum class DrawingUse { strokes, carving };
 
 inline constexpr double usual_spindle_rpm = 10'000.0;
 
 struct PlotSettings {
     plot::ReaderSettings hpgl = {};
     PictureUse use = PictureUse::relief;
+    DrawingUse drawing_use = DrawingUse::strokes;
     plot::PictureSettings picture = {};
     plot::PictureSize size = {};
     double depth = 1.0;                                ///< of white, or of engraved dots
@@ -38,15 +43,21 @@ struct PlotSettings {
     plot::TraceSettings tracing = {};                  ///< of outlines
     double chords = 0.005;                             ///< how near to traced curves
     std::optional<double> chord_length = {};           ///< of arcs of G-code; not given: by their tolerance
-    plot::ToolTip tip = {};               ///< of reliefs, halftone and dots; strokes are cut by an end mill
-    std::optional<double> step_over = {}; ///< between rows of a relief; not given: a tenth of the tool
-    double merge = 0.005;                 ///< moves of a relief are joined that stay so near above it
-    std::optional<double> depth_per_pass = {};     ///< roughing of a relief; not given: none
+    plot::ToolTip tip = {};                            ///< of all but strokes, which are cut by an end mill
+    /// Between rows of a relief, not given: a tenth of the tool; of passes on the floor of a V-carving.
+    std::optional<double> step_over = {};
+    double merge = 0.005; ///< moves of a relief are joined that stay so near above it
+    /// Of the roughing of a relief, not given: none; of a V-carving, not given: one pass.
+    std::optional<double> depth_per_pass = {};
     double allowance = plot::Roughing{}.allowance; ///< that roughing leaves
     std::optional<double> rough_step_over = {};    ///< between its rows; not given: half of the tool
     std::optional<double> frame = {};              ///< the relief is cut out of a plate so thick
     double frame_margin = plot::ReliefPlan{}.frame_margin;
     plot::Tabs frame_tabs = plot::ReliefPlan{}.tabs;
+    std::optional<double> largest_depth = {}; ///< of a V-carving; not given: as deep as the bit reaches
+    bool clear_floor = plot::CarvingSettings{}.clear_floor;
+    double carving_tolerance = plot::CarvingSettings{}.tolerance;
+    double close_gaps = plot::CarvingSettings{}.close_gaps; ///< between ends of outlines that are carved
     plot::StrokePlan strokes = {};
     /// What pens have that are not in `levels`; feed and plunge of pictures, too.
     plot::Level level = {.cutting = 8.0, .plunging = 2.0};
@@ -82,6 +93,16 @@ struct PlotInput {
 [[nodiscard]] bool holds_points(const std::filesystem::path& file);
 /// A picture, a path, points, or a plot: .plt, .hpgl, .hpg.
 [[nodiscard]] bool is_plot_file(const std::filesystem::path& file);
+
+/// A plot, whose strokes are not cut as they stand.
+[[nodiscard]] bool is_drawing_file(const std::filesystem::path& file);
+/// Whether the closed outlines of a drawing or a picture are V-carved.
+[[nodiscard]] bool is_carved(const PlotInput& input);
+/// Whether PlotSettings::tip cuts it; else an end mill, along strokes or a path that it has.
+[[nodiscard]] bool is_cut_by_tip(const PlotInput& input);
+
+/// The usual V-bit, where no other tool than the usual one was set.
+void take_v_bit(PlotSettings& settings);
 
 /// Cuts the pen of level `n` once more, after it.
 void repeat_level(std::vector<plot::Level>& levels, std::size_t n);

@@ -73,10 +73,11 @@ void read_name(const JsonValue& from, std::string_view key, std::string& to) {
 
 PlotInput plot_of(const JsonValue& value) {
     expect_fields<PlotSettings>(
-        value, plot_numbers(), {"file",    "fill",        "line_ends", "dashes",      "strict",      "use",
-                                "gray",    "invert",      "turns",     "join_dots",   "tip",         "side",
-                                "corners", "hatch_cross", "order",     "link_inside", "usual_level", "levels",
-                                "through", "machine",     "post"});
+        value, plot_numbers(), {"file",        "fill",        "line_ends",   "dashes",      "strict",
+                                "use",         "drawing_use", "clear_floor", "gray",        "invert",
+                                "turns",       "join_dots",   "tip",         "side",        "corners",
+                                "hatch_cross", "order",       "link_inside", "usual_level", "levels",
+                                "through",     "machine",     "post"});
     PlotInput plot;
     PlotSettings& settings = plot.settings;
     if (const auto file = value.find("file")) {
@@ -84,6 +85,8 @@ PlotInput plot_of(const JsonValue& value) {
     }
     read_hpgl(value, settings.hpgl);
     read_choice(value, "use", picture_uses(), settings.use);
+    read_choice(value, "drawing_use", drawing_uses(), settings.drawing_use);
+    read_flag(value, "clear_floor", settings.clear_floor);
     read_choice(value, "gray", gray_rules(), settings.picture.gray);
     read_flag(value, "invert", settings.picture.invert);
     read_choice(value, "turns", turn_policies(), settings.tracing.turns);
@@ -113,6 +116,8 @@ Json json_of(const PlotInput& plot) {
     json["file"] = plot.file.generic_string();
     add_hpgl(json, settings.hpgl);
     json["use"] = row_of(picture_uses(), settings.use).id;
+    json["drawing_use"] = row_of(drawing_uses(), settings.drawing_use).id;
+    json["clear_floor"] = settings.clear_floor;
     json["gray"] = row_of(gray_rules(), settings.picture.gray).id;
     json["invert"] = settings.picture.invert;
     json["turns"] = row_of(turn_policies(), settings.tracing.turns).id;

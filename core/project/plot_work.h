@@ -55,9 +55,10 @@ struct PlotResult {
     std::shared_ptr<const plot::CutPath> path;
     std::shared_ptr<const PlotPoints> points; ///< of a point file, which a table plays as they are
     plot::PathLengths lengths;
-    /// What is cut, a level each; a relief's one; of a path file one a tool.
+    /// What is cut, a level each; a relief's one; of a path file one a tool; of a V-carving by depth.
     struct LevelPath {
-        int pen = 1; ///< or the tool
+        int pen = 1;                      ///< or the tool
+        std::optional<double> depth = {}; ///< of moves of about this depth, mm; not given: of any
         gcode::PreviewPath path;
     };
     std::vector<LevelPath> cuts;
@@ -68,8 +69,9 @@ struct PlotResult {
     plot::GrayImage light;
     std::filesystem::path program; ///< file of its G-code, as long as the worker lives; empty: none
     bool finished = false;
-    std::uint64_t revision = 0; ///< grows with every publication
-    bool cut_as_drawn = false;  ///< filling, order and links change nothing
+    std::uint64_t revision = 0;                 ///< grows with every publication
+    std::optional<plot::CarvingFigures> carved; ///< of a V-carving
+    bool cut_as_drawn = false;                  ///< filling, order and links change nothing
     /// By the planner, as drawn, s; nothing where it is cut as drawn, where that cannot be run, or where
     /// there is no program by itself.
     std::optional<double> drawn_seconds;

@@ -12,11 +12,10 @@ namespace millwright::project {
 
 plot::ToolTips tips_of(const PlotResult& result) {
     const PlotSettings& settings = result.input.settings;
-    const bool strokes = !result.picture || settings.use == PictureUse::outlines;
     plot::ToolTips tips;
-    tips.usual = strokes
-                     ? plot::ToolTip{.kind = plot::TipKind::flat, .diameter = settings.strokes.tool_diameter}
-                     : settings.tip;
+    tips.usual = is_cut_by_tip(result.input)
+                     ? settings.tip
+                     : plot::ToolTip{.kind = plot::TipKind::flat, .diameter = settings.strokes.tool_diameter};
     for (const auto& [tool, diameter] : plot::tool_diameters(result.levels)) {
         tips.others[tool] = {.kind = plot::TipKind::flat, .diameter = diameter};
     }

@@ -141,6 +141,8 @@ constexpr std::array<std::string_view, 5> json_home = {
     "core/base", "core/machine", "core/project", "app", "tests"};
 constexpr std::array<std::string_view, 1> asio = {"boost/asio"};
 constexpr std::array<std::string_view, 1> asio_home = {"core/machine/links"};
+constexpr std::array<std::string_view, 1> voronoi = {"boost/polygon"};
+constexpr std::array<std::string_view, 1> voronoi_home = {"core/plot/carving"};
 constexpr std::array<std::string_view, 1> clipper = {"polyclipping/"};
 constexpr std::array<std::string_view, 1> clipper_home = {"core/plot"};
 constexpr std::array<std::string_view, 2> pictures = {"png.h", "jpeglib.h"};
@@ -161,6 +163,7 @@ constexpr std::array homes = {
     Home{"Xlib", xlib, xlib_home},
     Home{"nlohmann-json", json, json_home},
     Home{"Boost.Asio", asio, asio_home},
+    Home{"Boost.Polygon", voronoi, voronoi_home},
     Home{"Clipper", clipper, clipper_home},
     Home{"libpng or libjpeg", pictures, pictures_home},
     Home{"potrace", potrace, potrace_home},

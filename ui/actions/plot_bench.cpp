@@ -67,9 +67,7 @@ std::vector<plot::Level> PlotBench::levels() const {
 }
 
 double PlotBench::tool_diameter() const {
-    const auto now = latest();
-    const bool picture = now && now->picture && settings().use != project::PictureUse::outlines;
-    if (!picture) {
+    if (!project::is_cut_by_tip(input_)) {
         return settings().strokes.tool_diameter;
     }
     return settings().tip.kind == plot::TipKind::point ? 0.0 : settings().tip.diameter;

@@ -37,13 +37,14 @@ fs::path place_of_program(const fs::path& drawing, const WorkshopOptions& option
     return own;
 }
 
-/// What was set for one drawing and would be a surprise in the next: levels, the side of the cutter, hatches,
-/// links and order of strokes, the place on the machine, a frame, leave to go through the plate. Tools,
-/// speeds, depths, the plate, machine and control stay.
+/// What was set for one drawing and would be a surprise in the next: that it is V-carved, levels, the side of
+/// the cutter, hatches, links and order of strokes, the place on the machine, a frame, leave to go through
+/// the plate. Tools, speeds, depths, the plate, machine and control stay.
 void forget_drawing(project::PlotSettings& settings) {
     const plot::StrokePlan usual{.tool_diameter = settings.strokes.tool_diameter};
     settings.levels.clear();
     settings.strokes = usual;
+    settings.drawing_use = project::DrawingUse::strokes;
     settings.origin = Vec2::Zero();
     settings.frame.reset();
     settings.through = false;

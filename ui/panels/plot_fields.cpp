@@ -133,7 +133,7 @@ void tip_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
         numbers(ui, ask, now, {"tip_diameter_mm"});
     }
     if (now.tip.kind == plot::TipKind::v) {
-        numbers(ui, ask, now, {"tip_angle_deg"});
+        numbers(ui, ask, now, {"tip_angle_deg", "tip_end_mm", "tip_end_radius_mm"});
     }
 }
 
@@ -183,7 +183,9 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
                              project::turn_policies(),
                              set.tracing.turns,
                              [](Project& draft, auto turns) { draft.plot.settings.tracing.turns = turns; });
-    numbers(ui, ask, set, {"chords_mm"});
+    if (set.use == PictureUse::outlines) {
+        numbers(ui, ask, set, {"chords_mm"});
+    }
 }
 
 void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
@@ -218,6 +220,32 @@ void dot_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
            [](PlotSettings& s, bool on) { s.join_dots = on; });
 }
 
+void carving_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
+    tip_fields(ui, ask, set);
+    numbers(ui, ask, set, {"largest_depth_mm", "depth_per_pass_mm"});
+    toggle(ui,
+           ask,
+           "clear_floor",
+           "Clear floor",
+           set.clear_floor,
+           "Where outlines are wider than the bit reaches; else it is left for an end mill, but for its edge",
+           [](PlotSettings& s, bool on) { s.clear_floor = on; });
+    if (set.clear_floor) {
+        numbers(ui, ask, set, {"step_over_mm"});
+    }
+    numbers(ui, ask, set, {"carving_tolerance_mm", "close_gaps_mm"});
+    if (made != nullptr && made->carved) {
+        const plot::CarvingFigures& carved = *made->carved;
+        ui.value("deepest", "Deepest", fmt::format("{:.3f}", carved.deepest), "mm");
+        if (carved.floor_area > 0.0) {
+            ui.value("floor", "Floor", fmt::format("{:.4g}", carved.floor_area), "mm\u00b2");
+            ui.value("floor_left", "Floor left", fmt::format("{:.4g}", carved.floor_left), "mm\u00b2");
+        }
+        ui.value(
+            "deviation", "Beyond outlines", fmt::format("{:.4f}", std::max(0.0, carved.deviation)), "mm");
+    }
+}
+
 /// Dots as deep as a relief would run into one another.
 double usual_depth(PictureUse use) {
     constexpr double of_dots = 0.3;
@@ -231,6 +259,9 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pro
             const bool untouched = !(std::abs(settings.depth - usual_depth(settings.use)) > 0.0);
             settings.depth = untouched ? usual_depth(use) : settings.depth;
             settings.use = use;
+            if (use == PictureUse::carving) {
+                project::take_v_bit(settings);
+            }
         });
     numbers(ui, ask, set, {"width_mm"});
     if (made != nullptr && made->picture_size.x() > 0.0) {
@@ -252,6 +283,9 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pro
         });
     numbers(ui, ask, set, {"gray_steps"});
     if (set.use == PictureUse::outlines) {
+        trace_fields(ui, ask, set);
+    } else if (set.use == PictureUse::carving) {
+        carving_fields(ui, ask, set, made);
         trace_fields(ui, ask, set);
     } else {
         if (set.use != PictureUse::halftone) {
@@ -304,6 +338,28 @@ void name_choice(Ui& ui,
     }
 }
 
+void drawing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const PlotSettings& set = now.plot.settings();
+    choice<project::DrawingUse>(ui,
+                                ask,
+                                "use",
+                                "Becomes",
+                                project::drawing_uses(),
+                                set.drawing_use,
+                                [](Project& draft, project::DrawingUse use) {
+                                    draft.plot.settings.drawing_use = use;
+                                    if (use == project::DrawingUse::carving) {
+                                        project::take_v_bit(draft.plot.settings);
+                                    }
+                                });
+    unit_fields(ui, ask, set);
+    if (set.drawing_use == project::DrawingUse::carving) {
+        const std::shared_ptr<const project::PlotResult> made = now.plot.latest();
+        carving_fields(ui, ask, set, made.get());
+    }
+    reading_fields(ui, ask, set);
+}
+
 bool stands_as_it_is(const Workbench& now) {
     return project::is_path_file(now.plot.file()) || project::is_point_file(now.plot.file()) ||
            project::is_gcode_file(now.plot.file());
@@ -315,8 +371,8 @@ widgets::Permission unless_path(const Workbench& now, const char* reason) {
 
 } // namespace
 
-bool cuts_brightness(const Workbench& now) {
-    return project::is_picture_file(now.plot.file()) && now.plot.settings().use != PictureUse::outlines;
+bool cuts_strokes(const Workbench& now) {
+    return !project::is_cut_by_tip({now.plot.file(), now.plot.settings()});
 }
 
 void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -333,8 +389,7 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.note("A G-code program: it is cut as it stands, with its heights and feeds.");
         numbers(ui, ask, now.plot.settings(), {"chord_length_mm"});
     } else {
-        unit_fields(ui, ask, now.plot.settings());
-        reading_fields(ui, ask, now.plot.settings());
+        drawing_fields(ui, now, ask);
     }
 }
 
@@ -411,7 +466,8 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         numbers(ui, ask, set, {"safe_height_mm"});
     }
     numbers(ui, ask, set, {"plate_mm"});
-    const bool cut_out = cuts_brightness(now) && set.use == PictureUse::relief && set.frame;
+    const bool relief = project::is_picture_file(now.plot.file()) && set.use == PictureUse::relief;
+    const bool cut_out = relief && set.frame;
     if (set.plate > 0.0 || cut_out) {
         toggle(ui,
                ask,

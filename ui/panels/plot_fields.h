@@ -14,7 +14,7 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
 /// Of the view against the light.
 void light_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
 
-/// The picture is cut by what it is bright, not by its outlines.
-[[nodiscard]] bool cuts_brightness(const Workbench& now);
+/// Whether strokes are cut by an end mill: neither a relief, nor dots, nor a V-carving.
+[[nodiscard]] bool cuts_strokes(const Workbench& now);
 
 } // namespace millwright::panels

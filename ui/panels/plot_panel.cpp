@@ -316,7 +316,7 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto section = ui.section("source", "Source")) {
         source_fields(ui, now, ask);
     }
-    if (!cuts_brightness(now)) {
+    if (cuts_strokes(now)) {
         stroke_fields(ui, now, ask);
     }
     work_fields(ui, now, ask);

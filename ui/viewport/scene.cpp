@@ -186,6 +186,12 @@ render::ColorScale deviation_colors(const Scene& scene) {
     return {.map = scene.error.map, .low = -top, .high = top};
 }
 
+render::ColorScale depth_colors(const Scene& scene) {
+    expects(scene.plot != nullptr && scene.plot->carved, "there are depths to be coloured");
+    return {
+        .map = scene.error.map, .low = 0.0, .high = std::max(scene.plot->carved->deepest, finest_scale_mm)};
+}
+
 render::ColorScale scallop_colors(const Scene& scene, const glm::vec3& over_limit) {
     expects(scene.cut != nullptr, "there are scallops to be coloured");
     constexpr double above_most = 1.5;

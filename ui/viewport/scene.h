@@ -185,6 +185,8 @@ enum class SurfaceColors { plain, error, scallop, weight, deviation };
 /// The colours of the deviation of the reference, both ways to a round number not below the largest. Throws
 /// Defect without a reference.
 [[nodiscard]] render::ColorScale deviation_colors(const Scene& scene);
+/// Of the cuts of a V-carving by their depth, mm. Throws Defect without one.
+[[nodiscard]] render::ColorScale depth_colors(const Scene& scene);
 
 /// The colours of what is left on the surface: from 0 to a round number that 95 % of it are well below; the
 /// signal colour is higher, or not cut. Throws Defect without a study of the cut.

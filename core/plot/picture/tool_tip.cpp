@@ -39,6 +39,62 @@ double positive_number(std::string_view part, double most, std::string_view whol
     return value;
 }
 
+/// Of a V with a round end: where the rounding passes into the cone, seen from its begin beside the axis.
+struct Rounding {
+    double distance = 0.0;
+    double height = 0.0;
+};
+
+Rounding rounding_of(const ToolTip& tip) {
+    const double half = tip.angle / 2.0;
+    return {tip.end_radius * std::cos(half), tip.end_radius * (1.0 - std::sin(half))};
+}
+
+double rise_of_v(const ToolTip& tip, double distance) {
+    const double beside = std::max(0.0, distance - tip.end_width / 2.0);
+    const auto [end, height] = rounding_of(tip);
+    if (beside < end) {
+        return tip.end_radius - std::sqrt((tip.end_radius - beside) * (tip.end_radius + beside));
+    }
+    return height + (beside - end) / std::tan(tip.angle / 2.0);
+}
+
+double slope_of_v(const ToolTip& tip, double distance) {
+    const double beside = distance - tip.end_width / 2.0;
+    if (beside < 0.0) {
+        return 0.0;
+    }
+    if (beside < rounding_of(tip).distance) {
+        return beside / std::sqrt((tip.end_radius - beside) * (tip.end_radius + beside));
+    }
+    return 1.0 / std::tan(tip.angle / 2.0);
+}
+
+double mouth_of_v(const ToolTip& tip, double depth) {
+    const auto [end, height] = rounding_of(tip);
+    const double beside = depth < height ? std::sqrt(depth * (2.0 * tip.end_radius - depth))
+                                         : end + (depth - height) * std::tan(tip.angle / 2.0);
+    return tip.end_width / 2.0 + beside;
+}
+
+std::string end_text(const ToolTip& tip) {
+    return tip.end_radius > 0.0  ? ":r" + shortest(tip.end_radius)
+           : tip.end_width > 0.0 ? ":" + shortest(tip.end_width)
+                                 : "";
+}
+
+/// `0.2`: flat and so wide; `r0.1`: round.
+void read_end(std::string_view part, std::string_view whole, ToolTip& tip) {
+    const bool round = part.starts_with('r');
+    (round ? tip.end_radius : tip.end_width) =
+        positive_number(round ? part.substr(1) : part, largest_diameter, whole);
+    const double wide = tip.end_width + 2.0 * rounding_of(tip).distance;
+    if (!(wide < tip.diameter)) {
+        throw Error(fmt::format(
+            "the tool '{}': its end is {} mm wide, as wide as the tool or wider", whole, shortest(wide)));
+    }
+}
+
 } // namespace
 
 double radius(const ToolTip& tip) {
@@ -56,7 +112,7 @@ double rise(const ToolTip& tip, double distance) {
     case TipKind::ball:
         return r - std::sqrt((r - distance) * (r + distance));
     case TipKind::v:
-        return distance / std::tan(tip.angle / 2.0);
+        return rise_of_v(tip, distance);
     case TipKind::point:
     case TipKind::flat:
         break;
@@ -70,7 +126,7 @@ double rise_slope(const ToolTip& tip, double distance) {
     case TipKind::ball:
         return distance / std::sqrt((r - distance) * (r + distance));
     case TipKind::v:
-        return 1.0 / std::tan(tip.angle / 2.0);
+        return slope_of_v(tip, distance);
     case TipKind::point:
     case TipKind::flat:
         break;
@@ -84,7 +140,7 @@ double mouth_radius(const ToolTip& tip, double depth) {
     case TipKind::ball:
         return depth < r ? std::sqrt(depth * (2.0 * r - depth)) : r;
     case TipKind::v:
-        return std::min(r, depth * std::tan(tip.angle / 2.0));
+        return std::min(r, mouth_of_v(tip, depth));
     case TipKind::point:
     case TipKind::flat:
         break;
@@ -105,14 +161,17 @@ ToolTip parse_tool_tip(std::string_view text) {
         tip.diameter = positive_number(parts[1], largest_diameter, text);
         return tip;
     }
-    if (parts[0] == "v" && (parts.size() == 2 || parts.size() == 3)) {
+    if (parts[0] == "v" && parts.size() >= 2 && parts.size() <= 4) {
         tip.kind = TipKind::v;
         tip.angle = from_degrees(positive_number(parts[1], straight, text));
         tip.diameter =
-            parts.size() == 3 ? positive_number(parts[2], largest_diameter, text) : usual_v_diameter;
+            parts.size() > 2 ? positive_number(parts[2], largest_diameter, text) : usual_v_diameter;
+        if (parts.size() == 4) {
+            read_end(parts[3], text, tip);
+        }
         return tip;
     }
-    throw Error(fmt::format("'{}' is no tool", text), {}, "ball:MM, flat:MM, v:DEGREES[:MM] or point");
+    throw Error(fmt::format("'{}' is no tool", text), {}, "ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point");
 }
 
 std::string to_text(const ToolTip& tip) {
@@ -122,7 +181,8 @@ std::string to_text(const ToolTip& tip) {
     case TipKind::flat:
         return "flat:" + shortest(tip.diameter);
     case TipKind::v:
-        return fmt::format("v:{}:{}", shortest(to_degrees(tip.angle)), shortest(tip.diameter));
+        return fmt::format("v:{}:{}", shortest(to_degrees(tip.angle)), shortest(tip.diameter)) +
+               end_text(tip);
     case TipKind::point:
         break;
     }

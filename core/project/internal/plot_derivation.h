@@ -29,11 +29,13 @@ public:
     [[nodiscard]] bool wants_program() const { return result_.path->size() <= most_points_at_once; }
 
 private:
+    void cut_drawing();
     void cut_program();
     void cut_points();
     void cut_picture();
     void show_picture(const plot::PictureSettings& reading, double pixel);
     void cut_relief(const plot::Picture& picture, double pitch);
+    void carve_strokes(const plot::Strokes& drawn);
     void cut_strokes(const plot::Strokes& drawn, const Vec2& end);
     /// Compensated, filled, ordered and linked, for a tool that comes from the origin and goes to `end`.
     [[nodiscard]] plot::Strokes plan_strokes(const plot::Strokes& drawn, const Vec2& end);

@@ -4,6 +4,9 @@
 #include "core/gcode/reader/preview_path.h"
 #include "core/geometry/vectors.h"
 #include "core/plot/cut_path.h"
+#include "core/project/plot_work.h"
+
+#include <vector>
 
 namespace millwright::project {
 
@@ -12,6 +15,9 @@ namespace millwright::project {
 
 /// Those of one tool.
 [[nodiscard]] gcode::PreviewPath cuts_with(const plot::CutPath& path, int tool);
+
+/// The moves in the work by their mean depths, from the top, `shift` across.
+[[nodiscard]] std::vector<PlotResult::LevelPath> cuts_by_depth(const plot::CutPath& path, const Vec2& shift);
 
 /// The moves in the air.
 [[nodiscard]] gcode::PreviewPath travel_of(const plot::CutPath& path);

@@ -33,6 +33,8 @@ Project every_setting_changed() {
     set.picture.gray = plot::GrayRule::luminance;
     set.picture.invert = true;
     set.tracing.turns = plot::TurnPolicy::left;
+    set.drawing_use = DrawingUse::carving;
+    set.clear_floor = false;
     set.join_dots = set.through = true;
     set.tip.kind = plot::TipKind::v;
     set.strokes.side = plot::CutterSide::inside;

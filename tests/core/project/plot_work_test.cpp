@@ -86,6 +86,10 @@ std::string seen(const PlotInput& input) {
     return text;
 }
 
+/// An L, and a square that ends 0.3 mm before its beginning.
+constexpr const char* outlines_with_a_gap = "IN;SP1;PU0,0;PD1600,0,1600,800,800,800,800,1600,0,1600,0,0;"
+                                            "PU2000,0;PD2400,0,2400,400,2000,400,2000,12;PU;";
+
 PlotInput picture_input(PictureUse use) {
     PlotInput input{"assets/samples/pictures/boat.png", {}};
     input.settings.use = use;
@@ -126,7 +130,21 @@ TEST(PlotWork, EveryNumberOfTheSettingsCounts) {
     for (int pen = 1; pen <= 2; ++pen) {
         tools.settings.levels.push_back({.pen = pen, .order = pen, .tool = pen});
     }
-    const std::vector<Case> cases = {{tools, "change_x_mm", 7.0},
+    std::ofstream(scratch / "outlines.plt") << outlines_with_a_gap;
+    PlotInput carved{scratch / "outlines.plt", {}};
+    carved.settings.drawing_use = DrawingUse::carving;
+    carved.settings.tip = {plot::TipKind::v, 30.0, 1.0};
+    carved.settings.largest_depth = 3.0;
+    const std::vector<Case> cases = {{carved, "largest_depth_mm", 2.0},
+                                     {carved, "tip_end_mm", 0.5},
+                                     {carved, "tip_end_radius_mm", 0.4},
+                                     {carved, "tip_angle_deg", 90.0},
+                                     {carved, "carving_tolerance_mm", 0.1},
+                                     {carved, "close_gaps_mm", 0.5},
+                                     {carved, "step_over_mm", 1.0},
+                                     {carved, "depth_per_pass_mm", 1.0},
+                                     {carved, "safe_height_mm", 7.0},
+                                     {tools, "change_x_mm", 7.0},
                                      {tools, "change_y_mm", 7.0},
                                      {tools, "change_z_mm", 40.0},
                                      {arc, "chord_length_mm", 5.0},
@@ -259,6 +277,16 @@ TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
     EXPECT_TRUE(differs(outlines, [](PlotSettings& s) { s.picture.invert = true; }));
     PlotInput dots = picture_input(PictureUse::dots);
     EXPECT_TRUE(differs(dots, [](PlotSettings& s) { s.join_dots = true; }));
+    EXPECT_TRUE(differs(drawing, [](PlotSettings& s) {
+        s.drawing_use = DrawingUse::carving;
+        take_v_bit(s);
+    }));
+    std::ofstream(scratch / "outlines.plt") << outlines_with_a_gap;
+    PlotInput carved{scratch / "outlines.plt", {}};
+    carved.settings.drawing_use = DrawingUse::carving;
+    carved.settings.largest_depth = 2.0;
+    take_v_bit(carved.settings);
+    EXPECT_TRUE(differs(carved, [](PlotSettings& s) { s.clear_floor = false; }));
     PlotInput thin = drawing;
     thin.settings.plate = 0.5;
     EXPECT_TRUE(differs(thin, [](PlotSettings& s) { s.through = true; }));

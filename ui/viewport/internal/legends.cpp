@@ -71,6 +71,13 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          "normal.",
                          deviation_colors(scene)});
     }
+    if (scene.layers.toolpath && scene.plot && scene.plot->carved) {
+        found.push_back({"depth_legend",
+                         "Depth",
+                         "mm",
+                         "How deep the bit cuts along the middle of the outlines.",
+                         depth_colors(scene)});
+    }
     if (surface == SurfaceColors::weight) {
         found.push_back({"weight_legend",
                          "Weight",

@@ -158,7 +158,7 @@ public:
         } else if (looks) {
             draw_look(scene, canvas);
         }
-        const bool rows = scene.plot->picture && scene.plot->levels.empty(); // would hide what they leave
+        const bool rows = covers_picture(scene); // would hide what they leave
         if (scene.layers.toolpath && !(rows && looks)) {
             draw_paths(scene, canvas);
         }
@@ -168,6 +168,11 @@ public:
     }
 
 private:
+    /// Rows of a relief, and dots.
+    static bool covers_picture(const Scene& scene) {
+        return scene.plot->picture && scene.plot->levels.empty() && !scene.plot->carved;
+    }
+
     void draw_look(const Scene& scene, const Canvas& canvas) const {
         render::MeshStyle style;
         style.model = canvas.s_T_w;
@@ -198,8 +203,11 @@ private:
             only_feeds(on_plate ? air_shade * canvas.colors.surface : canvas.colors.rapid, air_opacity);
         air_.draw(scene, canvas, style, rough, -1, share);
         for (std::size_t n = 0; n < cuts_.size() && n < scene.plot->cuts.size(); ++n) {
-            const float opacity = shown_ && scene.plot->levels.empty() ? rows_opacity : 1.0F;
-            style.color = only_feeds(pen_color(scene.plot->cuts[n].pen, canvas.colors.theme), opacity);
+            const float opacity = shown_ && covers_picture(scene) ? rows_opacity : 1.0F;
+            const project::PlotResult::LevelPath& cut = scene.plot->cuts[n];
+            const glm::vec3 color = cut.depth ? render::color_of(depth_colors(scene), *cut.depth)
+                                              : pen_color(cut.pen, canvas.colors.theme);
+            style.color = only_feeds(color, opacity);
             cuts_[n].draw(scene, canvas, style, rough, -1, share);
         }
     }

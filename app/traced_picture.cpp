@@ -1,0 +1,84 @@
+#include "app/traced_picture.h"
+
+#include "app/finite_number.h"
+#include "app/names.h"
+#include "core/base/error.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace millwright::app {
+
+namespace {
+
+using plot::TurnPolicy;
+
+const std::map<std::string, TurnPolicy> turn_policies = {{"black", TurnPolicy::connect_black},
+                                                         {"white", TurnPolicy::connect_white},
+                                                         {"left", TurnPolicy::left},
+                                                         {"right", TurnPolicy::right},
+                                                         {"minority", TurnPolicy::minority},
+                                                         {"majority", TurnPolicy::majority}};
+
+[[noreturn]] void
+refuse_empty(const plot::Picture& picture, const PictureChoice& choice, const plot::TraceSettings& tracing) {
+    plot::TraceSettings with_specks = tracing;
+    with_specks.speckle = 0;
+    if (!plot::trace(picture, with_specks).empty()) {
+        throw Error(fmt::format("nothing dark in it has more than {} {}, and so small specks are left out",
+                                tracing.speckle,
+                                tracing.speckle == 1 ? "pixel" : "pixels"),
+                    choice.file,
+                    "--speckle 0 traces them, too");
+    }
+    const bool helps = inverting_helps(
+        choice, [&](const SizedPicture& other) { return !plot::trace(other.picture, tracing).empty(); });
+    const auto [darkest, brightest] = std::ranges::minmax(picture.gray);
+    throw Error(
+        "nothing in it is dark enough to be traced",
+        choice.file,
+        fmt::format("{}; {}",
+                    darkest == brightest ? "all of it is equally bright" : "--threshold says what is dark",
+                    invert_hint(choice,
+                                helps,
+                                {.invert = "--invert traces what is bright",
+                                 .plain = "without --invert what is dark is traced"})));
+}
+
+} // namespace
+
+void add_tracing_options(CLI::App& command, plot::TraceSettings& tracing) {
+    command.add_option("--threshold", tracing.threshold, "What is not brighter is dark, 0 to 1")
+        ->capture_default_str();
+    command.add_option("--speckle", tracing.speckle, "Leave out what has so few pixels")
+        ->check(not_below_zero())
+        ->capture_default_str();
+    command.add_option("--corner", tracing.corner, "0: corners stay, 1.334: all are smoothed")
+        ->capture_default_str();
+    command.add_option("--tolerance", tracing.tolerance, "Join curves that change so little, pixels")
+        ->check(not_below_zero())
+        ->capture_default_str();
+    command
+        .add_option(
+            "--turns", tracing.turns, "Where dark pixels touch at corners: black, white, left, right, ...")
+        ->transform(one_of(turn_policies))
+        ->type_name(listed(turn_policies))
+        ->default_str("minority");
+}
+
+std::vector<plot::TracedPath>
+traced_outlines(const SizedPicture& sized, const PictureChoice& choice, const plot::TraceSettings& tracing) {
+    std::vector<plot::TracedPath> paths = plot::trace(sized.picture, tracing);
+    if (paths.empty()) {
+        refuse_empty(sized.picture, choice, tracing);
+    }
+    return paths;
+}
+
+} // namespace millwright::app

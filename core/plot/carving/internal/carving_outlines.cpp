@@ -1,0 +1,52 @@
+#include "core/plot/carving/internal/carving_outlines.h"
+
+#include "core/base/counted.h"
+#include "core/plot/closing.h"
+#include "core/plot/linking.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+namespace millwright::plot::internal {
+
+CarvingOutlines carving_outlines(const Strokes& drawn, double gap) {
+    CarvingOutlines found;
+    std::size_t open = 0;
+    const Stroke* first = nullptr;
+    const Strokes joined = rings_joined(drawn, gap);
+    for (const Stroke& stroke : joined) {
+        Region ring = closed_outlines({stroke}, gap);
+        if (!ring.empty()) {
+            found.region.push_back(std::move(ring.front()));
+        } else if (++open == 1) {
+            first = &stroke;
+        }
+    }
+    if (first == nullptr) {
+        return found;
+    }
+    const Vec2& from = first->points.front();
+    const Vec2& to = first->points.back();
+    Diagnostic notice;
+    notice.place.byte = first->byte;
+    notice.message = fmt::format("{} {} left out, the first from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}) mm, "
+                                 "its ends {:.3f} mm apart",
+                                 counted(open, "open stroke"),
+                                 open == 1 ? "is" : "are",
+                                 from.x(),
+                                 from.y(),
+                                 to.x(),
+                                 to.y(),
+                                 (to - from).norm());
+    notice.hint =
+        fmt::format("ends up to {:g} mm apart are joined: close the outline, or close wider gaps", gap);
+    if (found.region.empty()) {
+        notice.message = "no outline is closed, so nothing is inside: " + notice.message;
+        throw Error(notice);
+    }
+    found.notices.push_back(std::move(notice));
+    return found;
+}
+
+} // namespace millwright::plot::internal

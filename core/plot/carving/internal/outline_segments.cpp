@@ -1,0 +1,200 @@
+#include "core/plot/carving/internal/outline_segments.h"
+
+#include "core/base/error.h"
+#include "core/plot/carving/internal/segment_contacts.h"
+#include "core/plot/strokes.h"
+
+#include <fmt/format.h>
+#include <polyclipping/clipper.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace millwright::plot::internal {
+namespace {
+
+constexpr double finest_unit = 1e-6; // mm
+constexpr double farthest_mm = 1e6;
+constexpr double most_units = 536'870'912.0; // 2^29 on each side of the origin: products fit 64 bits
+constexpr std::size_t most_outline_segments = 1'000'000;
+constexpr double units_per_tolerance = 10.0;
+
+using UnitRing = std::vector<UnitPoint>;
+
+Extents box_of(const Region& drawn) {
+    std::optional<Extents> box;
+    std::size_t count = 0;
+    for (const Ring& ring : drawn) {
+        count += ring.size();
+        for (const Vec2& p : ring) {
+            if (!(p.cwiseAbs().maxCoeff() <= farthest_mm)) {
+                throw Error(fmt::format("an outline has a point at ({:g}, {:g}) mm", p.x(), p.y()),
+                            {},
+                            "places are numbers up to 1 km from the origin");
+            }
+            if (!box) {
+                box = Extents{p, p};
+            }
+            box->lower = box->lower.cwiseMin(p);
+            box->upper = box->upper.cwiseMax(p);
+        }
+    }
+    if (count > most_outline_segments) {
+        throw Error(fmt::format("the outlines have {} points, and {} at most can be carved",
+                                count,
+                                most_outline_segments),
+                    {},
+                    "coarser chords have fewer points");
+    }
+    return box.value_or(Extents{});
+}
+
+double unit_for(const Extents& box, double tolerance) {
+    const double half = 0.5 * (box.upper - box.lower).maxCoeff();
+    double unit = finest_unit;
+    while (half > most_units * unit) {
+        unit *= 2.0;
+    }
+    if (unit * units_per_tolerance > tolerance) {
+        throw Error(fmt::format("outlines {:.6g} mm wide can be carved to {:.2g} mm, not to {:g} mm",
+                                2.0 * half,
+                                unit * units_per_tolerance,
+                                tolerance),
+                    {},
+                    "a smaller drawing or a larger tolerance");
+    }
+    return unit;
+}
+
+UnitRing in_units(const Ring& ring, const Vec2& origin, double unit) {
+    UnitRing units;
+    for (const Vec2& p : ring) {
+        const Vec2 q = (p - origin) / unit;
+        const UnitPoint at{static_cast<std::int32_t>(std::lround(q.x())),
+                           static_cast<std::int32_t>(std::lround(q.y()))};
+        if (units.empty() || units.back() != at) {
+            units.push_back(at);
+        }
+    }
+    while (units.size() > 1 && units.back() == units.front()) {
+        units.pop_back();
+    }
+    return units;
+}
+
+bool is_flat(const UnitRing& ring) {
+    for (std::size_t n = 2; n < ring.size(); ++n) {
+        if (turn(ring[0], ring[1], ring[n]) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The same for a ring that begins elsewhere or runs backwards.
+UnitRing canonical(UnitRing ring) {
+    std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
+    if (ring.size() > 2 && ring.back() < ring[1]) {
+        std::reverse(ring.begin() + 1, ring.end());
+    }
+    return ring;
+}
+
+void note_place(OutlineFindings& found, const Vec2& place) {
+    if (found.count == 0) {
+        found.first = place;
+    }
+    ++found.count;
+}
+
+std::vector<OutlineSegment> segments_of(const std::vector<UnitRing>& rings) {
+    std::vector<OutlineSegment> segments;
+    for (std::size_t n = 0; n < rings.size(); ++n) {
+        for (std::size_t k = 0; k < rings[n].size(); ++k) {
+            segments.push_back({rings[n][k], rings[n][(k + 1) % rings[n].size()], static_cast<int>(n)});
+        }
+    }
+    return segments;
+}
+
+/// By the even-odd rule. Where rings cross, the crossing is rounded.
+std::vector<UnitRing> united(const std::vector<UnitRing>& rings) {
+    ClipperLib::Clipper clipper;
+    for (const UnitRing& ring : rings) {
+        ClipperLib::Path path;
+        for (const auto& [x, y] : ring) {
+            path.emplace_back(x, y);
+        }
+        clipper.AddPath(path, ClipperLib::ptSubject, true);
+    }
+    ClipperLib::Paths paths;
+    clipper.Execute(ClipperLib::ctUnion, paths, ClipperLib::pftEvenOdd, ClipperLib::pftEvenOdd);
+    std::vector<UnitRing> result;
+    for (const ClipperLib::Path& path : paths) {
+        UnitRing ring;
+        for (const ClipperLib::IntPoint& p : path) {
+            ring.push_back({static_cast<std::int32_t>(p.X), static_cast<std::int32_t>(p.Y)});
+        }
+        if (!is_flat(ring)) {
+            result.push_back(std::move(ring));
+        }
+    }
+    return result;
+}
+
+/// Rounded crossings may make lines near them cross anew.
+std::vector<UnitRing> without_crossings(std::vector<UnitRing> rings, const Progress& progress) {
+    constexpr int most_rounds = 16;
+    for (int round = 0; round < most_rounds; ++round) {
+        rings = united(rings);
+        progress.check();
+        if (crossings_of(segments_of(rings), progress).crossing == 0) {
+            return rings;
+        }
+    }
+    throw Error("the outlines cross in so many places near one another that their inside is not found",
+                {},
+                "draw them without crossings");
+}
+
+} // namespace
+
+OutlineSegments outline_segments(const Region& drawn, double tolerance, const Progress& progress) {
+    const Extents box = box_of(drawn);
+    OutlineSegments result;
+    result.origin = 0.5 * (box.lower + box.upper);
+    result.unit = unit_for(box, tolerance);
+    std::vector<UnitRing> rings;
+    std::set<UnitRing> known;
+    for (const Ring& ring : drawn) {
+        UnitRing units = in_units(ring, result.origin, result.unit);
+        if (units.empty()) {
+            continue;
+        }
+        if (is_flat(units)) {
+            note_place(result.flat, ring.front());
+        } else if (!known.insert(canonical(units)).second) {
+            note_place(result.repeated, ring.front());
+        } else {
+            rings.push_back(std::move(units));
+        }
+    }
+    progress.check();
+    const UnitCrossings crossed = crossings_of(segments_of(rings), progress);
+    result.crossings.count = crossed.crossing + crossed.overlapping;
+    result.crossings.first = result.origin + result.unit * crossed.first;
+    rings = without_crossings(std::move(rings), progress);
+    for (const UnitRing& ring : rings) {
+        Ring& mm = result.rings.emplace_back();
+        for (const UnitPoint& p : ring) {
+            mm.push_back(result.place(p));
+        }
+    }
+    result.segments = split_at_touches(segments_of(rings), progress);
+    return result;
+}
+
+} // namespace millwright::plot::internal

@@ -1,0 +1,189 @@
+#include "core/plot/carving/internal/voronoi_edges.h"
+
+#include "core/plot/carving/internal/bisector.h"
+
+#include <boost/polygon/voronoi.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+namespace millwright::plot::internal {
+namespace {
+
+using VoronoiDiagram = boost::polygon::voronoi_diagram<double>;
+using BoostEdge = VoronoiDiagram::edge_type;
+using BoostCell = VoronoiDiagram::cell_type;
+using BoostVertex = VoronoiDiagram::vertex_type;
+
+enum class Where : std::size_t { unknown, inside, outside, on_outline };
+
+Vec2 plane_of(const UnitPoint& p) {
+    return {static_cast<double>(p[0]), static_cast<double>(p[1])};
+}
+Vec2 plane_of(const BoostVertex& vertex) {
+    return {vertex.x(), vertex.y()};
+}
+
+class InsideEdges {
+public:
+    InsideEdges(const OutlineSegments& outlines, double sampling, const Progress& progress)
+        : outlines_(outlines), sampling_(sampling / outlines.unit), progress_(progress) {
+        boost::polygon::voronoi_builder<std::int32_t> builder;
+        for (const OutlineSegment& s : outlines.segments) {
+            builder.insert_segment(s.a[0], s.a[1], s.b[0], s.b[1]);
+        }
+        builder.construct(&diagram_);
+        progress_.check();
+    }
+
+    std::vector<VoronoiEdge> take() {
+        mark_outline();
+        mark_beside_segments();
+        mark_between_points();
+        std::vector<VoronoiEdge> result;
+        for_each_edge([&](const BoostEdge& edge) {
+            if (where(edge) == Where::inside) {
+                result.push_back(curve_of(edge));
+            }
+        });
+        return result;
+    }
+
+private:
+    /// Each once, those without a direction of their own left out.
+    template <class Visit> void for_each_edge(const Visit& visit) const {
+        std::size_t n = 0;
+        constexpr std::size_t often = 1000;
+        for (const BoostEdge& edge : diagram_.edges()) {
+            if (++n % often == 0) {
+                progress_.check();
+            }
+            if (edge.is_primary() && edge.is_finite() && &edge < edge.twin()) {
+                visit(edge);
+            }
+        }
+    }
+
+    [[nodiscard]] const OutlineSegment& segment_of(const BoostCell& cell) const {
+        return outlines_.segments[cell.source_index()];
+    }
+    [[nodiscard]] Site site_of(const BoostCell& cell) const {
+        const OutlineSegment& s = segment_of(cell);
+        if (cell.contains_segment()) {
+            return {false, plane_of(s.a), plane_of(s.b)};
+        }
+        const bool start = cell.source_category() == boost::polygon::SOURCE_CATEGORY_SEGMENT_START_POINT;
+        return {true, plane_of(start ? s.a : s.b), Vec2::Zero()};
+    }
+    [[nodiscard]] Bisector bisector_of(const BoostEdge& edge) const {
+        return {site_of(*edge.cell()),
+                site_of(*edge.twin()->cell()),
+                plane_of(*edge.vertex0()),
+                plane_of(*edge.vertex1())};
+    }
+
+    static Where where(const BoostVertex& vertex) { return static_cast<Where>(vertex.color()); }
+    static Where where(const BoostEdge& edge) { return static_cast<Where>(edge.color()); }
+    static void mark(const BoostEdge& edge, Where place) {
+        edge.color(static_cast<std::size_t>(place));
+        for (const BoostVertex* vertex : {edge.vertex0(), edge.vertex1()}) {
+            if (where(*vertex) == Where::unknown) {
+                vertex->color(static_cast<std::size_t>(place));
+            }
+        }
+    }
+
+    void mark_outline() const {
+        constexpr double nearly = 0.5; // units: no other place in whole units is so near
+        for (const BoostVertex& vertex : diagram_.vertices()) {
+            if (clearance(site_of(*vertex.incident_edge()->cell()), plane_of(vertex)) < nearly) {
+                vertex.color(static_cast<std::size_t>(Where::on_outline));
+            }
+        }
+    }
+
+    /// The inside is at the left of each segment.
+    void mark_beside_segments() const {
+        for_each_edge([&](const BoostEdge& edge) {
+            const bool here = edge.cell()->contains_segment();
+            if (!here && !edge.twin()->cell()->contains_segment()) {
+                return;
+            }
+            const OutlineSegment& s = segment_of(here ? *edge.cell() : *edge.twin()->cell());
+            const Vec2 a = plane_of(s.a);
+            const Vec2 along = plane_of(s.b) - a;
+            const Vec2 to = bisector_of(edge).at(0.5).head<2>() - a;
+            const double left = along.x() * to.y() - along.y() * to.x();
+            mark(edge, left > 0.0 ? Where::inside : Where::outside);
+        });
+    }
+
+    /// An edge crosses no segment: it is where its ends are.
+    void mark_between_points() const {
+        std::vector<const BoostEdge*> unknown;
+        for_each_edge([&](const BoostEdge& edge) {
+            if (where(edge) == Where::unknown) {
+                unknown.push_back(&edge);
+            }
+        });
+        const auto known = [](const BoostVertex& vertex) {
+            return where(vertex) == Where::inside || where(vertex) == Where::outside;
+        };
+        bool more = true;
+        while (more) {
+            more = false;
+            std::erase_if(unknown, [&](const BoostEdge* edge) {
+                const BoostVertex* from = known(*edge->vertex0()) ? edge->vertex0() : edge->vertex1();
+                if (!known(*from)) {
+                    return false;
+                }
+                mark(*edge, where(*from));
+                more = true;
+                return true;
+            });
+        }
+        for (const BoostEdge* edge : unknown) { // that points alone are near
+            const Vec2 middle = bisector_of(*edge).at(0.5).head<2>();
+            const bool inside = contains(outlines_.rings, outlines_.origin + outlines_.unit * middle);
+            mark(*edge, inside ? Where::inside : Where::outside);
+        }
+    }
+
+    VoronoiEdge curve_of(const BoostEdge& edge) {
+        const BoostVertex& from = *edge.vertex0();
+        const BoostVertex& to = *edge.vertex1();
+        VoronoiEdge result;
+        result.from = number_of(from);
+        result.to = number_of(to);
+        result.ring = segment_of(*edge.cell()).ring;
+        result.other_ring = segment_of(*edge.twin()->cell()).ring;
+        for (Vec3 at : bisector_of(edge).sampled(sampling_)) {
+            at *= outlines_.unit;
+            at.head<2>() += outlines_.origin;
+            result.way.push_back(at);
+        }
+        result.way.front().z() = where(from) == Where::on_outline ? 0.0 : result.way.front().z();
+        result.way.back().z() = where(to) == Where::on_outline ? 0.0 : result.way.back().z();
+        return result;
+    }
+
+    int number_of(const BoostVertex& vertex) {
+        return numbers_.emplace(&vertex, static_cast<int>(numbers_.size())).first->second;
+    }
+
+    const OutlineSegments& outlines_;
+    double sampling_; ///< units
+    const Progress& progress_;
+    VoronoiDiagram diagram_;
+    std::map<const BoostVertex*, int> numbers_; ///< in the order of their edges: the same each time
+};
+
+} // namespace
+
+std::vector<VoronoiEdge>
+voronoi_edges(const OutlineSegments& outlines, double sampling, const Progress& progress) {
+    return InsideEdges(outlines, sampling, progress).take();
+}
+
+} // namespace millwright::plot::internal
