@@ -396,7 +396,7 @@ TEST_F(LayersTest, TheToolOfATableStandsWhereTheTableIsAndNotWhereTheProgramIsPl
     chunker.add({Vec3(100, 80, 0), 0, gcode::PathKind::feed}, 0.0);
     const gcode::PreviewPath path{{chunker.take_rest()}};
     auto plot = std::make_shared<project::PlotResult>();
-    plot->cuts.push_back({1, path});
+    plot->cuts.push_back({1, {}, path});
     auto program = std::make_shared<project::OpenedProgram>();
     program->path = path;
     Scene scene = only({}, {.surface = false, .tool = true, .floor = false, .origin = false});

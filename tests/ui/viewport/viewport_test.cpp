@@ -82,7 +82,7 @@ gcode::PreviewPath line(const Vec3& from, const Vec3& to) {
 // view was fitted to both, and stayed so.
 TEST_F(ViewportTest, FitsAPlotAndNotTheProgramThatIsPlayedOfIt) {
     auto plot = std::make_shared<project::PlotResult>();
-    plot->cuts.push_back({1, line({400, 0, 0}, {500, 80, 0})});
+    plot->cuts.push_back({1, {}, line({400, 0, 0}, {500, 80, 0})});
     scene.plot = plot;
     frame();
     const render::CameraPose alone = viewport().camera().pose();
