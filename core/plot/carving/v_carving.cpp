@@ -153,6 +153,15 @@ private:
             made_.floor_left += area_of(shrunk(region, bit_.widest() + bit_.narrowest()));
         }
         const double step = step_over();
+        if (settings_.clear_floor && step > 2.0 * bit_.widest()) {
+            throw Error(
+                fmt::format("passes {:g} mm apart leave floor between them: the bit is {:.4g} mm wide "
+                            "at the largest depth",
+                            step,
+                            2.0 * bit_.widest()),
+                {},
+                "a smaller step-over, or leave the floor to an end mill");
+        }
         std::size_t points = 0;
         for (int n = 1; !edge.empty(); ++n) {
             for (const Ring& ring : edge) {
@@ -237,7 +246,7 @@ private:
             }
         }
         const internal::SegmentTree outline(std::move(segments));
-        double worst = 0.0;
+        double worst = -std::numeric_limits<double>::infinity();
         for (std::size_t n = 1; n < made_.path.size(); ++n) {
             constexpr std::size_t often = 1000;
             if (n % often == 0) {

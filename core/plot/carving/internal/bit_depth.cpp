@@ -37,7 +37,7 @@ double BitDepth::depth(double clearance) const {
 }
 
 /// A round end is not as straight as the clearance: places are added where the depth, or the width that is
-/// cut at the top, would be another. Half of what may be missed in the middle is missed nowhere twice.
+/// cut at the top, would be another.
 void BitDepth::add_between(const Vec3& from, const Vec3& to, int halvings, CutLine& line) const {
     const Vec3 middle = 0.5 * (from + to);
     const double straight = 0.5 * (depth(from.z()) + depth(to.z()));

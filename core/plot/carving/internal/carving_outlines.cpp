@@ -2,7 +2,6 @@
 
 #include "core/base/counted.h"
 #include "core/plot/closing.h"
-#include "core/plot/linking.h"
 
 #include <fmt/format.h>
 
@@ -14,11 +13,21 @@ CarvingOutlines carving_outlines(const Strokes& drawn, double gap) {
     CarvingOutlines found;
     std::size_t open = 0;
     const Stroke* first = nullptr;
-    const Strokes joined = rings_joined(drawn, gap);
-    for (const Stroke& stroke : joined) {
-        Region ring = closed_outlines({stroke}, gap);
-        if (!ring.empty()) {
-            found.region.push_back(std::move(ring.front()));
+    Strokes others;
+    const auto is_closed = [gap](const Stroke& stroke) {
+        return stroke.points.size() > 2 && (stroke.points.front() - stroke.points.back()).norm() < gap;
+    };
+    for (const Stroke& stroke : drawn) {
+        if (is_closed(stroke)) { // across the gap, by a line from its last point to its first
+            found.region.push_back(stroke.points);
+        } else {
+            others.push_back(stroke);
+        }
+    }
+    others = rings_joined(others, gap);
+    for (const Stroke& stroke : others) {
+        if (is_closed(stroke)) {
+            found.region.push_back(stroke.points);
         } else if (++open == 1) {
             first = &stroke;
         }

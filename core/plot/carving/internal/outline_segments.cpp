@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -94,8 +95,24 @@ bool is_flat(const UnitRing& ring) {
     return true;
 }
 
-/// The same for a ring that begins elsewhere or runs backwards.
-UnitRing canonical(UnitRing ring) {
+/// Without the points in the middle of straight sides.
+UnitRing corners_of(const UnitRing& ring) {
+    UnitRing corners;
+    for (std::size_t n = 0; n < ring.size(); ++n) {
+        const UnitPoint& before =
+            corners.empty() ? ring[(n + ring.size() - 1) % ring.size()] : corners.back();
+        const UnitPoint& after = ring[(n + 1) % ring.size()];
+        const bool between = std::min(before, after) < ring[n] && ring[n] < std::max(before, after);
+        if (turn(before, ring[n], after) != 0 || !between) {
+            corners.push_back(ring[n]);
+        }
+    }
+    return corners;
+}
+
+/// The same for a ring that begins elsewhere, also in the middle of a side, or runs backwards.
+UnitRing canonical(const UnitRing& drawn) {
+    UnitRing ring = corners_of(drawn);
     std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
     if (ring.size() > 2 && ring.back() < ring[1]) {
         std::reverse(ring.begin() + 1, ring.end());
@@ -145,6 +162,44 @@ std::vector<UnitRing> united(const std::vector<UnitRing>& rings) {
     return result;
 }
 
+/// As many segments end in each place as begin there. They go on along their own ring where they can, and are
+/// of the new rings then.
+std::vector<UnitRing> chained(std::vector<OutlineSegment>& segments) {
+    std::map<UnitPoint, std::vector<std::size_t>> from;
+    for (std::size_t n = 0; n < segments.size(); ++n) {
+        from[segments[n].a].push_back(n);
+    }
+    const auto take_next = [&](const OutlineSegment& last, int ring) {
+        std::vector<std::size_t>& next = from.at(last.b);
+        auto chosen = std::ranges::find_if(next, [&](std::size_t n) { return segments[n].ring == ring; });
+        chosen = chosen == next.end() ? next.begin() : chosen;
+        const std::size_t n = *chosen;
+        next.erase(chosen);
+        return n;
+    };
+    std::vector<UnitRing> rings;
+    std::vector<int> ring_of(segments.size(), -1);
+    for (std::size_t first = 0; first < segments.size(); ++first) {
+        if (ring_of[first] >= 0) {
+            continue;
+        }
+        std::erase(from.at(segments[first].a), first);
+        UnitRing& ring = rings.emplace_back();
+        for (std::size_t n = first;;) {
+            ring_of[n] = static_cast<int>(rings.size()) - 1;
+            ring.push_back(segments[n].a);
+            if (segments[n].b == segments[first].a) {
+                break;
+            }
+            n = take_next(segments[n], segments[n].ring);
+        }
+    }
+    for (std::size_t n = 0; n < segments.size(); ++n) {
+        segments[n].ring = ring_of[n];
+    }
+    return rings;
+}
+
 /// Rounded crossings may make lines near them cross anew.
 std::vector<UnitRing> without_crossings(std::vector<UnitRing> rings, const Progress& progress) {
     constexpr int most_rounds = 16;
@@ -187,13 +242,18 @@ OutlineSegments outline_segments(const Region& drawn, double tolerance, const Pr
     result.crossings.count = crossed.crossing + crossed.overlapping;
     result.crossings.first = result.origin + result.unit * crossed.first;
     rings = without_crossings(std::move(rings), progress);
+    std::vector<OutlineSegment> split = split_at_touches(segments_of(rings), progress);
+    const std::size_t before = split.size();
+    result.segments = without_shared_sides(std::move(split));
+    if (result.segments.size() != before) {
+        rings = chained(result.segments);
+    }
     for (const UnitRing& ring : rings) {
         Ring& mm = result.rings.emplace_back();
         for (const UnitPoint& p : ring) {
             mm.push_back(result.place(p));
         }
     }
-    result.segments = split_at_touches(segments_of(rings), progress);
     return result;
 }
 

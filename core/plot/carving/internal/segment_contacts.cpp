@@ -73,21 +73,6 @@ void for_near_pairs(const std::vector<OutlineSegment>& segments,
     }
 }
 
-/// What runs there and back again goes; what runs twice the same way stays once.
-std::vector<OutlineSegment> once(std::vector<OutlineSegment> segments) {
-    std::map<std::pair<UnitPoint, UnitPoint>, int> balance; ///< forth less back
-    for (const OutlineSegment& s : segments) {
-        balance[std::minmax(s.a, s.b)] += s.a < s.b ? 1 : -1;
-    }
-    std::erase_if(segments, [&](const OutlineSegment& s) {
-        int& left = balance[std::minmax(s.a, s.b)];
-        const bool kept = s.a < s.b ? left > 0 : left < 0;
-        left = kept ? 0 : left;
-        return !kept;
-    });
-    return segments;
-}
-
 } // namespace
 
 UnitCrossings crossings_of(const std::vector<OutlineSegment>& segments, const Progress& progress) {
@@ -139,7 +124,21 @@ std::vector<OutlineSegment> split_at_touches(const std::vector<OutlineSegment>& 
             from = to;
         }
     }
-    return once(std::move(result));
+    return result;
+}
+
+std::vector<OutlineSegment> without_shared_sides(std::vector<OutlineSegment> segments) {
+    std::map<std::pair<UnitPoint, UnitPoint>, int> balance; ///< forth less back
+    for (const OutlineSegment& s : segments) {
+        balance[std::minmax(s.a, s.b)] += s.a < s.b ? 1 : -1;
+    }
+    std::erase_if(segments, [&](const OutlineSegment& s) {
+        int& left = balance[std::minmax(s.a, s.b)];
+        const bool kept = s.a < s.b ? left > 0 : left < 0;
+        left = kept ? 0 : left;
+        return !kept;
+    });
+    return segments;
 }
 
 } // namespace millwright::plot::internal

@@ -29,9 +29,12 @@ struct UnitCrossings {
 [[nodiscard]] UnitCrossings crossings_of(const std::vector<OutlineSegment>& segments,
                                          const Progress& progress);
 
-/// Segments that touch another in its middle split it there. What runs there and back again is left out: the
-/// inside is on both of its sides. Throws Cancelled.
+/// Segments that touch another in its middle split it there. Throws Cancelled.
 [[nodiscard]] std::vector<OutlineSegment> split_at_touches(const std::vector<OutlineSegment>& segments,
                                                            const Progress& progress);
+
+/// Without what runs there and back again: the inside is on both of its sides. What runs twice the same way
+/// stays once.
+[[nodiscard]] std::vector<OutlineSegment> without_shared_sides(std::vector<OutlineSegment> segments);
 
 } // namespace millwright::plot::internal

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -328,6 +329,9 @@ TEST(VCarving, JoinsOpenOutlinesWithinTheGapAndNamesTheOthers) {
     CarvingSettings settings = with_bit(wide_bit);
     settings.close_gaps = 0.5;
     EXPECT_NEAR(v_carving({nearly}, settings).area, 100.0, 1e-6);
+    // The last point counts, also within the gap.
+    const Stroke beside = line({{0, 0}, {20, 0}, {20, 20}, {0, 20}, {0.4, 0}});
+    EXPECT_NEAR(v_carving({beside}, settings).area, 396.0, 1e-6);
     // Four lines whose ends touch, and two that go nowhere.
     const Strokes lines{line({{0, 0}, {10, 0}}),
                         line({{10, 10}, {10, 0}}),
@@ -355,6 +359,29 @@ TEST(VCarving, SaysWhatIsWrongWithOutlines) {
     EXPECT_THAT(all_notices(twice),
                 HasSubstr("that enclose no area are left out 1 time, at (1.000, 1.000) mm"));
     EXPECT_NEAR(twice.area, 100.0, 1e-6);
+    const Ring from_a_side{{5, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
+    EXPECT_NEAR(carved({square, from_a_side}).area, 100.0, 1e-6);
+    EXPECT_THAT(refused({line({{0, 0}, {10, 10}, {0, 0}})}), HasSubstr("enclose no area"));
+}
+
+/// Some of their sides run on two outlines of what they surround together, and are inside it.
+TEST(VCarving, OutlinesThatShareSidesAreOneInside) {
+    const Region shapes{{{3, 0}, {2, 0}, {1, 2}}, {{1, 2}, {2, 1}, {0, 0}, {2, 0}}};
+    const Carving carving = carved(shapes);
+    EXPECT_LE(carving.deviation, CarvingSettings{}.tolerance);
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> place(0, 5);
+    for (int n = 0; n < 60; ++n) {
+        Region drawn;
+        for (int k = 0; k < 3; ++k) {
+            Ring& ring = drawn.emplace_back();
+            for (int corner = 0; corner < 4; ++corner) {
+                ring.emplace_back(place(random), place(random));
+            }
+        }
+        const std::string why = refused(strokes_around(drawn), with_bit(wide_bit));
+        EXPECT_THAT(why, testing::AnyOf("", HasSubstr("enclose no area"))) << n;
+    }
 }
 
 TEST(VCarving, RefusesSettingsOutOfTheirRange) {
