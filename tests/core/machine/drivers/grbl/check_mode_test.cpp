@@ -39,7 +39,7 @@ TEST(GrblCheckMode, ReadsAProgramAndNothingMoves) {
     GrblWire wire;
     const CommandAnswer answer = checked(wire, long_program(300));
     EXPECT_EQ(answer.state, CommandAnswer::State::done) << answer.text;
-    EXPECT_THAT(answer.text, HasSubstr("all 305 lines"));
+    EXPECT_THAT(answer.text, HasSubstr("read 305 lines"));
     EXPECT_EQ(wire.state(), DriverState::idle);
     EXPECT_EQ(wire.grbl.truth().lost_bytes, 0);
     EXPECT_EQ(wire.grbl.truth().lines.size(), 1U); // the modes that are brought back
