@@ -35,7 +35,7 @@ void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--safe-height", options.safe_height, "Above the top, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--spindle", options.spindle_rpm, "Turns a minute, 0 for none")
+    command.add_option("--spindle", options.spindle_rpm, "Turns per minute, 0 for none")
         ->check(not_below_zero())
         ->capture_default_str();
     add_post_options(command, options.post).capture_default_str();

@@ -28,7 +28,7 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
     const auto sizes = CLI::Range(1e-4, largest);
     command.add_option("FILE", choice.file, "PNG, JPEG or BMP picture")->required();
     auto* width = command.add_option("--width", choice.size.width, "Of the picture, mm")->check(sizes);
-    auto* dots = command.add_option("--dpi", choice.size.dots_per_inch, "Pixels an inch")->check(sizes);
+    auto* dots = command.add_option("--dpi", choice.size.dots_per_inch, "Pixels per inch")->check(sizes);
     auto* pixel = command.add_option("--pixel", choice.size.pixel, "Width of a pixel, mm")->check(sizes);
     width->excludes(dots)->excludes(pixel);
     dots->excludes(pixel);

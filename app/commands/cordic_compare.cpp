@@ -144,12 +144,12 @@ int compare(const CordicCompareOptions& options) {
     fmt::print("{:<24}{:>16}{:>16}\n", "clocks", mcs51.clocks, line.clocks);
     fmt::print("{:<24}{:>13.6g} us{:>13.6g} us\n", "time", 1e6 * mcs51.seconds, 1e6 * line.seconds);
     fmt::print("{:<24}{:>16.0f}{:>16.0f}\n",
-               "turns a minute, up to",
+               "turns per minute, up to",
                std::floor(mcs51.most_rpm),
                std::floor(line.most_rpm));
     fmt::print("{:<24}{:>14.3f} %{:>14.3f} %\n", "of a 20 ms stitch", 100.0 * slow.share, 100.0 * fast.share);
     fmt::print(
-        "{:.3f} % fewer clocks, {:.1f} times; a stitch of 3 mm needs {:.0f} turns a minute of the screw\n",
+        "{:.3f} % fewer clocks, {:.1f} times; a stitch of 3 mm needs {:.0f} turns per minute of the screw\n",
         100.0 * line.reduction,
         line.times_fewer,
         fast.screw_rpm);

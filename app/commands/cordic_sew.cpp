@@ -85,7 +85,8 @@ void add_cordic_sew(CLI::App& group, Command& chosen) {
     add_cordic_clocks(command, options->most_clocks);
     const auto positive = CLI::Range(1e-3, 1e7);
     command
-        .add_option("--needle-rpm", options->sewing.needle_rpm, "Turns a minute of the needle, a stitch each")
+        .add_option(
+            "--needle-rpm", options->sewing.needle_rpm, "Turns per minute of the needle, a stitch each")
         ->check(positive)
         ->capture_default_str();
     command

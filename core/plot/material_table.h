@@ -1,4 +1,4 @@
-// What woods and plastics are cut with: feed, plunge, depth a pass, spindle, each with its source. Lengths
+// What woods and plastics are cut with: feed, plunge, depth per pass, spindle, each with its source. Lengths
 // mm, speeds mm/s.
 #pragma once
 

@@ -104,8 +104,7 @@ void compare(Ui& ui, const project::PlotResult& made, double planner_s, bool cur
 
 std::string sources_of(const plot::CuttingValues& values) {
     return "Feed: " + values.feed.source + ". Plunge: " + values.plunge.source +
-           ". Depth a pass: " + values.depth_per_pass.source + ". Spindle: " + values.spindle_rpm.source +
-           ".";
+           ". Pass depth: " + values.depth_per_pass.source + ". Spindle: " + values.spindle_rpm.source + ".";
 }
 
 /// In one line, for the levels below want to be seen, too.
@@ -328,7 +327,7 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
     constexpr std::array<widgets::Column, 6> columns{{{"Material", "", 2.4F, false},
                                                       {"Feed", "mm/min", 1.0F, true},
                                                       {"Plunge", "mm/min", 1.0F, true},
-                                                      {"Depth a pass", "mm", 1.1F, true},
+                                                      {"Pass depth", "mm", 1.1F, true},
                                                       {"Spindle", "1/min", 1.0F, true},
                                                       {"Kind", "", 0.8F, false}}};
     std::vector<plot::CuttingValues> values;

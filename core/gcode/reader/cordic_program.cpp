@@ -152,7 +152,7 @@ private:
         if (!speed) {
             code_.fault({source, 'G'},
                         "a feed a revolution (G95) of a spindle that follows the diameter (G96)",
-                        "G97: turns a minute");
+                        "G97: turns per minute");
         }
         return speed;
     }

@@ -12,7 +12,7 @@ double pixel_pitch(const PictureSize& size, const Picture& picture) {
         return *size.width / picture.width;
     }
     if (size.dots_per_inch) {
-        internal::check_above_zero("a number of pixels an inch", *size.dots_per_inch);
+        internal::check_above_zero("a number of pixels per inch", *size.dots_per_inch);
         return picture.file_pixels * mm_per_inch / *size.dots_per_inch;
     }
     if (size.pixel) {
