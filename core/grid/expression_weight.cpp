@@ -1,6 +1,7 @@
 #include "core/grid/expression_weight.h"
 
 #include "core/base/error.h"
+#include "core/base/quiet_floats.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/geometry/curvature.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <regex>
@@ -22,18 +22,6 @@ namespace {
 
 constexpr std::size_t longest_expression = 500;
 constexpr double difference_step = 1e-5; // of a uniform cell; the error is its square
-
-/// A formula may divide by zero on its way to a value that is then looked at: no traps meanwhile.
-class QuietFloats {
-public:
-    QuietFloats() { std::feholdexcept(&before_); }
-    ~QuietFloats() { std::fesetenv(&before_); }
-    QuietFloats(const QuietFloats&) = delete;
-    QuietFloats& operator=(const QuietFloats&) = delete;
-
-private:
-    std::fenv_t before_{};
-};
 
 [[noreturn]] void fail_at(std::size_t column, std::string message, std::string hint = {}) {
     Diagnostic found;

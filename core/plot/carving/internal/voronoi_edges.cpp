@@ -1,5 +1,6 @@
 #include "core/plot/carving/internal/voronoi_edges.h"
 
+#include "core/base/quiet_floats.h"
 #include "core/plot/carving/internal/bisector.h"
 
 #include <boost/polygon/voronoi.hpp>
@@ -33,6 +34,7 @@ public:
         for (const OutlineSegment& s : outlines.segments) {
             builder.insert_segment(s.a[0], s.a[1], s.b[0], s.b[1]);
         }
+        const QuietFloats quiet; // its bounds of errors may be infinite
         builder.construct(&diagram_);
         progress_.check();
     }
