@@ -2,19 +2,10 @@
 // them in.
 #pragma once
 
-#include <cfenv>
+#include "core/base/quiet_floats.h"
 
 namespace millwright::test {
 
-class WithoutTraps {
-public:
-    WithoutTraps() { std::feholdexcept(&before_); }
-    WithoutTraps(const WithoutTraps&) = delete;
-    WithoutTraps& operator=(const WithoutTraps&) = delete;
-    ~WithoutTraps() { std::fesetenv(&before_); }
-
-private:
-    std::fenv_t before_{};
-};
+using WithoutTraps = QuietFloats;
 
 } // namespace millwright::test

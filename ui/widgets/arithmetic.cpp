@@ -1,11 +1,11 @@
 #include "ui/widgets/arithmetic.h"
 
+#include "core/base/quiet_floats.h"
 #include "core/base/text.h"
 
 #include <fmt/format.h>
 #include <muParser.h>
 
-#include <cfenv>
 #include <cmath>
 
 namespace millwright::widgets {
@@ -14,18 +14,6 @@ namespace {
 
 constexpr std::size_t longest_text = 256; // keeps muParser's recursion on nested brackets shallow
 constexpr double whole_within = 1e-9;     // 3*(1/3) is meant as 1
-
-/// Dividing by zero in the user's text is an answer here, also where the checked build traps it.
-class QuietArithmetic {
-public:
-    QuietArithmetic() { std::feholdexcept(&before_); }
-    QuietArithmetic(const QuietArithmetic&) = delete;
-    QuietArithmetic& operator=(const QuietArithmetic&) = delete;
-    ~QuietArithmetic() { std::fesetenv(&before_); }
-
-private:
-    std::fenv_t before_{};
-};
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blank = " \t\r\n";
@@ -80,7 +68,7 @@ Evaluated evaluate(std::string_view text, std::string_view unit) {
     if (formula.size() > longest_text) {
         return refused("This is too long for a number.");
     }
-    const QuietArithmetic quiet;
+    const QuietFloats quiet;
     try {
         mu::Parser parser;
         parser.SetExpr(std::string(formula));

@@ -50,6 +50,17 @@ protected:
         ASSERT_TRUE(person.live_until([this] { return machine().connected(); }))
             << (machine().failure ? machine().failure->message : "");
     }
+    /// The Grbl at `port` goes away while it moves.
+    void lose(std::unique_ptr<machine::GrblServer>& grbl, std::uint16_t port) {
+        choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
+        connect();
+        person.workshop().run("machine.reset");
+        ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
+        person.fill_in("lower/command", "G1 X80 F300");
+        ASSERT_TRUE(person.live_until([this] { return is(DriverState::running); }));
+        grbl.reset();
+        ASSERT_TRUE(person.live_until([this] { return machine().status.link_lost; }));
+    }
 };
 
 /// A listener that takes whatever comes.
@@ -122,14 +133,7 @@ std::pair<std::uint16_t, std::unique_ptr<machine::GrblServer>> serve_grbl(std::u
 TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
     machine::SteadyClock clock;
     auto [port, grbl] = serve_grbl(0, clock);
-    choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
-    connect();
-    person.workshop().run("machine.reset");
-    ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
-    person.fill_in("lower/command", "G1 X80 F300");
-    ASSERT_TRUE(person.live_until([this] { return is(DriverState::running); }));
-    grbl.reset();
-    ASSERT_TRUE(person.live_until([this] { return machine().status.link_lost; }));
+    ASSERT_NO_FATAL_FAILURE(lose(grbl, port));
 
     // Nobody is there yet: that is told, and it can be connected later.
     person.frames(3);
@@ -151,14 +155,7 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
 TEST_F(MachineLink, AfterReconnectAGrblThatWasResetInMotionIsNotTrusted) {
     machine::SteadyClock clock;
     auto [port, grbl] = serve_grbl(0, clock);
-    choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
-    connect();
-    person.workshop().run("machine.reset");
-    ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
-    person.fill_in("lower/command", "G1 X80 F300");
-    ASSERT_TRUE(person.live_until([this] { return is(DriverState::running); }));
-    grbl.reset();
-    ASSERT_TRUE(person.live_until([this] { return machine().status.link_lost; }));
+    ASSERT_NO_FATAL_FAILURE(lose(grbl, port));
     ASSERT_FALSE(machine().status.position_lost);
     const auto again = serve_grbl(port, clock).second; // at zero, as a board that was reset
     person.frames(3);

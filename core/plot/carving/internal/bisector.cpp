@@ -8,10 +8,6 @@ namespace {
 
 constexpr double flat_height = 1e-3; ///< of a parabola that is as good as straight, in whole units
 
-double cross_product(const Vec2& u, const Vec2& v) {
-    return u.x() * v.y() - u.y() * v.x();
-}
-
 /// Half of what a chord of a convex curve may miss in the middle, so that it misses no more anywhere.
 void sample_between(const Bisector& curve,
                     double t,
@@ -41,7 +37,7 @@ double clearance(const Site& site, const Vec2& place) {
         return (place - site.a).norm();
     }
     const Vec2 along = site.b - site.a;
-    return std::abs(cross_product(along, place - site.a)) / along.norm();
+    return std::abs(cross(along, place - site.a)) / along.norm();
 }
 
 Bisector::Bisector(const Site& one, const Site& other, const Vec2& from, const Vec2& to)
@@ -52,7 +48,7 @@ Bisector::Bisector(const Site& one, const Site& other, const Vec2& from, const V
     const Site& line = one.point ? other : one;
     along_ = (line.b - line.a).normalized();
     const Vec2 to_point = site_.a - line.a;
-    height_ = std::abs(cross_product(along_, to_point));
+    height_ = std::abs(cross(along_, to_point));
     foot_ = line.a + along_.dot(to_point) * along_;
     if (height_ > flat_height) {
         parabola_ = true;

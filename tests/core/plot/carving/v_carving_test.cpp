@@ -61,6 +61,16 @@ double length_in_work(const CutPath& path) {
     return length;
 }
 
+/// The report of the path knows distances from the outlines and not their sides.
+void expect_inside(const Carving& carving, const Region& region) {
+    constexpr double just_below = 1e-3; // where the bit is on the outline it is at the top
+    for (const CutPoint& point : carving.path) {
+        if (point.move == CutMove::cut && point.at.z() < -just_below) {
+            ASSERT_TRUE(contains(region, point.at.head<2>())) << point.at.transpose();
+        }
+    }
+}
+
 /// Lifts between cuts.
 int runs_of(const CutPath& path) {
     return static_cast<int>(std::ranges::count(path, CutMove::plunge, &CutPoint::move));
@@ -365,10 +375,16 @@ TEST(VCarving, SaysWhatIsWrongWithOutlines) {
 }
 
 /// Some of their sides run on two outlines of what they surround together, and are inside it.
-TEST(VCarving, OutlinesThatShareSidesAreOneInside) {
+TEST(VCarving, OutlinesThatShareSidesAreOneInsideAndNothingElseIsCut) {
     const Region shapes{{{3, 0}, {2, 0}, {1, 2}}, {{1, 2}, {2, 1}, {0, 0}, {2, 0}}};
     const Carving carving = carved(shapes);
     EXPECT_LE(carving.deviation, CarvingSettings{}.tolerance);
+    expect_inside(carving, shapes);
+    const Region frame{box_ring({0, 0}, {20, 20}), box_ring({7, 7}, {13, 13})};
+    expect_inside(carved(frame), frame);
+    CarvingSettings shallow = with_bit(wide_bit);
+    shallow.largest_depth = 1.0;
+    expect_inside(carved(frame, shallow), frame);
     std::mt19937 random(7);
     std::uniform_int_distribution<int> place(0, 5);
     for (int n = 0; n < 60; ++n) {
