@@ -332,8 +332,9 @@ void trace_box(Hands& hands) {
 }
 
 void leave_start(Hands& hands) {
-    const auto& status = hands.now.controller.status;
-    if (status.activity == machine::Activity::check && status.answer.number == hands.session.start_answer) {
+    const machine::CommandAnswer& answer = hands.now.controller.status.answer;
+    if (answer.number == hands.session.start_answer &&
+        answer.state == machine::CommandAnswer::State::pending) {
         hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
     }
     hands.session.start.reset();

@@ -1,6 +1,7 @@
 // Before a real machine moves a person is asked, once, in sight of the machine.
 #include "core/base/files.h"
 #include "tests/ui/panels/at_machine.h"
+#include "ui/actions/at_rest.h"
 #include "ui/actions/start_question.h"
 #include "ui/panels/view_panel.h"
 
@@ -116,8 +117,9 @@ TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
     person.frames(2);
     person.click("dialogs/start/start_check");
     const std::string answer = "dialogs/start/answer";
-    ASSERT_TRUE(person.live_until([&] { return person.sees(answer); }));
-    person.frames(2);
+    ASSERT_TRUE(person.live_until([&] { // after the answer it is asked for its modes and offsets
+        return person.sees(answer) && actions::at_rest(person.workshop().look().controller).allowed;
+    }));
     EXPECT_THAT(person.workshop().look().controller.status.answer.text, HasSubstr("line 3: "));
     EXPECT_TRUE(is_asked());
     EXPECT_LT(grbl.last_motion(), 0.0);
