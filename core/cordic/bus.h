@@ -90,6 +90,16 @@ struct BusState {
     return bus.cycle != BusCycle::none && bus.waits_left > 0;
 }
 
+/// CE of the interface unit: whether this clock is one of a cycle, from its address to its last strobe.
+[[nodiscard]] constexpr bool in_cycle(const BusState& bus) {
+    return bus.pins.ale || bus.pins.psen || bus.pins.rd || bus.pins.wr;
+}
+
+/// R/W of the interface unit: whether this clock is one of a write cycle, its address clock included.
+[[nodiscard]] constexpr bool is_write(const BusState& bus) {
+    return bus.cycle == BusCycle::write || bus.pins.wr;
+}
+
 /// The address clock of a cycle.
 void begin_cycle(BusState& bus, BusCycle cycle, std::uint16_t address, std::uint8_t data, int wait_states);
 

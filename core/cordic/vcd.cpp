@@ -14,6 +14,8 @@ namespace {
 // The order of the signals; the registers follow.
 enum Signal : int {
     clk,
+    ce,
+    rw,
     ale,
     psen_n,
     rd_n,
@@ -48,6 +50,8 @@ VcdWriter::VcdWriter(const NumberFormat& format, double clock_hz)
             "the clock of a wave file is from above 0 to 500 GHz");
     text_ = "$timescale 1 ps $end\n$scope module processor $end\n";
     declare(clk, "clk", 1);
+    declare(ce, "CE", 1);
+    declare(rw, "RW", 1);
     declare(ale, "ALE", 1);
     declare(psen_n, "PSEN_n", 1);
     declare(rd_n, "RD_n", 1);
@@ -103,6 +107,8 @@ void VcdWriter::add(const ProcessorState& state) {
     fmt::format_to(std::back_inserter(text_), "#{}\n", time(2 * clocks_));
     change(clk, 1);
     const BusPins& pins = state.bus.pins;
+    change(ce, in_cycle(state.bus) ? 1 : 0);
+    change(rw, is_write(state.bus) ? 0 : 1);
     change(ale, pins.ale ? 1 : 0);
     change(psen_n, pins.psen ? 0 : 1);
     change(rd_n, pins.rd ? 0 : 1);

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] std::string take();
 
 private:
-    static constexpr int signal_count = 38;
+    static constexpr int signal_count = 40;
 
     void declare(int index, std::string_view name, int bits);
     void change(int index, Word value);

@@ -41,5 +41,39 @@ TEST(Vcd, SaysTheSameAsTheStatesItWasMadeFrom) {
     EXPECT_EQ(waves.at("running", static_cast<std::int64_t>(states.size()) * period), 0U);
 }
 
+/// What chooses and starts the patterns of the waveform ROM (thesis, section 2.6).
+TEST(Vcd, ShowsCeOverEachBusCycleAndRwAtZeroOverWritesAlone) {
+    const auto [image, lines, errors, warnings] =
+        assemble("mov XI, 6\nst XI, 0x8000\nld YJ, 0x8000\nhlt", "a.asm");
+    ASSERT_TRUE(errors.empty());
+    constexpr int wait_states = 2;
+    Processor processor({.wait_states = wait_states}, image);
+    VcdWriter writer(image.format, 8e6);
+    std::int64_t clocks = 0;
+    while (processor.state().stop == Stop::none) {
+        processor.clock();
+        writer.add(processor.state());
+        ++clocks;
+    }
+    const test::Waves waves = test::read_waves(writer.take());
+    constexpr std::int64_t period = 125'000; // ps at 8 MHz
+    int reads = 0, writes = 0, left = 0;
+    bool writing = false;
+    for (std::int64_t n = 0; n < clocks; ++n) {
+        const auto now = [&](const char* signal) { return waves.at(signal, n * period) == 1U; };
+        if (now("ALE")) { // the address, then the strobe with its wait states
+            EXPECT_EQ(left, 0) << "a cycle ended before the next began";
+            left = 2 + wait_states;
+            writing = waves.at("WR_n", (n + 1) * period) == 0U;
+            ++(writing ? writes : reads);
+        }
+        EXPECT_EQ(now("CE"), left > 0) << "clock " << n;
+        EXPECT_EQ(now("RW"), left == 0 || !writing) << "clock " << n;
+        left -= left > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(writes, 4) << "a word of four bytes";
+    EXPECT_GT(reads, 8) << "the program, and as many bytes back";
+}
+
 } // namespace
 } // namespace millwright::cordic
