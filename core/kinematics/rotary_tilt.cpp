@@ -9,6 +9,14 @@ namespace millwright::kinematics {
 
 namespace {
 
+/// Of a component of a unit normal that is 0 but for rounding: the formulas of the original jump there, by
+/// the whole tilt, from one sign of it to the other.
+constexpr double rounded_zero = 1e-12;
+
+bool is_zero_component(double component) {
+    return std::abs(component) <= rounded_zero;
+}
+
 double sign(double value) {
     return value < 0.0 ? -1.0 : 1.0;
 }
@@ -22,7 +30,7 @@ RotaryTiltAngles consistent_angles(double i, double j, double k) {
 /// Ch. 3's table: applies the 180 deg shift of A and the sign flip of B together where one alone is right.
 RotaryTiltAngles text_angles(double i, double j, double k) {
     const double r = std::hypot(i, j);
-    if (exactly_equal(i, 0.0)) {
+    if (is_zero_component(i)) {
         return {-sign(j) * pi / 2.0, std::atan2(r, k), false};
     }
     if (i > 0.0) {
@@ -33,11 +41,11 @@ RotaryTiltAngles text_angles(double i, double j, double k) {
 
 RotaryTiltAngles listing_angles(double i, double j, double k) {
     const double r = std::hypot(i, j);
-    const double tilt = exactly_equal(k, 0.0) ? pi / 2.0 : std::atan(r / k);
-    if (exactly_equal(i, 0.0)) {
+    const double tilt = is_zero_component(k) ? pi / 2.0 : std::atan(r / k);
+    if (is_zero_component(i)) {
         return {-sign(j) * pi / 2.0, tilt, false};
     }
-    const double B = exactly_equal(k, 0.0) ? tilt : sign(i) * tilt;
+    const double B = is_zero_component(k) ? tilt : sign(i) * tilt;
     return {-sign(i) * std::atan(j / i), B, false};
 }
 

@@ -2,11 +2,15 @@
 #include "core/toolpath/thesis_files.h"
 
 #include "core/base/error.h"
+#include "core/geometry/patch_refinement.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <sstream>
+#include <utility>
 
 namespace millwright::toolpath {
 namespace {
@@ -99,6 +103,34 @@ TEST(ToolpathDat, FollowsTheOtherDirectionOverAnyNumberOfPoints) {
 }
 
 // The independent program's single move from (0.2, 0.2) to (0.2, 0.25), consistent kinematics.
+/// The normal of the middle line and of the border has a component that is 0 but for rounding. Its sign was
+/// that of the rounding, and the listing's B with it: 18 lines were up to 148 pixels beside.
+TEST(ToolpathDat, IsTheSameForTheSameSurfaceOfAHigherDegree) {
+    const auto dome = test::patch("dome");
+    for (const ListingFaults faults : {ListingFaults::corrected, ListingFaults::all}) {
+        for (const auto direction : {grid::TrackDirection::along_u, grid::TrackDirection::along_v}) {
+            const ListingGrid grid{.direction = direction};
+            const auto text_of = [&](const geometry::BezierPatch& patch) {
+                return toolpath_dat(
+                    patch, listing_mid_points(patch, kinematics::listing_values, grid, faults), grid);
+            };
+            const auto lines = lines_of(text_of(dome));
+            for (const auto& [u, v] : {std::pair(4, 5), {3, 4}, {6, 6}, {9, 7}}) {
+                const auto same = lines_of(text_of(geometry::elevated(dome, u, v)));
+                ASSERT_EQ(same.size(), lines.size());
+                for (std::size_t n = 0; n < lines.size(); ++n) {
+                    int x = 0, y = 0, other_x = 0, other_y = 0;
+                    std::istringstream(lines[n]) >> x >> y;
+                    std::istringstream(same[n]) >> other_x >> other_y;
+                    EXPECT_LE(std::max(std::abs(x - other_x), std::abs(y - other_y)), 1)
+                        << "degree " << u << ", " << v << ", line " << n + 1 << ": " << lines[n] << " and "
+                        << same[n];
+                }
+            }
+        }
+    }
+}
+
 TEST(MachineMidPoints, AreThoseOfTheMachinesOwnKinematics) {
     const auto points = machine_mid_points(test::patch("dome"), test::machine("rotary-tilt-listing"), {});
     ASSERT_EQ(points.size(), 399U);
