@@ -104,11 +104,9 @@ void GuardedLine::receive(std::string_view bytes, double now) {
 }
 
 void GuardedLine::read_answer() {
-    while (step_ == Step::waiting && !input_.empty()) {
+    while (step_ == Step::waiting && !input_.empty() && input_.front() != bell) {
         if (input_.front() == line_feed) { // the hand-shake of a card that was reset: no time is to be lost
             end(Outcome::lost);
-        } else if (input_.front() == bell) {
-            step_ = Step::refusing;
         } else if (input_.front() == ack) {
             if (input_.size() < 2) {
                 return;
@@ -130,6 +128,27 @@ void GuardedLine::read_answer() {
             input_.erase(0, length + 2);
         }
     }
+    const bool rings = step_ == Step::waiting && !input_.empty(); // its bell stands in front
+    if (rings || step_ == Step::refusing) {
+        step_ = Step::refusing;
+        read_refusal();
+    }
+}
+
+/// Ends it as soon as the error has come whole: a guard that is armed takes a longer silence for a lost link.
+void GuardedLine::read_refusal() {
+    const std::string_view error = std::string_view(input_).substr(1); // behind the bell
+    const std::size_t length = error.find(cr);
+    if (length != std::string_view::npos && error.size() == length + 2 && error.starts_with("ERR") &&
+        error.back() == checksum(error.substr(0, length + 1))) {
+        refuse();
+    }
+}
+
+void GuardedLine::refuse() {
+    reply_.error = error_number(input_);
+    output_ += forget_all;
+    end(Outcome::refused);
 }
 
 void GuardedLine::leave_out(double seconds, double now) {
@@ -149,9 +168,7 @@ GuardedLine::Reply GuardedLine::poll(double now) {
     } else if (step_ == Step::clearing && now - last_byte_ > quiet) {
         put_line(now);
     } else if (step_ == Step::refusing && now - last_byte_ > quiet) {
-        reply_.error = error_number(input_);
-        output_ += forget_all;
-        end(Outcome::refused);
+        refuse();
     } else if (step_ == Step::waiting &&
                (now - since_ > patience_ || (!input_.empty() && now - last_byte_ > longest_gap))) {
         end(Outcome::lost);

@@ -50,6 +50,8 @@ private:
     void again(double now);
     void end(Outcome outcome);
     void read_answer();
+    void read_refusal();
+    void refuse();
 
     double patience_;
     Step step_ = Step::idle;

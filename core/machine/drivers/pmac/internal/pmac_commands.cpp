@@ -235,6 +235,7 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
             for (std::size_t n = 0; n < motors_.size() && change.given; ++n) {
                 const bool other = change.motor && *change.motor != settings_.axes[n].motor;
                 motors_[n].gets_power = motors_[n].gets_power || !other;
+                motors_[n].was_given_power = motors_[n].was_given_power || !other;
             }
         }
     }

@@ -232,14 +232,24 @@ void PmacSession::ask_something(double now) {
     const bool addressed = sent_->kind == Kind::command && !buffer_open_;
     buffer_open_ = buffer_open_ || starts_with_word(sent_->line, "OPEN");
     tell(true, is_ours(sent_->kind) ? ConsoleKind::query : ConsoleKind::line, sent_->line);
-    // Jogs that are renewed leave no time for reports.
-    const bool lively = sent_->kind == Kind::step && stage_ == Stage::jogging;
+    const bool lively = shows_life(*sent_);
     // A number behind the addresses would be read as a part of the last one.
     talk_.send(addressed ? sign_of_life + addresses_ + (sets_p0(sent_->line) ? "P0=" : "") + sent_->line
                : lively  ? std::string(sign_of_life) + " " + sent_->line
                          : sent_->line,
                may_repeat(sent_->kind),
                now);
+}
+
+/// Whether a line gets a sign of life of its own: as long as the guard is armed every line does that has
+/// nothing to do with a buffer. Reports come only behind what is queued, and each word may be on its way for
+/// long. An & behind it would be an operator of its expression.
+bool PmacSession::shows_life(const Request& request) const {
+    const bool jogs_on = request.kind == Kind::step && stage_ == Stage::jogging;
+    const std::string& line = request.line;
+    const bool of_buffers = buffer_open_ || starts_with_word(line, "OPEN") || starts_with_word(line, "CLOSE");
+    return (jogs_on || (armed_ && stage_ != Stage::alarm)) && !of_buffers && !line.starts_with('&') &&
+           !line.starts_with(sign_of_life);
 }
 
 void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
@@ -328,6 +338,9 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         break;
     case Kind::definitions:
         explain_open_loop(run_refusal_ + loop_advice(lines));
+        break;
+    case Kind::watch:
+        mark_is_ours_ = mark_is_ours_ || request.line == arm_watchdog;
         break;
     case Kind::run:
         stage_ = stage_ == Stage::loading ? Stage::running : stage_;
@@ -486,6 +499,7 @@ std::optional<std::vector<std::string>> PmacSession::protections_off() const {
 void PmacSession::arm() {
     ask(arm_watchdog, Kind::watch);
     armed_ = true;
+    mark_is_ours_ = false;
     quiet_polls_ = 0;
 }
 

@@ -127,9 +127,10 @@ private:
         double counts = 0.0, last_counts = 0.0, speed = 0.0; ///< counts/s, by the last two positions
         SteadySpeed shown_speed{};
         std::uint32_t word_1 = 0, word_2 = 0;
-        double target = 0.0;     ///< of the last jog
-        bool had_power = false;  ///< since what is under way began
-        bool gets_power = false; ///< by the command that is under way
+        double target = 0.0;          ///< of the last jog
+        bool had_power = false;       ///< since what is under way began
+        bool gets_power = false;      ///< by the command that is under way
+        bool was_given_power = false; ///< by that command, until what it set going is over
         bool lag_is_old = false; ///< left_behind() was so when the card told for the first time, and since
         [[nodiscard]] bool enabled() const { return (word_2 >> 14 & 1U) != 0; }
         [[nodiscard]] bool faulty() const { return (word_2 >> 3 & 1U) != 0; } ///< its amplifier
@@ -154,6 +155,7 @@ private:
     [[nodiscard]] std::string poll_line() const;
     void ask_ratings();
     void ask_something(double now);
+    [[nodiscard]] bool shows_life(const Request& request) const;
     void watch_time(double now);
     void arm();
     void tell(bool sent, ConsoleKind kind, std::string text);
@@ -174,6 +176,7 @@ private:
     void watch_rest();
     [[nodiscard]] std::vector<double> axes_deg() const;
     /// `now`: of what is under way alone; a motor that was killed before tells its old one.
+    void watch_own_stop();
     [[nodiscard]] std::string reason_of_kill(bool now) const;
     /// As a person knows it: the arm's joint, or the axis.
     [[nodiscard]] std::string name_of(std::size_t axis) const;
@@ -275,8 +278,9 @@ private:
     std::string run_refusal_{}; ///< until the card has told whose loop is open
     bool marks_tell_ = false;   ///< lines are executed in their order
     bool held_ = false;
-    bool armed_ = false;       ///< the watchdog in the card
-    bool stays_armed_ = false; ///< at rest, too: something in the card may begin motion that nobody sends
+    bool armed_ = false;        ///< the watchdog in the card
+    bool mark_is_ours_ = false; ///< P1000 was set back since the watchdog was armed
+    bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion that nobody sends
     int quiet_polls_ = 0;
     int astray_polls_ = 0;     ///< a motor stands where it was not sent
     int power_polls_ = 0;      ///< for which power that was given is still waited for

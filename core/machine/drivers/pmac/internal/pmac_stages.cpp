@@ -211,6 +211,8 @@ void PmacSession::finish(Stage stage, std::string why) {
     brake_by_.reset();
     for (MotorState& motor : motors_) {
         motor.had_power = motor.enabled();
+        motor.was_given_power =
+            motor.was_given_power && (stage == Stage::astir || stage == Stage::commanding);
     }
     if (given_up && answer_.state == CommandAnswer::State::pending && stage != Stage::commanding) {
         answer_.state = CommandAnswer::State::refused;

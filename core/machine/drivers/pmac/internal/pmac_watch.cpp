@@ -114,6 +114,7 @@ void PmacSession::watch(double now) {
         return;
     }
     watch_motors();
+    watch_own_stop();
     watch_power();
     watch_guard();
     watch_following(now);
@@ -146,6 +147,25 @@ void PmacSession::watch_motors() {
         fail("the card forgot the position: was it reset?");
     }
     was_home_ = position_known();
+}
+
+/// What the guard in the card ended of a typed line, or of power that was there: else it would be gone
+/// without a word. Jogs, homing and programs tell it by themselves.
+void PmacSession::watch_own_stop() {
+    if (!armed_ || !mark_is_ours_ || unheard().empty()) {
+        return;
+    }
+    const bool commands = stage_ == Stage::astir || stage_ == Stage::commanding;
+    const bool lost_power = std::ranges::any_of(motors_, [](const MotorState& motor) {
+        return (motor.had_power || motor.was_given_power) && !motor.enabled();
+    });
+    if ((commands || rests()) && lost_power) {
+        fail("the card took the power of its motors: " + unheard());
+    } else if (stage_ == Stage::astir && !only_set_) {
+        const std::string why = unheard();
+        halt();
+        message_ = "the card stopped its motors: " + why;
+    }
 }
 
 /// Empty where no motor without power tells any.

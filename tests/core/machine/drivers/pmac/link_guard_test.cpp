@@ -303,5 +303,81 @@ TEST(PmacLinkGuardF2, CountsTimeInTheServoCyclesThatTheCardHas) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("I10 = 1000, which is no servo time"));
 }
 
+// Both ends see the other's words late, as on a busy computer. The power that a line gave was taken again at
+// once, and nobody was told.
+TEST(PmacLinkGuardF2, EveryLineIsASignOfLifeWhereEachWordTakesLong) {
+    PmacWire wire({}, false);
+    wire.session.let_lines_give_power();
+    for (const char* const line : {"#1J/", "#2J/", "#1J/#2J/#3J/#4J/"}) {
+        (void)wire.session.command({line}, false);
+        double quietest = 0.0; // without a word that the guard counts, s of the card
+        double heard = wire.card.time();
+        double before = wire.card.variable('P', 1002);
+        for (int word = 0; word < 120; ++word) {
+            wire.step(0.009);
+            if (const double now = wire.card.variable('P', 1002); now > before || now < before) {
+                before = now;
+                heard = wire.card.time();
+            }
+            const bool armed = wire.card.variable('P', 1001) > 0.5;
+            quietest = armed ? std::max(quietest, wire.card.time() - heard) : quietest;
+        }
+        EXPECT_LT(quietest, 0.04) << line;
+        EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+        EXPECT_TRUE(wire.card.enabled(1)) << line;
+    }
+    EXPECT_TRUE(wire.card.enabled(2));
+    EXPECT_TRUE(wire.card.enabled(4));
+}
+
+// Questions were answered by "open loop" then, as if nothing had happened.
+TEST(PmacLinkGuardF2, PowerThatItTookBehindALineIsTold) {
+    PmacWire wire({}, false);
+    wire.session.let_lines_give_power();
+    (void)wire.session.command({"#1J/"}, false);
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.enabled(1); }, 1.0));
+    wire.card.advance(0.3); // nobody is heard
+    EXPECT_FALSE(wire.card.enabled(1));
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::alarm; }, 1.0));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("heard nothing from this computer for 50 ms"));
+    EXPECT_NE(wire.session.status().answer.state, CommandAnswer::State::pending);
+    // A mark of then is no reason to refuse what comes after.
+    wire.pass(0.5);
+    wire.session.reset(wire.now);
+    (void)wire.session.command({"#1J/"}, false);
+    wire.pass(1.0);
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_TRUE(wire.card.enabled(1));
+}
+
+TEST(PmacLinkGuardF2, AMotionOfALineThatItCutShortIsNotCalledDone) {
+    PmacWire wire;
+    (void)wire.session.command({"#1J:2000"}, false);
+    wire.pass(0.5);
+    ASSERT_FALSE(wire.standing());
+    for (int ms = 0; ms < 100 && wire.card.variable('P', 1000) >= 0.0; ++ms) {
+        wire.card.advance(0.001); // until it aborts; it takes no power yet
+    }
+    EXPECT_TRUE(wire.powered());
+    ASSERT_TRUE(wire.run_to_end(10.0));
+    EXPECT_EQ(wire.state(), DriverState::stopped);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the card stopped its motors: it heard nothing"));
+    wire.pass(2.0); // the servo settles
+    EXPECT_TRUE(wire.standing());
+    EXPECT_LT(wire.card.position(1), 1900.0);
+}
+
+// It waited 50 ms for the rest of an error that had come whole, which the guard took for silence.
+TEST(PmacLinkGuardF2, ARefusedLineIsNoSilence) {
+    PmacWire wire;
+    (void)wire.session.command({"#1J:2000", "UNKNOWN"}, true);
+    ASSERT_TRUE(wire.run_until(
+        [&] { return wire.session.status().answer.state != CommandAnswer::State::pending; }, 2.0));
+    EXPECT_THAT(wire.session.status().answer.text, HasSubstr("ERR003, no such command"));
+    ASSERT_TRUE(wire.run_to_end(30.0));
+    EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
+    EXPECT_NEAR(wire.card.position(1), 2000.0, 2.0) << "the motion was cut short";
+}
+
 } // namespace
 } // namespace millwright::machine
