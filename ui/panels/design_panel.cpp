@@ -324,10 +324,15 @@ void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const ControlNet& net = now.project.surface.patches[static_cast<std::size_t>(edited_patch(now))];
     const int shown = columns_shown(ui, net, shown_coordinate_);
     draw_columns(ui, now, net, shown);
-    for (int i = 0; i < net.rows; ++i) {
-        draw_net_row(ui, now, ask, i, shown);
+    {
+        const auto fields = ui.enter_goes_on();
+        for (int i = 0; i < net.rows; ++i) {
+            draw_net_row(ui, now, ask, i, shown);
+        }
     }
-    ui.note("X, Y, Z in mm. Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2");
+    ui.note(
+        "X, Y, Z in mm. Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2. Enter goes on to the "
+        "next number.");
 }
 
 } // namespace millwright::panels

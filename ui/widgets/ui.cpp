@@ -219,6 +219,11 @@ void Ui::focus_field(std::string_view path) {
                     .kept_until = ImGui::GetFrameCount() + soon};
 }
 
+Guard Ui::enter_goes_on() {
+    state_->chain = {.open = true};
+    return {*this, [](Ui& ui) { ui.state_->chain = {}; }};
+}
+
 Guard Ui::scope(std::string_view id) {
     state_->places.enter(id);
     return {*this, [](Ui& ui) { ui.state_->places.leave(); }};

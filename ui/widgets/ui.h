@@ -131,6 +131,9 @@ public:
     /// Gives the keyboard to the field of that path when it is drawn next, soon, with all of its text
     /// selected; until then letters are meant for it.
     void focus_field(std::string_view path);
+    /// Until the guard ends Enter in a number or text field goes on to the next of these fields, in the order
+    /// in which they are drawn, with all of its text selected; behind the last one it goes nowhere.
+    Guard enter_goes_on();
 
     // ---- panes and order (panes.cpp)
     /// A fixed part of the window with its own scroll bar; enters the scope `id`. `title` may be empty. For

@@ -97,6 +97,40 @@ TEST(DesignPanel, TheDegreeIsElevatedAndThePatchSplitWithoutAChangeOfShape) {
     EXPECT_EQ(person.project().surface, start);
 }
 
+/// As in the window of Parasilmongkol 1997: a net is typed number by number.
+TEST(DesignPanel, EnterGoesOnThroughTheControlNet) {
+    Person person({1600, 1000});
+    person.open("assets/projects/dome.json");
+    const ControlNet before = net(person);
+    person.click("inspector/net/coordinate/z");
+    person.click("inspector/net/row0/column2");
+    const auto enter = [&](const char* text) {
+        person.type(text);
+        person.press_key(render::Key::enter);
+        person.frames(3);
+    };
+    enter("-12.5");
+    person.press_key(render::Key::enter); // what stands there stays
+    person.frames(3);
+    enter("-40"); // of the next row
+    EXPECT_EQ(net(person).point(0, 2).z(), -12.5);
+    EXPECT_EQ(net(person).point(0, 3).z(), before.point(0, 3).z());
+    EXPECT_EQ(net(person).point(1, 0).z(), -40.0);
+    enter("4,0"); // is no number: the keyboard stays with it
+    EXPECT_EQ(net(person).point(1, 1).z(), before.point(1, 1).z());
+    EXPECT_FALSE(person.refusal("inspector/net/row1/column1").empty());
+    person.press_key(render::Key::a, true);
+    enter("41");
+    EXPECT_EQ(net(person).point(1, 1).z(), 41.0);
+    person.press_key(render::Key::escape);
+    person.click("inspector/net/row3/column3");
+    enter("7");
+    EXPECT_EQ(net(person).point(3, 3).z(), 7.0);
+    person.type("1"); // behind the last number Enter leads nowhere
+    person.frames(2);
+    EXPECT_FALSE(person.desktop().ui().is_typing());
+}
+
 /// To degree `u` of the rows and `v` of the columns, of the same shape.
 void elevate(Person& person, int u, int v) {
     person.workshop().edit("Elevate",

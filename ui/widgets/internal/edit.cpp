@@ -83,6 +83,9 @@ Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text
     }
     Typed typed;
     Ui::State::Edit& edit = ui.state().edit;
+    if (std::exchange(ui.state().chain.goes_on, false)) {
+        edit = {.path = box.path, .text = {}, .initial = {}, .called = true};
+    }
     if (edit.called && edit.path == box.path) {
         edit = {.path = box.path,
                 .text = text,
@@ -135,6 +138,7 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
         ui.state().drafts.erase(box.path);
     }
     edit = {};
+    ui.state().chain.goes_on = ui.state().chain.open && typed.entered && reason.empty();
     if (box.asks_again && typed.entered && reason.empty()) {
         edit = {.path = box.path, .text = text, .initial = text};
         take_keyboard_again(edit);

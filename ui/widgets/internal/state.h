@@ -62,8 +62,15 @@ struct Ui::State {
         int frames_to_follow = 0; ///< the caret is brought into sight
     };
 
+    /// Fields of which Enter gives the keyboard to the next one.
+    struct Chain {
+        bool open = false;    ///< fields that are drawn now belong to it
+        bool goes_on = false; ///< Enter ended one in this frame, and the next has not been drawn yet
+    };
+
     Places places;
     Edit edit;
+    Chain chain;
     EarlyText early;
     Written written;
     std::map<std::string, Refusal, std::less<>> refusals;
