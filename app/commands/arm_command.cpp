@@ -56,7 +56,7 @@ int simulate(const ArmSimulationOptions& options) {
     const std::string text = read_file(options.file);
     const auto blocks = kinematics::parse_arm_motion(text, options.file);
     const auto records = kinematics::simulate_arm(arm, blocks, start, options.step_mm, options.file);
-    const double seconds = actions::motion_of_file(arm, text, start, options.file).duration();
+    const double seconds = actions::motion_of_file(arm, text, start, options.file).trajectory.duration();
     write_file(options.out, kinematics::arm_result_text(arm, records));
     double most_tilt = 0.0;
     for (const kinematics::ArmRecord& record : records) {

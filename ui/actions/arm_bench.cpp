@@ -58,6 +58,12 @@ ArmPlay play_of(motion::Trajectory trajectory) {
     return {[motion = std::move(trajectory)](double time) { return motion.at(time).position; }, duration};
 }
 
+ArmPlay play_of(ArmFileMotion motion) {
+    ArmPlay play = play_of(std::move(motion.trajectory));
+    play.blocks = std::move(motion.blocks);
+    return play;
+}
+
 ArmPlay play_of(std::shared_ptr<machine::SharedMemoryStream> stream, kinematics::JointPositions start) {
     constexpr double settling = 2.0; // s: the card begins, brakes, and its motors come to rest
     const double duration = stream->count() * stream->move_time() + settling;
@@ -259,6 +265,15 @@ void ArmBench::play(ArmPlay motion) {
     motion_ = std::move(motion);
     time_ = 0.0;
     refusal_.clear();
+}
+
+const ArmBlockPlayed* ArmBench::block() const {
+    if (!motion_) {
+        return nullptr;
+    }
+    const auto at = std::ranges::find_if(motion_->blocks,
+                                         [this](const ArmBlockPlayed& block) { return time_ < block.end; });
+    return at == motion_->blocks.end() ? nullptr : &*at;
 }
 
 motion::Trajectory ArmBench::tour(const std::vector<project::TaughtPoint>& points) const {

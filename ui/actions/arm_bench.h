@@ -42,9 +42,11 @@ enum class ArmMove : std::uint8_t {
 struct ArmPlay {
     std::function<kinematics::JointPositions(double)> at;
     double duration = 0.0;
+    std::vector<ArmBlockPlayed> blocks{}; ///< of a motion file
 };
 
 [[nodiscard]] ArmPlay play_of(motion::Trajectory trajectory);
+[[nodiscard]] ArmPlay play_of(ArmFileMotion motion);
 /// What the motors of an emulated card did, of its axes alone; there is a record.
 [[nodiscard]] ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation);
 /// What the motors do that an emulated card drives by the points of its dual-ported RAM, from the joints
@@ -123,6 +125,8 @@ public:
     /// Of the motion, s; 0 without one.
     [[nodiscard]] double duration() const { return motion_ ? motion_->duration : 0.0; }
     [[nodiscard]] double time() const { return time_; }
+    /// The block of a motion file that is under way; null where there is none.
+    [[nodiscard]] const ArmBlockPlayed* block() const;
     /// Lets `seconds` pass. True if anything changed.
     bool advance(double seconds);
 

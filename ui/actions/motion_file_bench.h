@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/geometry/vectors.h"
 #include "core/kinematics/arm_model.h"
 #include "core/kinematics/arm_motion_file.h"
 #include "core/motion/trajectory.h"
@@ -13,12 +14,25 @@
 
 namespace millwright::actions {
 
+/// A block of a motion file while the arm is at it.
+struct ArmBlockPlayed {
+    int line = 0;             ///< where the block begins, from 1
+    std::string text;         ///< that line, without blanks around it
+    Vec3 goal = Vec3::Zero(); ///< of the tip
+    double end = 0.0;         ///< of its motion, s from the beginning of the file's
+};
+
+struct ArmFileMotion {
+    motion::Trajectory trajectory;
+    std::vector<ArmBlockPlayed> blocks; ///< those that move, in their order
+};
+
 /// Lines and arcs of a motion file, from the joints `start` on. Throws Error with the line of what is wrong,
 /// and of what the arm cannot do.
-[[nodiscard]] motion::Trajectory motion_of_file(const kinematics::ArmModel& arm,
-                                                const std::string& text,
-                                                const kinematics::JointPositions& start,
-                                                const std::filesystem::path& file);
+[[nodiscard]] ArmFileMotion motion_of_file(const kinematics::ArmModel& arm,
+                                           const std::string& text,
+                                           const kinematics::JointPositions& start,
+                                           const std::filesystem::path& file);
 
 class MotionFileBench {
 public:

@@ -20,6 +20,7 @@
 namespace millwright::actions {
 
 class SurfaceExport;
+struct ArmFileMotion;
 enum class ProcessorSource : std::uint8_t; // processor_bench.h
 
 struct WorkshopOptions {
@@ -145,6 +146,7 @@ public:
     [[nodiscard]] ArmBench& arm() { return *arm_; }
     /// The drawn arm does it, or the connected one. Throws Error with the reason where it cannot.
     void play_on_arm(const motion::Trajectory& motion);
+    void play_on_arm(ArmFileMotion motion);
     /// Gives a program in the card's language to the connected card, which runs it at once. `duration`: s, 0
     /// where it is not known; `ends`: of each line, empty where they are not. Throws Error.
     void run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends);

@@ -160,6 +160,15 @@ void Workshop::play_on_arm(const motion::Trajectory& motion) {
     }
 }
 
+void Workshop::play_on_arm(ArmFileMotion motion) {
+    if (look().arm_connected()) {
+        play_on_arm(motion.trajectory);
+    } else {
+        expect_start(motion.trajectory, arm_->joints());
+        arm_->play(play_of(std::move(motion)));
+    }
+}
+
 void Workshop::open_arm(const fs::path& file) {
     session_.question = FileQuestion::none;
     arm_->load(fs::absolute(file).string());
@@ -181,7 +190,7 @@ void Workshop::simulate_motion_file() {
         arm_->arm(), history_.current().arm.motion_file, arm_->home(), MotionFileBench::name());
     tell(session_,
          widgets::Severity::info,
-         fmt::format("From its home the arm takes {:.1f} s.", motion.duration()));
+         fmt::format("From its home the arm takes {:.1f} s.", motion.trajectory.duration()));
     arm_->play(play_of(std::move(motion)));
     arm_->clear_trace();
 }

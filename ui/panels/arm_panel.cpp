@@ -118,6 +118,10 @@ std::string direction_text(const Vec3& direction) {
         "{}  {}  {}", fixed(direction.x(), 3), fixed(direction.y(), 3), fixed(direction.z(), 3));
 }
 
+std::string tip_place_text(const Vec3& tip) {
+    return fmt::format("{}  {}  {}", fixed(tip.x(), 1), fixed(tip.y(), 1), fixed(tip.z(), 1));
+}
+
 } // namespace
 
 void ArmPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -215,10 +219,11 @@ void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
     const Vec3 tip = tool.translation();
     const Mat3 directions = tool.linear();
     const auto labels = ui.label_share(0.34F);
-    ui.value("tip",
-             "Tip",
-             fmt::format("{}  {}  {}", fixed(tip.x(), 1), fixed(tip.y(), 1), fixed(tip.z(), 1)),
-             "mm");
+    if (const actions::ArmBlockPlayed* const block = now.arm.block()) {
+        ui.value("block", fmt::format("Line {}", block->line), block->text);
+        ui.value("block_goal", "Goes to", tip_place_text(block->goal), "mm");
+    }
+    ui.value("tip", "Tip", tip_place_text(tip), "mm");
     ui.value("axis", "Axis (z)", direction_text(directions.col(2)));
     ui.value("x", "Its x", direction_text(directions.col(0)));
     ui.value("y", "Its y", direction_text(directions.col(1)));

@@ -99,6 +99,35 @@ TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {
     }
 }
 
+/// What the simulation of the thesis wrote beside its pictures: where to, and where it is.
+TEST_F(ArmMotionFileS7, TheBlockThatIsUnderWayIsShownWithItsGoal) {
+    write(path_of_the_thesis);
+    EXPECT_EQ(arm().block(), nullptr);
+    person_.click("lower/arm_simulate_motion");
+    person_.frames(2);
+    ASSERT_NE(arm().block(), nullptr);
+    EXPECT_EQ(arm().block()->line, 1);
+    EXPECT_EQ(arm().block()->text, "G1 X300 Y0 Z0 ;");
+    EXPECT_LT((arm().block()->goal - Vec3(1100.0, 0.0, 650.0)).norm(), 1e-6);
+    person_.bring_into_sight("inspector/tool/block_goal");
+    EXPECT_TRUE(person_.sees("inspector/tool/block"));
+    person_.keep("arm-block");
+    while (arm().moving() && arm().block() != nullptr && arm().block()->line == 1) {
+        person_.workshop().advance(0.5);
+    }
+    EXPECT_LT((arm().tool().translation() - Vec3(1100.0, 0.0, 650.0)).norm(), 6.0)
+        << "half a second of 10 mm/s";
+    ASSERT_NE(arm().block(), nullptr);
+    EXPECT_EQ(arm().block()->text, "G1 X0 Y0 Z-100 ;");
+    EXPECT_LT((arm().block()->goal - Vec3(1100.0, 0.0, 550.0)).norm(), 1e-6);
+    while (arm().moving()) {
+        person_.workshop().advance(0.5);
+    }
+    EXPECT_EQ(arm().block(), nullptr);
+    person_.frames(2);
+    EXPECT_FALSE(person_.sees("inspector/tool/block"));
+}
+
 TEST_F(ArmMotionFileS7, IsOpenedSavedUndoneAndPlayedFromWhereTheArmIs) {
     const auto file = person_.folder() / "there.mot";
     write_file(file, "G1 Y50 ;\n");
