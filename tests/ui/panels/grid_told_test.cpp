@@ -2,6 +2,7 @@
 #include "tests/ui/panels/person.h"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -115,6 +116,32 @@ TEST_F(GridTold, AComparedGridThatFailsIsMarkedAndTheProgramStays) {
     EXPECT_TRUE(person_.workshop().look().program());
     EXPECT_FALSE(person_.workshop().look().evaluation(GridMethod::elliptic));
     person_.keep("grid-compared-failed");
+}
+
+/// The thesis's test folds at once at LV = 100, and is solved at another LV than the field says.
+TEST_F(GridTold, TheLvThatWasReallyUsedIsSaid) {
+    person_.workshop().edit("Take the test of the thesis",
+                            [](project::Project& p) {
+                                p.grid.nu = p.grid.nv = 25;
+                                p.grid.method = GridMethod::elliptic;
+                                p.grid.elliptic.weight = WeightSource::w1;
+                                p.grid.elliptic.solver = grid::EllipticMethod::reference;
+                                p.grid.elliptic.max_rounds = 1;
+                                p.grid.elliptic.sliding_boundary = false;
+                            },
+                            {});
+    person_.wait_idle();
+    const auto warning = [&] {
+        return person_.workshop().look().evaluation(GridMethod::elliptic)->outcome.warning;
+    };
+    ASSERT_EQ(person_.project().grid.elliptic.adaptation, 100.0);
+    EXPECT_TRUE(person_.sees("outline/warning_elliptic"));
+    EXPECT_THAT(warning(),
+                testing::StartsWith("LV = 10 was used in place of 100: a cell folded at LV = 100."));
+    person_.keep("grid-lv-used");
+    person_.fill_in("inspector/elliptic/adaptation", "1");
+    person_.wait_idle();
+    EXPECT_THAT(warning(), testing::Not(testing::HasSubstr("was used in place of")));
 }
 
 } // namespace

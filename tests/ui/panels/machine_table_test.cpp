@@ -5,9 +5,13 @@
 #include "tests/ui/panels/table_bench.h"
 #include "ui/panels/job_time_left.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <termios.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <string>
 
 namespace millwright::panels {
@@ -156,6 +160,71 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     say_where("hand/messages/stands", at[0], at[1], at[2]);
     person.frames(2);
     EXPECT_EQ(person.refusal("inspector/job/machine_run"), "");
+}
+
+/// As the system has it.
+unsigned baud_of(const std::string& path) {
+    const int handle = ::open(path.c_str(), O_RDWR | O_NOCTTY);
+    termios settings{};
+    EXPECT_EQ(::tcgetattr(handle, &settings), 0) << path;
+    ::close(handle);
+    switch (::cfgetospeed(&settings)) {
+    case B9600:
+        return 9600;
+    case B19200:
+        return 19200;
+    default:
+        return 0;
+    }
+}
+
+TEST_F(MachineTable, IsConnectedToAtTheRateThatIsChosenInTheWindow) {
+    person.open(rows(person.folder()));
+    auto& choice = person.workshop().session().hand.choice;
+    choice.kind = machine::DriverKind::records;
+    choice.address = table.port();
+    choice.record.emplace();
+    choice.record->answer = "ok";
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.click("inspector/connection/serial");
+    person.frames(2);
+    person.choose("inspector/connection/serial/rate", "19200");
+    EXPECT_EQ(choice.address, table.port() + ",19200");
+    person.choose("inspector/connection/serial/stop_bits", "two");
+    EXPECT_EQ(choice.address, table.port() + ",19200,8N2");
+    person.keep("table-serial-line");
+    test::connect(person);
+    EXPECT_EQ(baud_of(table.port()), 19200U);
+    person.click("inspector/connection/machine_disconnect");
+    ASSERT_TRUE(person.live_until([&] { return now().controller.link == actions::LinkState::none; }));
+    person.choose("inspector/connection/serial/rate", "9600");
+    test::connect(person);
+    EXPECT_EQ(baud_of(table.port()), 9600U);
+}
+
+TEST_F(MachineTable, EndsItsRecordsAsIsChosenInTheWindow) {
+    const std::filesystem::path sent = person.folder() / "sent.txt";
+    person.open(rows(person.folder()));
+    auto& choice = person.workshop().session().hand.choice;
+    choice.kind = machine::DriverKind::records;
+    choice.address = "file:" + sent.string();
+    person.workshop().run("view.machine");
+    person.frames(3);
+    person.choose("inspector/connection/ending", "crlf");
+    ASSERT_TRUE(choice.record);
+    EXPECT_EQ(choice.record->ending, "\r\n");
+    test::connect(person);
+    if (!known()) {
+        say_where("hand/messages/stands", 0.0, 0.0, 5.0);
+    }
+    person.wait_idle();
+    test::press_run(person);
+    ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }, 60.0));
+    const std::string text = read_file(sent);
+    EXPECT_GT(std::ranges::count(text, '\n'), 10);
+    EXPECT_EQ(std::ranges::count(text, '\n'), std::ranges::count(text, '\r'));
+    EXPECT_THAT(text, testing::EndsWith("\r\n"));
 }
 
 } // namespace

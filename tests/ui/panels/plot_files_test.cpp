@@ -7,9 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -20,6 +23,15 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::string with_s = "G21 G90\nM3 S8000\nG0 Z5\nG0 X1 Y1\nG1 Z-1 F100\nG1 X20\nG0 Z5\nM2\n";
+
+std::vector<std::string> split_lines(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
 
 fs::path file_in(const PlotPerson& bench, const std::string& name, const std::string& text) {
     std::ofstream(bench.folder / name) << text;
@@ -165,6 +177,34 @@ TEST(PlotFiles, ThePointsThatATableIsSentAreWritten) {
     }
     bench.drop(written);
     EXPECT_TRUE(bench.made().points);
+}
+
+/// Rule of the thesis of 2006 on forming software: equal chords, no longer than that along the arc.
+TEST(PlotFiles, TheChordLengthOfArcsIsTypedInTheWindow) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    bench.drop(file_in(
+        bench, "circle.ngc", "G21 G90\nG0 Z5\nG0 X10 Y20\nG1 Z-1 F100\nG2 X10 Y20 I10 J0\nG0 Z5\nM2\n"));
+    const auto chords = [&] { // of a circumference of 62.83 mm; one line more leads to the circle
+        const std::string text = read_file(bench.made().program);
+        return std::ranges::count_if(
+                   split_lines(text),
+                   [](const std::string& line) { return line.starts_with('X') || line.starts_with('Y'); }) -
+               1;
+    };
+    EXPECT_EQ(bench.plot().settings().chord_length, std::nullopt);
+    EXPECT_GT(chords(), 100) << "within 0.002 mm";
+    bench.person.fill_in("inspector/source/chord_length_mm", "5");
+    bench.settle();
+    EXPECT_EQ(bench.plot().settings().chord_length, 5.0);
+    EXPECT_EQ(chords(), 13);
+    bench.person.keep("plot-chord-length");
+    bench.person.fill_in("inspector/source/chord_length_mm", "2.22");
+    bench.settle();
+    EXPECT_EQ(chords(), 29);
+    bench.person.fill_in("inspector/source/chord_length_mm", "0");
+    bench.settle();
+    EXPECT_EQ(bench.plot().settings().chord_length, std::nullopt);
+    EXPECT_GT(chords(), 100);
 }
 
 } // namespace
