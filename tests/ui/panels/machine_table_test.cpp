@@ -205,7 +205,12 @@ TEST_F(MachineTable, IsConnectedToAtTheRateThatIsChosenInTheWindow) {
 
 TEST_F(MachineTable, EndsItsRecordsAsIsChosenInTheWindow) {
     const std::filesystem::path sent = person.folder() / "sent.txt";
-    person.open(rows(person.folder()));
+    std::string program = "G21 G90 G94 G17\nG0 Z5\nG1 Z4 F3000\n";
+    for (int n = 1; n <= 12; ++n) {
+        program += "X" + std::to_string(n) + "\n";
+    }
+    write_file(person.folder() / "short.ngc", program + "M2\n");
+    person.open(person.folder() / "short.ngc");
     auto& choice = person.workshop().session().hand.choice;
     choice.kind = machine::DriverKind::records;
     choice.address = "file:" + sent.string();
