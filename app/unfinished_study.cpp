@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace millwright::app {
 
@@ -79,11 +82,13 @@ std::optional<fs::path> UnfinishedStudy::set_earlier_aside() const {
 }
 
 std::optional<fs::path> UnfinishedStudy::keep(std::span<const StudyCase> cases,
-                                              const std::vector<std::vector<StudyRow>>& rows) const {
+                                              const std::vector<std::vector<StudyRow>>& rows,
+                                              std::vector<OutputFile> pictures) const {
     std::optional<fs::path> aside = set_earlier_aside();
     std::vector<OutputFile> files = study_tables(joined(rows));
     files.push_back({missing_name, missing_text(cases, rows)});
-    write_outputs(folder_, files);
+    std::ranges::move(pictures, std::back_inserter(files));
+    write_outputs(folder_, {files});
     return aside;
 }
 

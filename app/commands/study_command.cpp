@@ -114,7 +114,7 @@ void print_study_row(const StudyRow& row) {
 void write_whole(const std::filesystem::path& folder, const std::vector<StudyRow>& rows) {
     std::vector<OutputFile> files = study_tables(rows);
     std::ranges::move(study_pictures(rows), std::back_inserter(files));
-    write_outputs(folder, files);
+    write_outputs(folder, {files});
 }
 
 void print_head() {
@@ -183,7 +183,7 @@ std::string write_unfinished(const UnfinishedStudy& unfinished,
     }
     const std::string where = unfinished.folder().string();
     teller.say_of_several(fmt::format("the cases that are done are in {}", where));
-    write_outputs(unfinished.folder(), study_pictures(joined(found.rows)));
+    (void)unfinished.keep(cases, found.rows, study_pictures(joined(found.rows)));
     return fmt::format("they are in {}", where);
 }
 
