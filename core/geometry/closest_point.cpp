@@ -1,12 +1,14 @@
 #include "core/geometry/closest_point.h"
 
 #include "core/base/error.h"
+#include "core/geometry/internal/balanced_cells.h"
 #include "core/geometry/internal/cell_tree.h"
 
 #include <nanoflann.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace millwright::geometry {
@@ -73,6 +75,30 @@ Vec2 step(const Quadratic& q, const std::array<bool, 2>& fixed) {
     return scale > 0.0 ? Vec2(-q.gradient / scale) : Vec2(Vec2::Zero());
 }
 
+/// Whether equal steps of the parameters may be steps of the surface that are far from equal.
+bool has_uneven_weights(const BezierPatch& patch) {
+    constexpr double even = 100.0; // greatest by least; within it 32 x 32 equal cells find all minima
+    const auto [least, most] = std::ranges::minmax_element(patch.net().weights);
+    return patch.rational() && *most > even * *least;
+}
+
+/// Of 3 x 3 places between `low` and `high` the nearest.
+Vec2 best_start(const BezierPatch& patch, const Vec2& low, const Vec2& high, const Vec3& point) {
+    Vec2 best = low;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const Vec2 uv = low + Vec2(0.5 * i, 0.5 * j).cwiseProduct(high - low);
+            const double squared = (patch.position(uv.x(), uv.y()) - point).squaredNorm();
+            if (squared < least) {
+                least = squared;
+                best = uv;
+            }
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, const Vec2& start) {
@@ -110,6 +136,9 @@ struct ClosestPointSearch::Samples {
         nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Samples>, Samples, 3>;
 
     explicit Samples(const BezierPatch& of) : patch(of), cells(of) {
+        if (has_uneven_weights(of)) {
+            parts.emplace(of);
+        }
         for (int i = 0; i <= side; ++i) {
             for (int j = 0; j <= side; ++j) {
                 const Vec2 uv(static_cast<double>(i) / side, static_cast<double>(j) / side);
@@ -136,6 +165,9 @@ struct ClosestPointSearch::Samples {
 
     /// `found`, or what lies nearer in another cell.
     [[nodiscard]] ClosestPoint nearest_of_all(const Vec3& point, ClosestPoint found) const {
+        if (parts) {
+            return nearest_of_parts(point, found);
+        }
         cells.visit(
             point,
             [&] { return found.distance; },
@@ -146,7 +178,8 @@ struct ClosestPointSearch::Samples {
                 if ((away.array() <= half.array()).all()) {
                     return; // its descent, or that of the cell beside it, has ended here
                 }
-                const ClosestPoint there = closest_point_near(patch, point, best_start(cell, point));
+                const ClosestPoint there =
+                    closest_point_near(patch, point, best_start(patch, cell.low, cell.high, point));
                 if (there.distance < found.distance) {
                     found = there;
                 }
@@ -154,25 +187,48 @@ struct ClosestPointSearch::Samples {
         return found;
     }
 
-    /// Of 3 x 3 places of the cell the nearest.
-    [[nodiscard]] Vec2 best_start(const CellTree::Cell& cell, const Vec3& point) const {
-        Vec2 best = cell.low;
-        double least = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                const Vec2 uv = cell.low + Vec2(0.5 * i, 0.5 * j).cwiseProduct(cell.high - cell.low);
-                const double squared = (patch.position(uv.x(), uv.y()) - point).squaredNorm();
-                if (squared < least) {
-                    least = squared;
-                    best = uv;
+    /// The same where the parameters tell little about places: each part is descended by its own.
+    [[nodiscard]] ClosestPoint nearest_of_parts(const Vec3& point, ClosestPoint found) const {
+        const BalancedCells::Part* best = nullptr;
+        Vec2 within = Vec2::Zero();
+        parts->visit(
+            point,
+            [&] { return found.distance; },
+            [&](const BalancedCells::Part& part) {
+                const Vec2 start = best_start(part.patch, Vec2::Zero(), Vec2::Ones(), point);
+                const ClosestPoint there = closest_point_near(part.patch, point, start);
+                if (there.distance < found.distance) {
+                    best = &part;
+                    within = there.parameters;
+                    found = {part.at(within), there.position, there.distance};
                 }
+            });
+        return best == nullptr ? found : closer_by_halving(*best, within, point, found);
+    }
+
+    /// A descent may stick where the weights are uneven within a part, too. In the half where it stuck they
+    /// are less so, and it goes on.
+    [[nodiscard]] static ClosestPoint
+    closer_by_halving(BalancedCells::Part part, Vec2 within, const Vec3& point, ClosestPoint found) {
+        constexpr int most_halvings = 24;
+        for (int n = 0; n < most_halvings; ++n) {
+            auto [low, high] = BalancedCells::halves(part);
+            const int along = low.high.x() < part.high.x() ? 0 : 1;
+            const bool is_high = within[along] >= 0.5;
+            within[along] = 2.0 * within[along] - (is_high ? 1.0 : 0.0);
+            part = is_high ? std::move(high) : std::move(low);
+            const ClosestPoint there = closest_point_near(part.patch, point, within);
+            if (there.distance < found.distance) {
+                within = there.parameters;
+                found = {part.at(within), there.position, there.distance};
             }
         }
-        return best;
+        return found;
     }
 
     BezierPatch patch;
     CellTree cells;
+    std::optional<BalancedCells> parts; ///< with uneven weights
     std::vector<Vec3> points;
     std::vector<Vec2> parameters;
     std::unique_ptr<Tree> tree;
