@@ -63,15 +63,6 @@ void expect_replaceable(const fs::path& place, const fs::path& source) {
     }
 }
 
-bool has_bytes(const fs::path& file, const std::string& bytes) {
-    std::error_code missing;
-    try {
-        return fs::is_regular_file(file, missing) && read_file(file) == bytes;
-    } catch (const Error&) {
-        return false;
-    }
-}
-
 /// Of files that are to stay when others take their place; taken back unless stay() is called.
 class SecondNames {
 public:
@@ -163,6 +154,15 @@ fs::path without_ups(const fs::path& folder) {
 }
 
 } // namespace
+
+bool has_bytes(const fs::path& file, const std::string& bytes) {
+    std::error_code missing;
+    try {
+        return fs::is_regular_file(file, missing) && read_file(file) == bytes;
+    } catch (const Error&) {
+        return false;
+    }
+}
 
 OutputFolder::OutputFolder(const fs::path& folder) {
     const fs::path wanted = without_ups(folder);

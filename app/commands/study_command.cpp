@@ -174,7 +174,7 @@ private:
 
 /// Where what is done is, of a study with cases missing. Where mpirun stops it there may be no time for
 /// pictures: this is said before them.
-std::string write_unfinished(const UnfinishedStudy& unfinished,
+std::string write_unfinished(UnfinishedStudy& unfinished,
                              std::span<const StudyCase> cases,
                              const SpreadStudy& found,
                              Teller& teller) {
@@ -194,7 +194,7 @@ int gathered(const StudyOptions& options,
              const Interrupt& interrupt) {
     const std::vector<StudyCase> cases = cases_of(options);
     const OutputFolder folder(options.out);
-    const UnfinishedStudy unfinished(options.out);
+    UnfinishedStudy unfinished(options.out);
     Teller teller(ranks, interrupt);
     print_head();
     const StudyNews news{.came =
