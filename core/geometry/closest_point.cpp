@@ -189,41 +189,47 @@ struct ClosestPointSearch::Samples {
 
     /// The same where the parameters tell little about places: each part is descended by its own.
     [[nodiscard]] ClosestPoint nearest_of_parts(const Vec3& point, ClosestPoint found) const {
-        const BalancedCells::Part* best = nullptr;
-        Vec2 within = Vec2::Zero();
+        constexpr std::size_t most_halved = 4;
+        std::vector<std::pair<double, const BalancedCells::Part*>> nearest; // ascending
         parts->visit(
             point,
             [&] { return found.distance; },
             [&](const BalancedCells::Part& part) {
-                const Vec2 start = best_start(part.patch, Vec2::Zero(), Vec2::Ones(), point);
-                const ClosestPoint there = closest_point_near(part.patch, point, start);
-                if (there.distance < found.distance) {
-                    best = &part;
-                    within = there.parameters;
-                    found = {part.at(within), there.position, there.distance};
-                }
+                const double distance = descend(part, point, found);
+                const auto place = std::ranges::lower_bound(
+                    nearest, distance, {}, [](const auto& one) { return one.first; });
+                nearest.insert(place, {distance, &part});
+                nearest.resize(std::min(nearest.size(), most_halved));
             });
-        return best == nullptr ? found : closer_by_halving(*best, within, point, found);
-    }
-
-    /// A descent may stick where the weights are uneven within a part, too. In the half where it stuck they
-    /// are less so, and it goes on.
-    [[nodiscard]] static ClosestPoint
-    closer_by_halving(BalancedCells::Part part, Vec2 within, const Vec3& point, ClosestPoint found) {
-        constexpr int most_halvings = 24;
-        for (int n = 0; n < most_halvings; ++n) {
-            auto [low, high] = BalancedCells::halves(part);
-            const int along = low.high.x() < part.high.x() ? 0 : 1;
-            const bool is_high = within[along] >= 0.5;
-            within[along] = 2.0 * within[along] - (is_high ? 1.0 : 0.0);
-            part = is_high ? std::move(high) : std::move(low);
-            const ClosestPoint there = closest_point_near(part.patch, point, within);
-            if (there.distance < found.distance) {
-                within = there.parameters;
-                found = {part.at(within), there.position, there.distance};
-            }
+        for (const auto& [distance, part] : nearest) {
+            halve(*part, point, found);
         }
         return found;
+    }
+
+    /// How near `point` a descent within `part` comes; `found` becomes that where it is nearer.
+    static double descend(const BalancedCells::Part& part, const Vec3& point, ClosestPoint& found) {
+        const Vec2 start = best_start(part.patch, Vec2::Zero(), Vec2::Ones(), point);
+        const ClosestPoint there = closest_point_near(part.patch, point, start);
+        if (there.distance < found.distance) {
+            found = {part.at(there.parameters), there.position, there.distance};
+        }
+        return there.distance;
+    }
+
+    /// A descent may stick where the weights are uneven within a part, too: they are less so in its halves,
+    /// of which the nearer one is halved again.
+    static void halve(BalancedCells::Part part, const Vec3& point, ClosestPoint& found) {
+        constexpr int most_halvings = 30;
+        for (int n = 0; n < most_halvings; ++n) {
+            if (!(part.patch.control_box().exteriorDistance(point) < found.distance)) {
+                return;
+            }
+            auto [low, high] = BalancedCells::halves(part);
+            const double by_low = descend(low, point, found);
+            const double by_high = descend(high, point, found);
+            part = by_high < by_low ? std::move(high) : std::move(low);
+        }
     }
 
     BezierPatch patch;
