@@ -7,6 +7,8 @@
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -75,6 +77,23 @@ Vec2 step(const Quadratic& q, const std::array<bool, 2>& fixed) {
     return scale > 0.0 ? Vec2(-q.gradient / scale) : Vec2(Vec2::Zero());
 }
 
+/// Whether the way to `point` is across the surface there, as far as it may leave the place.
+bool is_minimum(const BezierPatch& patch, const Vec3& point, const Vec2& uv) {
+    constexpr double across = 1e-6;   // rad
+    constexpr double touching = 1e-9; // mm
+    const Quadratic q = quadratic_at(patch, point, uv);
+    const double distance = (q.position - point).norm();
+    const std::array<bool, 2> fixed = held(uv, q.gradient);
+    for (int k = 0; k < 2; ++k) {
+        const double tangent = std::sqrt(q.gauss_newton(k, k));
+        if (!fixed[static_cast<std::size_t>(k)] &&
+            !(std::abs(q.gradient[k]) <= across * tangent * distance)) {
+            return distance < touching;
+        }
+    }
+    return true;
+}
+
 /// Whether equal steps of the parameters may be steps of the surface that are far from equal.
 bool has_uneven_weights(const BezierPatch& patch) {
     constexpr double even = 100.0; // greatest by least; within it 32 x 32 equal cells find all minima
@@ -131,6 +150,13 @@ ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, con
 }
 
 struct ClosestPointSearch::Samples {
+    /// What a descent within a part came to.
+    struct Descent {
+        double distance = 0.0;
+        bool converged = false;
+        const BalancedCells::Part* part = nullptr;
+    };
+
     static constexpr int side = 48;
     using Tree =
         nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Samples>, Samples, 3>;
@@ -190,31 +216,32 @@ struct ClosestPointSearch::Samples {
     /// The same where the parameters tell little about places: each part is descended by its own.
     [[nodiscard]] ClosestPoint nearest_of_parts(const Vec3& point, ClosestPoint found) const {
         constexpr std::size_t most_halved = 4;
-        std::vector<std::pair<double, const BalancedCells::Part*>> nearest; // ascending
+        std::vector<Descent> stuck; // the nearest first
         parts->visit(
             point,
             [&] { return found.distance; },
             [&](const BalancedCells::Part& part) {
-                const double distance = descend(part, point, found);
-                const auto place = std::ranges::lower_bound(
-                    nearest, distance, {}, [](const auto& one) { return one.first; });
-                nearest.insert(place, {distance, &part});
-                nearest.resize(std::min(nearest.size(), most_halved));
+                const Descent here = descend(part, point, found);
+                if (!here.converged) {
+                    stuck.insert(std::ranges::lower_bound(stuck, here.distance, {}, &Descent::distance),
+                                 here);
+                    stuck.resize(std::min(stuck.size(), most_halved));
+                }
             });
-        for (const auto& [distance, part] : nearest) {
-            halve(*part, point, found);
+        for (const Descent& one : stuck) {
+            halve(*one.part, point, found);
         }
         return found;
     }
 
     /// How near `point` a descent within `part` comes; `found` becomes that where it is nearer.
-    static double descend(const BalancedCells::Part& part, const Vec3& point, ClosestPoint& found) {
+    static Descent descend(const BalancedCells::Part& part, const Vec3& point, ClosestPoint& found) {
         const Vec2 start = best_start(part.patch, Vec2::Zero(), Vec2::Ones(), point);
         const ClosestPoint there = closest_point_near(part.patch, point, start);
         if (there.distance < found.distance) {
             found = {part.at(there.parameters), there.position, there.distance};
         }
-        return there.distance;
+        return {there.distance, is_minimum(part.patch, point, there.parameters), &part};
     }
 
     /// A descent may stick where the weights are uneven within a part, too: they are less so in its halves,
@@ -226,9 +253,13 @@ struct ClosestPointSearch::Samples {
                 return;
             }
             auto [low, high] = BalancedCells::halves(part);
-            const double by_low = descend(low, point, found);
-            const double by_high = descend(high, point, found);
-            part = by_high < by_low ? std::move(high) : std::move(low);
+            const Descent by_low = descend(low, point, found);
+            const Descent by_high = descend(high, point, found);
+            const bool is_high = by_high.distance < by_low.distance;
+            if (is_high ? by_high.converged : by_low.converged) {
+                return;
+            }
+            part = is_high ? std::move(high) : std::move(low);
         }
     }
 
