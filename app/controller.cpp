@@ -92,8 +92,9 @@ Controller::~Controller() {
     }
 }
 
-void Controller::check(const machine::Job& job) const {
+void Controller::check(const machine::Job& job) {
     driver_->check(*job.listing, job.project);
+    checked_.push_back(job);
 }
 
 void Controller::connect(bool at_a_line, const std::stop_token& stop) {
@@ -103,6 +104,7 @@ void Controller::connect(bool at_a_line, const std::stop_token& stop) {
         warn_of_protections(*pmac, clock_);
     }
     expect_rest();
+    expect_axes();
     prepare(at_a_line, stop);
     if (choice_.optional_stop) {
         driver_->set_optional_stop(true);
@@ -123,6 +125,19 @@ void Controller::expect_rest() const {
                     {},
                     "wait until it stands, or end that: millwright stop --driver " + choice_.driver +
                         " --port " + choice_.port);
+    }
+}
+
+/// Before anything is unlocked, switched on or homed for a job that this machine cannot do at all. Throws
+/// Error. Else the dispatcher says so before it sends anything.
+void Controller::expect_axes() const {
+    if (!choice_.home && !choice_.power && !choice_.unlock) {
+        return;
+    }
+    for (const machine::Job& job : checked_) {
+        if (const auto found = survey_of(job); found && !found->missing_axes.empty()) {
+            throw Error(found->errors.front());
+        }
     }
 }
 

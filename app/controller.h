@@ -15,6 +15,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -59,12 +60,13 @@ public:
     Controller& operator=(const Controller&) = delete;
     ~Controller();
 
-    /// Throws Error for what this controller must not be sent.
-    void check(const machine::Job& job) const;
+    /// Throws Error for what this controller must not be sent. To be called for each job before connect().
+    void check(const machine::Job& job);
     /// Asks a person at a terminal whether the position is right where something has cost it. Throws Error if
     /// nobody answers, or if the controller is locked and nobody said that it may be unlocked, or that it
-    /// shall be homed first, which moves it; `at_a_line`: also if the position that a job needs that begins
-    /// there is in doubt. Nothing was unlocked then.
+    /// shall be homed first, which moves it; also if the machine lacks an axis of a job that was checked;
+    /// `at_a_line`: also if the position that a job needs that begins there is in doubt. Nothing was unlocked
+    /// or moved then.
     void connect(bool at_a_line, const std::stop_token& stop);
     /// Throws Error for what the connected machine could not do of it from where it stands; nothing moves.
     void look_at(const machine::Job& job) const;
@@ -77,6 +79,7 @@ public:
 
 private:
     void expect_rest() const;
+    void expect_axes() const;
     void prepare(bool at_a_line, const std::stop_token& stop);
     void wait_for(const std::function<bool(const machine::DriverStatus&)>& done, const std::stop_token& stop);
     void unlock();
@@ -94,6 +97,7 @@ private:
     machine::PositionMemory memory_;
     machine::SteadyClock clock_;
     std::unique_ptr<machine::Driver> driver_;
+    std::vector<machine::Job> checked_; ///< the jobs that are to be run
 };
 
 /// Date and time for people.

@@ -61,6 +61,14 @@ void say_kept(const fs::path& file, const fs::path& name) {
                                   {}}));
 }
 
+void say_taken_away(const fs::path& file) {
+    fmt::print(stderr,
+               "millwright: {}\n",
+               to_text(Diagnostic{{file, 0, 0, -1},
+                                  "was of an earlier command, did not fit the new files, and was removed",
+                                  {}}));
+}
+
 KeptOutputs::KeptOutputs(std::vector<fs::path> files) : files_(std::move(files)) {
     for (const fs::path& file : files_) {
         const fs::path real = file_to_lose(file);

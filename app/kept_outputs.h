@@ -17,6 +17,9 @@ namespace millwright::app {
 /// On standard error.
 void say_kept(const std::filesystem::path& file, const std::filesystem::path& name);
 
+/// On standard error: of a file that no longer fits the others in its folder.
+void say_taken_away(const std::filesystem::path& file);
+
 /// While a command runs that writes `files`. At the end those that it replaced, and that were not as a
 /// command had written them last, are there under another name, and what it wrote is remembered. A file that
 /// it left alone stays what it was: of others, or ours.

@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <chrono>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -62,15 +63,6 @@ void expect_replaceable(const fs::path& place, const fs::path& source) {
     }
 }
 
-bool has_bytes(const fs::path& file, const std::string& bytes) {
-    std::error_code missing;
-    try {
-        return fs::is_regular_file(file, missing) && read_file(file) == bytes;
-    } catch (const Error&) {
-        return false;
-    }
-}
-
 /// Of files that are to stay when others take their place; taken back unless stay() is called.
 class SecondNames {
 public:
@@ -102,6 +94,55 @@ private:
     std::vector<std::pair<fs::path, fs::path>> names_;
 };
 
+/// Files of other sets that would no longer fit what is in the folder once `set` is written there, and those
+/// that are to be absent.
+std::set<fs::path> unfitting(const fs::path& folder,
+                             const OutputSet& set,
+                             const std::vector<fs::path>& places,
+                             const WrittenFiles& written) {
+    std::set<fs::path> found;
+    const auto add_rest = [&](const fs::path& place) {
+        for (fs::path& other : written.written_with(place)) {
+            found.insert(std::move(other));
+        }
+    };
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        if (written.had_other_bytes(places[n], set.files[n].bytes)) {
+            add_rest(places[n]);
+        }
+    }
+    for (const std::string& name : set.absent) {
+        std::error_code missing;
+        if (fs::is_regular_file(folder / name, missing)) {
+            add_rest(folder / name);
+            found.insert(lasting_path(folder / name));
+        }
+    }
+    for (const fs::path& place : places) {
+        found.erase(lasting_path(place));
+    }
+    return found;
+}
+
+/// One that no command has written as it is gets another name.
+void take_away(const fs::path& file, const WrittenFiles& written) {
+    std::error_code failure;
+    if (!fs::is_regular_file(file, failure)) {
+        return;
+    }
+    if (written.holds(file)) {
+        if (fs::remove(file, failure)) {
+            say_taken_away(file);
+        }
+        return;
+    }
+    const fs::path name = kept_name(file);
+    fs::rename(file, name, failure);
+    if (!failure) {
+        say_kept(file, name);
+    }
+}
+
 /// As typed, but without "..": a link before it is followed, and what is missing before it is not made.
 fs::path without_ups(const fs::path& folder) {
     if (std::ranges::find(folder, "..") == folder.end()) {
@@ -113,6 +154,15 @@ fs::path without_ups(const fs::path& folder) {
 }
 
 } // namespace
+
+bool has_bytes(const fs::path& file, const std::string& bytes) {
+    std::error_code missing;
+    try {
+        return fs::is_regular_file(file, missing) && read_file(file) == bytes;
+    } catch (const Error&) {
+        return false;
+    }
+}
 
 OutputFolder::OutputFolder(const fs::path& folder) {
     const fs::path wanted = without_ups(folder);
@@ -142,24 +192,26 @@ void OutputFolder::remove_empty() const {
     }
 }
 
-void write_outputs(const fs::path& typed, const std::vector<OutputFile>& files, const fs::path& source) {
+void write_outputs(const fs::path& typed, const OutputSet& set, const fs::path& source) {
     const fs::path folder = without_ups(typed);
     make_folder(folder);
     const OutputLock lock(folder);
     std::vector<std::unique_ptr<Draft>> drafts;
-    for (const OutputFile& file : files) {
+    std::vector<fs::path> places;
+    for (const OutputFile& file : set.files) {
         expect_replaceable(folder / file.name, source);
         drafts.push_back(std::make_unique<Draft>(folder / file.name));
         drafts.back()->write(file.bytes);
+        places.push_back(drafts.back()->target());
     }
     WrittenFiles written;
-    std::vector<fs::path> places;
+    const std::set<fs::path> others = unfitting(folder, set, places, written);
     SecondNames kept; // before any file loses its own: we may be killed at any time
-    for (std::size_t n = 0; n < files.size(); ++n) {
-        const fs::path& place = places.emplace_back(drafts[n]->target());
+    for (std::size_t n = 0; n < places.size(); ++n) {
         std::error_code missing;
-        if (fs::exists(place, missing) && !written.holds(place) && !has_bytes(place, files[n].bytes)) {
-            kept.add(place);
+        if (fs::exists(places[n], missing) && !written.holds(places[n]) &&
+            !has_bytes(places[n], set.files[n].bytes)) {
+            kept.add(places[n]);
         }
     }
     try {
@@ -173,23 +225,10 @@ void write_outputs(const fs::path& typed, const std::vector<OutputFile>& files, 
         throw;
     }
     kept.stay();
-    written.add(places);
-}
-
-void remove_output(const fs::path& file) {
-    std::error_code failure;
-    if (!fs::is_regular_file(file, failure)) {
-        return;
+    for (const fs::path& other : others) {
+        take_away(other, written);
     }
-    if (WrittenFiles().holds(file)) {
-        fs::remove(file, failure);
-        return;
-    }
-    const fs::path name = kept_name(file);
-    fs::rename(file, name, failure);
-    if (!failure) {
-        say_kept(file, name);
-    }
+    written.add_set(places);
 }
 
 } // namespace millwright::app

@@ -13,6 +13,9 @@ struct OutputFile {
     std::string bytes;
 };
 
+/// False for what is missing or cannot be read.
+[[nodiscard]] bool has_bytes(const std::filesystem::path& file, const std::string& bytes);
+
 /// A folder for results that are still being made: it is made at once, so that one that cannot be is told
 /// before the work. Of it and its parents, those folders that were made and are empty at the end are removed,
 /// also where only a part could be made; files and links never are.
@@ -30,15 +33,21 @@ private:
     std::vector<std::filesystem::path> made_; ///< the innermost first
 };
 
+/// Files that a command writes into a folder and that belong together.
+struct OutputSet {
+    std::vector<OutputFile> files;
+    std::vector<std::string>
+        absent{}; ///< names that would be taken for its own, and are not written this time
+};
+
 /// Writes all beside their places first and exchanges them then, while no other program of ours does so in
 /// this folder. A file there that is not as a command wrote it last gets another name, and that is said on
-/// standard error. Throws Error, also where one of them would replace `source`, a file that they were made
-/// from, or one that the user may not write; what was there before then stays.
+/// standard error. Where a file of another set is replaced by other bytes or is to be absent, the rest of
+/// that set is taken away, which is said, too: a folder never has the program of one command and the report
+/// of another. Throws Error, also where one of them would replace `source`, a file that they were made from,
+/// or one that the user may not write; what was there before then stays.
 void write_outputs(const std::filesystem::path& folder,
-                   const std::vector<OutputFile>& files,
+                   const OutputSet& set,
                    const std::filesystem::path& source = {});
-
-/// Takes a file away that would no longer fit the others; one that no command has written gets another name.
-void remove_output(const std::filesystem::path& file);
 
 } // namespace millwright::app

@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace millwright::app {
 
@@ -79,11 +82,14 @@ std::optional<fs::path> UnfinishedStudy::set_earlier_aside() const {
 }
 
 std::optional<fs::path> UnfinishedStudy::keep(std::span<const StudyCase> cases,
-                                              const std::vector<std::vector<StudyRow>>& rows) const {
+                                              const std::vector<std::vector<StudyRow>>& rows,
+                                              std::vector<OutputFile> pictures) {
     std::optional<fs::path> aside = set_earlier_aside();
     std::vector<OutputFile> files = study_tables(joined(rows));
     files.push_back({missing_name, missing_text(cases, rows)});
-    write_outputs(folder_, files);
+    tables_ = files;
+    std::ranges::move(pictures, std::back_inserter(files));
+    write_outputs(folder_, {files});
     return aside;
 }
 
@@ -93,7 +99,9 @@ bool UnfinishedStudy::kept() const {
 }
 
 void UnfinishedStudy::remove(std::span<const StudyCase> cases) const {
-    if (!kept()) {
+    const bool ours = std::ranges::all_of(
+        tables_, [this](const OutputFile& table) { return has_bytes(folder_ / table.name, table.bytes); });
+    if (!kept() || !ours) {
         return;
     }
     std::error_code ignored;

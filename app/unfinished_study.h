@@ -33,12 +33,14 @@ public:
     /// Writes the tables of the cases that have come, and missing.txt, which names the others. `rows` has an
     /// element a case, empty for one that did not come. The first time what an earlier study left goes to a
     /// folder beside it, unfinished-1 ..., which is returned. Throws Error.
+    /// `pictures` are written with them.
     std::optional<std::filesystem::path> keep(std::span<const project::StudyCase> cases,
-                                              const std::vector<std::vector<project::StudyRow>>& rows) const;
+                                              const std::vector<std::vector<project::StudyRow>>& rows,
+                                              std::vector<OutputFile> pictures = {});
     /// Whether keep() was called, on whatever rank that writes into the same folder.
     [[nodiscard]] bool kept() const;
-    /// Takes away what was kept, with the pictures of these cases, and the folder where nothing else is in
-    /// it.
+    /// Takes away what this one kept, with the pictures of these cases, and the folder where nothing else is
+    /// in it. What another study has written there meanwhile stays.
     void remove(std::span<const project::StudyCase> cases) const;
 
 private:
@@ -46,6 +48,7 @@ private:
 
     std::filesystem::path folder_;
     std::optional<std::filesystem::file_time_type> earlier_; ///< when an earlier study wrote there
+    std::vector<OutputFile> tables_;                         ///< as this one wrote them last
 };
 
 } // namespace millwright::app

@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include <exception>
+#include <set>
 #include <system_error>
+#include <utility>
 
 namespace millwright::app {
 
@@ -21,13 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_written = 5000;
-
-std::string lasting_path(const fs::path& file) {
-    std::error_code failure;
-    const fs::path folder =
-        fs::canonical(file.has_parent_path() ? file.parent_path() : fs::path("."), failure);
-    return failure ? std::string() : (folder / file.filename()).string();
-}
 
 /// So that two commands that end at once remember the files of both.
 class WrittenLock {
@@ -50,16 +45,26 @@ private:
     int handle_;
 };
 
-std::map<std::string, std::string> read_written(const fs::path& place) {
+} // namespace
+
+std::string lasting_path(const fs::path& file) {
+    std::error_code failure;
+    const fs::path folder =
+        fs::canonical(file.has_parent_path() ? file.parent_path() : fs::path("."), failure);
+    return failure ? std::string() : (folder / file.filename()).string();
+}
+
+WrittenFiles::Entries WrittenFiles::read_entries(const fs::path& place) {
     std::error_code missing;
-    std::map<std::string, std::string> found;
+    Entries found;
     if (place.empty() || !fs::exists(place, missing)) {
         return found;
     }
     try {
         const JsonValue json = JsonValue::read(place);
         for (const JsonValue& entry : json.items()) {
-            found[entry.at("file").text()] = entry.at("hash").text();
+            const auto set = entry.find("set");
+            found[entry.at("file").text()] = {entry.at("hash").text(), set ? set->text() : std::string()};
         }
     } catch (const std::exception&) {
         found.clear();
@@ -67,21 +72,38 @@ std::map<std::string, std::string> read_written(const fs::path& place) {
     return found;
 }
 
-} // namespace
-
 WrittenFiles::WrittenFiles() {
     const fs::path recent = project::recent_files_place();
     place_ = recent.empty() ? fs::path() : recent.parent_path() / "written.json";
-    hashes_ = read_written(place_);
+    entries_ = read_entries(place_);
 }
 
 bool WrittenFiles::holds(const fs::path& file) const {
-    const auto found = hashes_.find(lasting_path(file));
+    const auto found = entries_.find(lasting_path(file));
     try {
-        return found != hashes_.end() && machine::program_hash(read_file(file)) == found->second;
+        return found != entries_.end() && machine::program_hash(read_file(file)) == found->second.hash;
     } catch (const std::exception&) {
         return false;
     }
+}
+
+bool WrittenFiles::had_other_bytes(const fs::path& file, std::string_view bytes) const {
+    const auto found = entries_.find(lasting_path(file));
+    return found != entries_.end() && machine::program_hash(bytes) != found->second.hash;
+}
+
+std::vector<fs::path> WrittenFiles::written_with(const fs::path& file) const {
+    std::vector<fs::path> others;
+    const auto found = entries_.find(lasting_path(file));
+    if (found == entries_.end() || found->second.set.empty()) {
+        return others;
+    }
+    for (const auto& [name, entry] : entries_) {
+        if (name != found->first && entry.set == found->second.set) {
+            others.emplace_back(name);
+        }
+    }
+    return others;
 }
 
 bool WrittenFiles::same_bytes(const fs::path& a, const fs::path& b) {
@@ -94,35 +116,77 @@ bool WrittenFiles::same_bytes(const fs::path& a, const fs::path& b) {
 }
 
 void WrittenFiles::add(const std::vector<fs::path>& files) {
+    add(files, false);
+}
+
+void WrittenFiles::add_set(const std::vector<fs::path>& files) {
+    add(files, true);
+}
+
+void WrittenFiles::add(const std::vector<fs::path>& files, bool together) {
     if (place_.empty()) {
         return;
     }
     try {
         make_folder(place_.parent_path());
         const WrittenLock lock(place_);
-        hashes_ = read_written(place_); // another command may have added some meanwhile
-        for (const fs::path& file : files) {
-            if (const std::string name = lasting_path(file); !name.empty()) {
-                hashes_[name] = machine::program_hash(read_file(file));
-            }
-        }
-        std::erase_if(hashes_, [](const auto& entry) {
+        entries_ = read_entries(place_); // another command may have added some meanwhile
+        put(files, together);
+        std::erase_if(entries_, [](const auto& entry) {
             std::error_code unknown;
             return !fs::exists(entry.first, unknown);
         });
-        while (hashes_.size() > most_written) {
-            hashes_.erase(hashes_.begin());
+        while (entries_.size() > most_written) {
+            entries_.erase(entries_.begin());
         }
-        auto json = nlohmann::ordered_json::array();
-        for (const auto& [name, hash] : hashes_) {
-            json.push_back({{"file", name}, {"hash", hash}});
-        }
-        write_file(place_,
-                   json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n",
-                   Privacy::own);
+        write();
     } catch (const std::exception&) {
         // Then they are set aside the next time.
     }
+}
+
+void WrittenFiles::put(const std::vector<fs::path>& files, bool together) {
+    Entries added;
+    std::set<std::string> joined; // earlier sets that go on in this one
+    std::string identity;
+    for (const fs::path& file : files) {
+        const std::string name = lasting_path(file);
+        if (name.empty()) {
+            continue;
+        }
+        Entry entry{machine::program_hash(read_file(file)), {}};
+        const auto before = entries_.find(name);
+        if (before != entries_.end() && before->second.hash == entry.hash && !before->second.set.empty()) {
+            entry.set = before->second.set;
+            joined.insert(entry.set);
+        }
+        identity += name + "\n" + entry.hash + "\n";
+        added[name] = std::move(entry);
+    }
+    const std::string set = machine::program_hash(identity);
+    for (auto& [name, entry] : entries_) {
+        if (together && joined.contains(entry.set)) {
+            entry.set = set;
+        }
+    }
+    for (auto& [name, entry] : added) {
+        entry.set = together ? set : entry.set;
+        entries_[name] = std::move(entry);
+    }
+}
+
+void WrittenFiles::write() const {
+    auto json = nlohmann::ordered_json::array();
+    for (const auto& [name, entry] : entries_) {
+        nlohmann::ordered_json row{{"file", name}, {"hash", entry.hash}};
+        if (!entry.set.empty()) {
+            row["set"] = entry.set;
+        }
+        json.push_back(std::move(row));
+    }
+    write_file(place_,
+               json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n",
+               Privacy::own);
 }
 
 } // namespace millwright::app

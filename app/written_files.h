@@ -4,9 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::app {
+
+/// Its whole path, by which it is known whatever way leads to its folder; empty where the folder is missing.
+[[nodiscard]] std::string lasting_path(const std::filesystem::path& file);
 
 /// Kept beside the list of recent files, for a few thousand files that are still there; nowhere without a
 /// home.
@@ -19,12 +23,30 @@ public:
     [[nodiscard]] bool holds(const std::filesystem::path& file) const;
     /// False for what cannot be read.
     [[nodiscard]] static bool same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
+    /// Whether a command wrote `file` last, with other bytes than these.
+    [[nodiscard]] bool had_other_bytes(const std::filesystem::path& file, std::string_view bytes) const;
+    /// The other files that belong to what a command wrote as `file`, whether or not they are still there.
+    [[nodiscard]] std::vector<std::filesystem::path> written_with(const std::filesystem::path& file) const;
     /// From now on, also for commands to come. What cannot be kept is forgotten.
     void add(const std::vector<std::filesystem::path>& files);
+    /// The same for files that belong together. Files that belonged to one of them that has kept its bytes
+    /// belong to all of them.
+    void add_set(const std::vector<std::filesystem::path>& files);
 
 private:
-    std::filesystem::path place_;               ///< empty: nowhere
-    std::map<std::string, std::string> hashes_; ///< of the bytes, by whole path
+    struct Entry {
+        std::string hash; ///< of the bytes
+        std::string set;  ///< the same for all files that belong together; empty: it belongs to none
+    };
+    using Entries = std::map<std::string, Entry>; ///< by whole path
+
+    [[nodiscard]] static Entries read_entries(const std::filesystem::path& place);
+    void add(const std::vector<std::filesystem::path>& files, bool together);
+    void put(const std::vector<std::filesystem::path>& files, bool together);
+    void write() const;
+
+    std::filesystem::path place_; ///< empty: nowhere
+    Entries entries_;
 };
 
 } // namespace millwright::app

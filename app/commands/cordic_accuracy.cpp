@@ -232,7 +232,7 @@ int accuracy(const CordicAccuracyOptions& options) {
     for (const cordic::Picture& picture : experiments.pictures) {
         files.push_back({picture.name, picture.svg});
     }
-    write_outputs(options.out, files);
+    write_outputs(options.out, {files});
     print_accuracy(rows, experiments.findings);
     return 0;
 }

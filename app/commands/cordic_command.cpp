@@ -139,7 +139,7 @@ int rtl(const NumberOptions& options) {
          cordic::make_rtl(number_format(options), sequence_of(options), options.vectors, options.seed)) {
         files.push_back({std::move(file.name), std::move(file.text)});
     }
-    write_outputs(options.out, files);
+    write_outputs(options.out, {files});
     fmt::print("{} files; try: cd {} && iverilog -g2001 -o sim cordic_core.v cordic_core_tb.v && ./sim\n",
                files.size(),
                options.out);

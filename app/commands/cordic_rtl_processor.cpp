@@ -65,7 +65,7 @@ int rtl_processor(const ProcessorRtlOptions& options) {
         files.push_back({std::move(file.name), std::move(file.text)});
     }
     make_folder(options.out);
-    write_outputs(options.out, files);
+    write_outputs(options.out, {files});
     fmt::print("{} files; try: cd {} && iverilog -g2001 -s gcode_processor_tb -o sim *.v && ./sim\n",
                files.size(),
                options.out);

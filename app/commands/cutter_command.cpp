@@ -117,15 +117,14 @@ int cut(const CutterOptions& options) {
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
-    std::vector<OutputFile> files = {{"cut.json", project::cut_report_text(project, plan)},
-                                     {"surface.csv", project::surface_csv(*plan.workpiece, plan.cut->swept)}};
+    OutputSet set{{{"cut.json", project::cut_report_text(project, plan)},
+                   {"surface.csv", project::surface_csv(*plan.workpiece, plan.cut->swept)}}};
     if (writes) {
-        files.push_back({program, text.text.listing.text});
+        set.files.push_back({program, text.text.listing.text});
+    } else { // an older one would be taken for it
+        set.absent.push_back(program);
     }
-    write_outputs(options.out, files, opened.file);
-    if (!writes) { // an older one would be taken for it
-        remove_output(std::filesystem::path(options.out) / program);
-    }
+    write_outputs(options.out, set, opened.file);
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));

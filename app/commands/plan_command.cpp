@@ -254,21 +254,18 @@ int plan(const PlanOptions& options) {
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
-    std::vector<OutputFile> files = {{"report.json", project::report_text(opened.project, plan)}};
-    if (writes) {
-        files.push_back({program, text.text.listing.text});
-    }
+    OutputSet set{{{"report.json", project::report_text(opened.project, plan)}}};
+    const auto add = [&set](const std::string& name, std::optional<std::string> bytes) {
+        if (bytes) {
+            set.files.push_back({name, std::move(*bytes)});
+        } else { // an older one would be taken for it
+            set.absent.push_back(name);
+        }
+    };
+    add(program, writes ? std::optional(text.text.listing.text) : std::nullopt);
     const std::optional<render::Picture> preview = preview_of_plan(opened.project, plan);
-    if (preview) {
-        files.push_back({"preview.png", render::to_png(*preview)});
-    }
-    write_outputs(options.out, files, opened.file);
-    if (!preview) { // an older one would show another path
-        remove_output(std::filesystem::path(options.out) / "preview.png");
-    }
-    if (!writes) { // an older one would be taken for it
-        remove_output(std::filesystem::path(options.out) / program);
-    }
+    add("preview.png", preview ? std::optional(render::to_png(*preview)) : std::nullopt);
+    write_outputs(options.out, set, opened.file);
     print_notes(text);
     print_warnings(plan);
     print_plan_summary(plan, opened.project);

@@ -114,7 +114,7 @@ void print_study_row(const StudyRow& row) {
 void write_whole(const std::filesystem::path& folder, const std::vector<StudyRow>& rows) {
     std::vector<OutputFile> files = study_tables(rows);
     std::ranges::move(study_pictures(rows), std::back_inserter(files));
-    write_outputs(folder, files);
+    write_outputs(folder, {files});
 }
 
 void print_head() {
@@ -174,7 +174,7 @@ private:
 
 /// Where what is done is, of a study with cases missing. Where mpirun stops it there may be no time for
 /// pictures: this is said before them.
-std::string write_unfinished(const UnfinishedStudy& unfinished,
+std::string write_unfinished(UnfinishedStudy& unfinished,
                              std::span<const StudyCase> cases,
                              const SpreadStudy& found,
                              Teller& teller) {
@@ -183,7 +183,7 @@ std::string write_unfinished(const UnfinishedStudy& unfinished,
     }
     const std::string where = unfinished.folder().string();
     teller.say_of_several(fmt::format("the cases that are done are in {}", where));
-    write_outputs(unfinished.folder(), study_pictures(joined(found.rows)));
+    (void)unfinished.keep(cases, found.rows, study_pictures(joined(found.rows)));
     return fmt::format("they are in {}", where);
 }
 
@@ -194,7 +194,7 @@ int gathered(const StudyOptions& options,
              const Interrupt& interrupt) {
     const std::vector<StudyCase> cases = cases_of(options);
     const OutputFolder folder(options.out);
-    const UnfinishedStudy unfinished(options.out);
+    UnfinishedStudy unfinished(options.out);
     Teller teller(ranks, interrupt);
     print_head();
     const StudyNews news{.came =

@@ -69,7 +69,7 @@ int fewest_points(const StudyFewestOptions& options) {
         print_fewest_points(row);
     }
     if (!options.out.empty()) {
-        write_outputs(options.out, {{"fewest-points.csv", project::fewest_points_csv(options.of, rows)}});
+        write_outputs(options.out, {{{"fewest-points.csv", project::fewest_points_csv(options.of, rows)}}});
     }
     return 0;
 }

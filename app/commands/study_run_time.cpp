@@ -244,8 +244,8 @@ int run_time(const RunTimeOptions& options) {
     }
     if (!options.out.empty()) {
         write_outputs(options.out,
-                      {{"run-time.csv", run_time_csv(study, settings.iterations)},
-                       {"run-time-profile.csv", run_time_profile_csv(study)}});
+                      {{{"run-time.csv", run_time_csv(study, settings.iterations)},
+                        {"run-time-profile.csv", run_time_profile_csv(study)}}});
     }
     const bool same = std::ranges::all_of(study.runs, &RunTime::same_nodes);
     return same ? 0 : 1;

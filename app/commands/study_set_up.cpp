@@ -125,8 +125,8 @@ int set_up(const StudySetUpOptions& options) {
     const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
     ranks.let_go(); // nothing that is left to do can be lost with a rank
     write_outputs(options.out,
-                  {{"set-up.csv", project::set_up_csv(study.map)},
-                   {"set-up.png", render::to_png(picture_of(study, settings.goal))}},
+                  {{{"set-up.csv", project::set_up_csv(study.map)},
+                    {"set-up.png", render::to_png(picture_of(study, settings.goal))}}},
                   opened.file);
     fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12} {:>9}\n",
                "part",

@@ -74,8 +74,8 @@ int write_pictures(const PictureOptions& options) {
     const std::vector<Vec3> middles = mid_points(options, opened, patch, grid);
     make_folder(options.out);
     write_outputs(options.out,
-                  {{"Surface.dat", toolpath::surface_dat(patch, grid)},
-                   {"Toolpath.dat", toolpath::toolpath_dat(patch, middles, grid)}},
+                  {{{"Surface.dat", toolpath::surface_dat(patch, grid)},
+                    {"Toolpath.dat", toolpath::toolpath_dat(patch, middles, grid)}}},
                   opened.file);
     fmt::print("{0}/Surface.dat\n{0}/Toolpath.dat\n", options.out);
     return 0;

@@ -1,12 +1,16 @@
 #include "core/geometry/closest_point.h"
 
 #include "core/base/error.h"
+#include "core/geometry/internal/balanced_cells.h"
 #include "core/geometry/internal/cell_tree.h"
 
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace millwright::geometry {
@@ -73,6 +77,47 @@ Vec2 step(const Quadratic& q, const std::array<bool, 2>& fixed) {
     return scale > 0.0 ? Vec2(-q.gradient / scale) : Vec2(Vec2::Zero());
 }
 
+/// Whether the way to `point` is across the surface there, as far as it may leave the place.
+bool is_minimum(const BezierPatch& patch, const Vec3& point, const Vec2& uv) {
+    constexpr double across = 1e-6;   // rad
+    constexpr double touching = 1e-9; // mm
+    const Quadratic q = quadratic_at(patch, point, uv);
+    const double distance = (q.position - point).norm();
+    const std::array<bool, 2> fixed = held(uv, q.gradient);
+    for (int k = 0; k < 2; ++k) {
+        const double tangent = std::sqrt(q.gauss_newton(k, k));
+        if (!fixed[static_cast<std::size_t>(k)] &&
+            !(std::abs(q.gradient[k]) <= across * tangent * distance)) {
+            return distance < touching;
+        }
+    }
+    return true;
+}
+
+/// Whether equal steps of the parameters may be steps of the surface that are far from equal.
+bool has_uneven_weights(const BezierPatch& patch) {
+    constexpr double even = 100.0; // greatest by least; within it 32 x 32 equal cells find all minima
+    const auto [least, most] = std::ranges::minmax_element(patch.net().weights);
+    return patch.rational() && *most > even * *least;
+}
+
+/// Of 3 x 3 places between `low` and `high` the nearest.
+Vec2 best_start(const BezierPatch& patch, const Vec2& low, const Vec2& high, const Vec3& point) {
+    Vec2 best = low;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const Vec2 uv = low + Vec2(0.5 * i, 0.5 * j).cwiseProduct(high - low);
+            const double squared = (patch.position(uv.x(), uv.y()) - point).squaredNorm();
+            if (squared < least) {
+                least = squared;
+                best = uv;
+            }
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, const Vec2& start) {
@@ -105,11 +150,21 @@ ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, con
 }
 
 struct ClosestPointSearch::Samples {
+    /// What a descent within a part came to.
+    struct Descent {
+        double distance = 0.0;
+        bool converged = false;
+        const BalancedCells::Part* part = nullptr;
+    };
+
     static constexpr int side = 48;
     using Tree =
         nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Samples>, Samples, 3>;
 
     explicit Samples(const BezierPatch& of) : patch(of), cells(of) {
+        if (has_uneven_weights(of)) {
+            parts.emplace(of);
+        }
         for (int i = 0; i <= side; ++i) {
             for (int j = 0; j <= side; ++j) {
                 const Vec2 uv(static_cast<double>(i) / side, static_cast<double>(j) / side);
@@ -136,6 +191,9 @@ struct ClosestPointSearch::Samples {
 
     /// `found`, or what lies nearer in another cell.
     [[nodiscard]] ClosestPoint nearest_of_all(const Vec3& point, ClosestPoint found) const {
+        if (parts) {
+            return nearest_of_parts(point, found);
+        }
         cells.visit(
             point,
             [&] { return found.distance; },
@@ -146,7 +204,8 @@ struct ClosestPointSearch::Samples {
                 if ((away.array() <= half.array()).all()) {
                     return; // its descent, or that of the cell beside it, has ended here
                 }
-                const ClosestPoint there = closest_point_near(patch, point, best_start(cell, point));
+                const ClosestPoint there =
+                    closest_point_near(patch, point, best_start(patch, cell.low, cell.high, point));
                 if (there.distance < found.distance) {
                     found = there;
                 }
@@ -154,25 +213,59 @@ struct ClosestPointSearch::Samples {
         return found;
     }
 
-    /// Of 3 x 3 places of the cell the nearest.
-    [[nodiscard]] Vec2 best_start(const CellTree::Cell& cell, const Vec3& point) const {
-        Vec2 best = cell.low;
-        double least = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                const Vec2 uv = cell.low + Vec2(0.5 * i, 0.5 * j).cwiseProduct(cell.high - cell.low);
-                const double squared = (patch.position(uv.x(), uv.y()) - point).squaredNorm();
-                if (squared < least) {
-                    least = squared;
-                    best = uv;
+    /// The same where the parameters tell little about places: each part is descended by its own.
+    [[nodiscard]] ClosestPoint nearest_of_parts(const Vec3& point, ClosestPoint found) const {
+        constexpr std::size_t most_halved = 4;
+        std::vector<Descent> stuck; // the nearest first
+        parts->visit(
+            point,
+            [&] { return found.distance; },
+            [&](const BalancedCells::Part& part) {
+                const Descent here = descend(part, point, found);
+                if (!here.converged) {
+                    stuck.insert(std::ranges::lower_bound(stuck, here.distance, {}, &Descent::distance),
+                                 here);
+                    stuck.resize(std::min(stuck.size(), most_halved));
                 }
-            }
+            });
+        for (const Descent& one : stuck) {
+            halve(*one.part, point, found);
         }
-        return best;
+        return found;
+    }
+
+    /// How near `point` a descent within `part` comes; `found` becomes that where it is nearer.
+    static Descent descend(const BalancedCells::Part& part, const Vec3& point, ClosestPoint& found) {
+        const Vec2 start = best_start(part.patch, Vec2::Zero(), Vec2::Ones(), point);
+        const ClosestPoint there = closest_point_near(part.patch, point, start);
+        if (there.distance < found.distance) {
+            found = {part.at(there.parameters), there.position, there.distance};
+        }
+        return {there.distance, is_minimum(part.patch, point, there.parameters), &part};
+    }
+
+    /// A descent may stick where the weights are uneven within a part, too: they are less so in its halves,
+    /// of which the nearer one is halved again.
+    static void halve(BalancedCells::Part part, const Vec3& point, ClosestPoint& found) {
+        constexpr int most_halvings = 30;
+        for (int n = 0; n < most_halvings; ++n) {
+            if (!(part.patch.control_box().exteriorDistance(point) < found.distance)) {
+                return;
+            }
+            auto [low, high] = BalancedCells::halves(part);
+            const Descent by_low = descend(low, point, found);
+            const Descent by_high = descend(high, point, found);
+            const bool is_high = by_high.distance < by_low.distance;
+            if (is_high ? by_high.converged : by_low.converged) {
+                return;
+            }
+            part = is_high ? std::move(high) : std::move(low);
+        }
     }
 
     BezierPatch patch;
     CellTree cells;
+    std::optional<BalancedCells> parts; ///< with uneven weights
     std::vector<Vec3> points;
     std::vector<Vec2> parameters;
     std::unique_ptr<Tree> tree;

@@ -18,7 +18,8 @@ struct ClosestPoint {
 
 /// Finds global minima: descends from the nearest of a raster of samples, or from a guess of the caller, and
 /// then from within each of 32 x 32 cells of the patch whose box, by the convex hull of its control points,
-/// is nearer than what was found. Only a cell that has several minima itself may hide one. Const after
+/// is nearer than what was found. Only a cell that has several minima itself may hide one. Where
+/// weights differ by more than a hundred times the cells are parts of the same extent instead. Const after
 /// construction; may be asked from several threads. Holds its own copy of the patch.
 class ClosestPointSearch {
 public:

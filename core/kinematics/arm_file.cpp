@@ -1,6 +1,7 @@
 #include "core/kinematics/arm_file.h"
 
 #include "core/base/error.h"
+#include "core/base/file_format.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
 #include "core/kinematics/arm_zone.h"
@@ -243,6 +244,7 @@ ArmModel with_zone(const ArmModel& arm, std::shared_ptr<const ArmZone> zone) {
 
 ArmFile read_arm(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
+    expect_format(root, "millwright-arm", "an arm file");
     root.expect_only({"format",
                       "version",
                       "name",
@@ -254,9 +256,6 @@ ArmFile read_arm(const std::filesystem::path& file) {
                       "workspace",
                       "actuators",
                       "bodies"});
-    if (root.at("format").text() != "millwright-arm") {
-        root.at("format").fail("not an arm file");
-    }
     (void)root.at("version").integer(1, 1);
     ArmFile result{arm(root), std::nullopt, std::nullopt};
     if (const auto drives = root.find("actuators")) {

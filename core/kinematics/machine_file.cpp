@@ -1,6 +1,7 @@
 #include "core/kinematics/machine_file.h"
 
 #include "core/base/error.h"
+#include "core/base/file_format.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
 #include "core/kinematics/internal/file_bounds.h"
@@ -127,6 +128,7 @@ AngleFormulas angle_formulas(const JsonValue& value) {
 
 MachineModel read_machine(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
+    expect_format(root, "millwright-machine", "a machine file");
     root.expect_only({"format",
                       "version",
                       "name",
@@ -142,9 +144,6 @@ MachineModel read_machine(const std::filesystem::path& file) {
                       "angle_formulas",
                       "bodies",
                       "solids"});
-    if (root.at("format").text() != "millwright-machine") {
-        root.at("format").fail("not a machine file");
-    }
     (void)root.at("version").integer(1, 1);
     MachineDescription machine;
     machine.name = root.at("name").text();

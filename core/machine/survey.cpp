@@ -23,6 +23,7 @@ using gcode::Move;
 using gcode::MoveKind;
 
 constexpr double seconds_per_minute = 60.0;
+constexpr double still = 1e-9;    // mm or rad: less is no motion
 constexpr double rounding = 1e-6; // mm or rad: of positions that went through texts and units
 
 class Surveyor final : public gcode::CanonSink {
@@ -119,6 +120,9 @@ private:
         for (std::size_t n = 0; n < gcode::axis_count; ++n) {
             const double value = gcode::is_rotary(n) ? from_degrees(at_[n]) : at_[n];
             Survey::Range& range = ranges[n];
+            if (range.moved_line == 0 && std::abs(value) > still) {
+                range.moved_line = line;
+            }
             if (value < range.min) {
                 range.min = value;
                 range.min_line = line;
@@ -232,11 +236,7 @@ int first_parameter(std::string_view name) {
     return name == "G28" ? 5161 : name == "G30" ? 5181 : name == "G92" ? 5211 : 0;
 }
 
-} // namespace
-
-Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
-    Survey found;
-    take_start(found, settings);
+gcode::ReaderSettings reading_of(const std::filesystem::path& file, const SurveySettings& settings) {
     gcode::ReaderSettings reading;
     reading.dialect = settings.dialect;
     reading.any_tool = true;
@@ -263,10 +263,94 @@ Survey survey(std::string_view text, const std::filesystem::path& file, const Su
             reading.parameters.emplace_back(g92_active, 1.0);
         }
     }
-    Surveyor surveyor(found, reading.start, settings.keep_path);
+    return reading;
+}
+
+void read_into(Survey& found,
+               std::string_view text,
+               const std::filesystem::path& file,
+               gcode::ReaderSettings reading,
+               bool keep_path) {
+    Surveyor surveyor(found, reading.start, keep_path);
     gcode::Interpreter reader(text, file, std::move(reading), surveyor);
     reader.run();
     found.errors = reader.errors();
+}
+
+bool moves(const Survey::Range& range) {
+    return range.moved_line > 0;
+}
+
+/// Of axes that move in `found` and are not the controller's.
+std::string foreign_axes(const Survey& found, const std::string& there) {
+    std::string foreign;
+    for (std::size_t n = 0; n < gcode::axis_count; ++n) {
+        const char letter = gcode::axis_letters[n];
+        const bool is_foreign = moves(found.ranges[n]) && there.find(letter) == std::string::npos;
+        foreign.append(is_foreign ? 1 : 0, letter);
+    }
+    return foreign;
+}
+
+/// "A, B and C".
+std::string listed(std::string_view letters) {
+    std::string text;
+    for (std::size_t n = 0; n < letters.size(); ++n) {
+        text += n == 0 ? "" : n + 1 == letters.size() ? " and " : ", ";
+        text += letters[n];
+    }
+    return text;
+}
+
+Diagnostic missing_axes_fault(const Survey& of,
+                              const std::string& missing,
+                              const std::string& there,
+                              const std::filesystem::path& file,
+                              gcode::Dialect dialect) {
+    int line = 0;
+    for (const char letter : missing) {
+        const int moved = of.ranges[index_of(letter)].moved_line;
+        line = line == 0 ? moved : std::min(line, moved);
+    }
+    return {{file, line, 0, -1},
+            fmt::format("the program moves {}, and the machine has {}", listed(missing), listed(there)),
+            dialect == gcode::Dialect::linuxcnc
+                ? "make the program for these axes, or name all that LinuxCNC has when it is connected"
+                : "make the program for these axes, or connect a machine that has all"};
+}
+
+/// Said of the whole program, before what is wrong with a line: by Grbl's rules the first word of such an
+/// axis is refused, and what is behind it is not read. So it is read with all axes again.
+void add_missing_axes(Survey& found,
+                      std::string_view text,
+                      const std::filesystem::path& file,
+                      const SurveySettings& settings) {
+    if (settings.axes.empty()) {
+        return;
+    }
+    const std::string there = letters_of(settings.axes);
+    Survey of_all;
+    const bool again = settings.dialect == gcode::Dialect::grbl && !found.errors.empty();
+    if (again) {
+        gcode::ReaderSettings reading = reading_of(file, settings);
+        reading.grbl_axes.assign(gcode::axis_letters.begin(), gcode::axis_letters.end());
+        read_into(of_all, text, file, std::move(reading), false);
+    }
+    const Survey& of = again ? of_all : found;
+    found.missing_axes = foreign_axes(of, there);
+    if (!found.missing_axes.empty()) {
+        found.errors.insert(found.errors.begin(),
+                            missing_axes_fault(of, found.missing_axes, there, file, settings.dialect));
+    }
+}
+
+} // namespace
+
+Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
+    Survey found;
+    take_start(found, settings);
+    read_into(found, text, file, reading_of(file, settings), settings.keep_path);
+    add_missing_axes(found, text, file, settings);
     return found;
 }
 

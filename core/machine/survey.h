@@ -23,6 +23,7 @@ struct Survey {
         double min = std::numeric_limits<double>::infinity();
         double max = -std::numeric_limits<double>::infinity();
         int min_line = 0, max_line = 0; ///< where they are reached
+        int moved_line = 0;             ///< where the axis is first elsewhere than at 0; 0: nowhere
 
         [[nodiscard]] bool empty() const { return max < min; }
     };
@@ -45,7 +46,9 @@ struct Survey {
     int first_cut_line = 0;         ///< the first feed move, 0: none
     bool spindle_before_cut = true; ///< it turned at the first feed move
     std::vector<PathPoint> path;    ///< of all moves, if it is wanted
-    std::vector<Diagnostic> errors; ///< what breaks the rules of the dialect
+    std::string missing_axes; ///< letters of axes that the program moves and the controller does not have
+    /// What breaks the rules of the dialect; before that the missing axes, all in one.
+    std::vector<Diagnostic> errors;
 };
 
 /// `start`, `offsets` and `modes` are what the controller reports: where the machine stands, its work
@@ -53,7 +56,7 @@ struct Survey {
 /// all offsets to be zero, and the modes to be those of the dialect.
 struct SurveySettings {
     gcode::Dialect dialect = gcode::Dialect::linuxcnc;
-    std::vector<gcode::ProgramAxis> axes; ///< of `start` and `offsets`
+    std::vector<gcode::ProgramAxis> axes; ///< of the controller, `start` and `offsets`; empty: not known
     kinematics::AxisPositions start;      ///< machine coordinates; may be empty
     std::vector<StoredOffset> offsets;
     std::string modes{};

@@ -1,6 +1,7 @@
 #include "core/project/project_file.h"
 
 #include "core/base/error.h"
+#include "core/base/file_format.h"
 #include "core/base/files.h"
 #include "core/base/numbers.h"
 #include "core/geometry/presets.h"
@@ -252,6 +253,7 @@ fs::path to_folder(const fs::path& file, const fs::path& folder) {
 }
 
 Project project(const JsonValue& root, const fs::path& folder) {
+    expect_format(root, project_format_name, "a project file");
     root.expect_only({"format",
                       "version",
                       "name",
@@ -265,9 +267,6 @@ Project project(const JsonValue& root, const fs::path& folder) {
                       "plot",
                       "arm",
                       "processor"});
-    if (root.at("format").text() != project_format_name) {
-        root.at("format").fail("not a project file", fmt::format("expected \"{}\"", project_format_name));
-    }
     (void)root.at("version").integer(project_format_version, project_format_version);
     Project result;
     result.name = root.at("name").text();

@@ -1,12 +1,11 @@
 #include "core/project/tool_file.h"
 
 #include "core/base/error.h"
+#include "core/base/file_format.h"
 #include "core/project/internal/json_text.h"
 #include "core/project/internal/setting_json.h"
 #include "core/project/internal/tool_json.h"
 #include "core/project/tool_settings.h"
-
-#include <fmt/format.h>
 
 namespace millwright::project {
 
@@ -37,9 +36,7 @@ Json json_of(const ToolInput& tool) {
 
 ToolInput read_tool(const std::filesystem::path& file) {
     const JsonValue root = JsonValue::read(file);
-    if (root.at("format").text() != tool_format_name) {
-        root.at("format").fail("not a tool file", fmt::format("expected \"{}\"", tool_format_name));
-    }
+    expect_format(root, tool_format_name, "a tool file");
     root.expect_only({"format", "version", "tool"});
     (void)root.at("version").integer(tool_format_version, tool_format_version);
     return tool_from(root.at("tool"));

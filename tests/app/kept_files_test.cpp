@@ -12,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <map>
 #include <memory>
 
 namespace millwright::test {
@@ -92,6 +93,15 @@ TEST_F(KeptFiles, ACommandThatFailsMakesNoFileItsOwn) {
     EXPECT_EQ(content_of(scratch / "p-kept-2.ngc"), "edited");
     EXPECT_EQ(convert(bad).exit_code, 1); // ours stays ours
     EXPECT_EQ(convert(good).err, "");
+}
+
+/// The contents of all files in `folder`, by name.
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+    std::map<std::string, std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        found[entry.path().filename().string()] = content_of(entry.path());
+    }
+    return found;
 }
 
 /// The contents of all files in `folder`, those with a dot in front only where `hidden`.
@@ -183,6 +193,72 @@ TEST_F(KeptFiles, TwoAtOnceLeaveTheFilesOfOne) {
         }
         EXPECT_TRUE(drafts().empty());
     }
+}
+
+// One command's program was left with the other's report.
+TEST_F(KeptFiles, TwoCommandsAtOnceLeaveTheFilesOfOne) {
+    const fs::path dome = small_project(scratch.path(), "dome");
+    const fs::path bells = small_project(scratch.path(), "two-bell");
+    const auto planned = [&](const fs::path& folder) {
+        return std::vector<std::string>{"plan", dome.string(), "--out", folder.string()};
+    };
+    const auto cut = [&](const fs::path& folder) {
+        return std::vector<std::string>{"cutter",
+                                        bells.string(),
+                                        "--tool",
+                                        "assets/tools/ball-6.json",
+                                        "--allow-gouges",
+                                        "--out",
+                                        folder.string()};
+    };
+    ASSERT_EQ(run(planned(scratch / "plan")).exit_code, 0);
+    ASSERT_EQ(run(cut(scratch / "cutter")).exit_code, 0);
+    for (int n = 0; n < 3; ++n) {
+        Program first(planned(out));
+        Program second(cut(out));
+        EXPECT_EQ(first.end().exit_code, 0);
+        EXPECT_EQ(second.end().exit_code, 0);
+        const std::string program = content_of(out / "program.ngc");
+        const bool of_plan = program == content_of(scratch / "plan" / "program.ngc");
+        EXPECT_EQ(files_of(out), files_of(scratch / (of_plan ? "plan" : "cutter"))) << n;
+    }
+}
+
+TEST_F(KeptFiles, WhatNoLongerFitsAReplacedProgramIsTakenAway) {
+    const fs::path dome = small_project(scratch.path(), "dome");
+    const auto cut = [&](const fs::path& project) {
+        return run({"cutter", project, "--tool", "assets/tools/ball-6.json", "--allow-gouges", "--out", out});
+    };
+    ASSERT_EQ(plan(dome).exit_code, 0);
+    const Ended same = run({"plan", dome, "--post", "heidenhain", "--out", out});
+    EXPECT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_TRUE(fs::exists(out / "program.ngc")) << "the report of both programs is the same";
+    const Ended other = cut(small_project(scratch.path(), "two-bell"));
+    EXPECT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_THAT(other.err,
+                AllOf(HasSubstr("report.json: was of an earlier command"), HasSubstr("and was removed")));
+    for (const char* const name : {"report.json", "preview.png", "program.h"}) {
+        EXPECT_FALSE(fs::exists(out / name)) << name;
+    }
+    write_content(out / "cut.json", "by hand"); // no longer as it was written, and kept
+    EXPECT_THAT(plan(dome).err, HasSubstr("what was there is now in cut-kept-1.json"));
+    EXPECT_EQ(content_of(out / "cut-kept-1.json"), "by hand");
+    EXPECT_FALSE(fs::exists(out / "surface.csv"));
+    EXPECT_TRUE(fs::exists(out / "preview.png"));
+}
+
+TEST_F(KeptFiles, FilesThatDescribeTheSameProgramStayTogether) {
+    auto project = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
+    project["tool"] = nlohmann::json::parse(content_of("assets/tools/ball-6.json")).at("tool");
+    write_content(scratch / "ball.json", project.dump());
+    ASSERT_EQ(run({"cutter", scratch / "ball.json", "--allow-gouges", "--out", out}).exit_code, 0);
+    const Ended planned = run({"plan", scratch / "ball.json", "--allow-gouges", "--out", out});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+    for (const char* const name : {"program.ngc", "cut.json", "surface.csv", "report.json", "preview.png"}) {
+        EXPECT_TRUE(fs::exists(out / name)) << name;
+    }
+    ASSERT_EQ(plan(small_project(scratch.path(), "two-bell")).exit_code, 0);
+    EXPECT_FALSE(fs::exists(out / "cut.json")) << "of another program now";
 }
 
 TEST_F(KeptFiles, AllAreReplacedOrNone) {

@@ -387,7 +387,9 @@ TEST_F(Posts, RunTakesAFiveAxisProjectToAControllerWithItsAxesAlone) {
     const Emulator emulator(port, {"--speed", "100"});
     Ended ended = run({"run", project, "--driver", "grbl", "--port", port, "--log", logs});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("this Grbl has the axes XYZ and does not know A words"));
+    EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, and the machine has X, Y and Z"));
+    ended = run({"run", project, "--driver", "grbl", "--home", "--port", port, "--log", logs});
+    EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, and the machine has X, Y and Z"));
     ended = run({"run", project, "--driver", "grbl", "--post", "grbl", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves X Y Z only"));

@@ -122,7 +122,8 @@ TEST_F(Send, SendsFiveAxesToOtherFirmwareAndNamesIt) {
     Emulator three(port, {"--firmware", "grblhal", "--speed", "20"});
     const Ended refused = run(words());
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("this Grbl has the axes XYZ and does not know A words"));
+    EXPECT_THAT(refused.err,
+                HasSubstr("zigzag.ngc:2: the program moves A and B, and the machine has X, Y and Z"));
 }
 
 TEST_F(Send, ObeysKeysWhileItRuns) {

@@ -1,39 +1,10 @@
 #include "ui/actions/start_question.h"
 
-#include "core/gcode/reader/axes.h"
 #include "ui/actions/controller.h"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <utility>
 
 namespace millwright::actions {
-
-namespace {
-
-/// The program goes somewhere with an axis that the machine does not have.
-std::optional<Diagnostic> foreign_axes(const machine::Survey& survey,
-                                       const std::vector<gcode::ProgramAxis>& axes,
-                                       const std::filesystem::path& file) {
-    constexpr double still = 1e-9; // mm or rad
-    std::string foreign, there;
-    for (std::size_t n = 0; n < gcode::axis_count; ++n) {
-        const char letter = gcode::axis_letters[n];
-        const machine::Survey::Range& range = survey.ranges[n];
-        const bool moves = !range.empty() && (std::abs(range.min) > still || std::abs(range.max) > still);
-        const bool known = std::ranges::find(axes, letter, &gcode::ProgramAxis::letter) != axes.end();
-        (known ? there : foreign) += known || moves ? std::string(1, letter) : "";
-    }
-    return axes.empty() || foreign.empty()
-               ? std::nullopt
-               : std::optional(
-                     Diagnostic{{file},
-                                "the program moves " + foreign + ", and the machine has " + there,
-                                "make the program for these axes, or connect a machine that has all"});
-}
-
-} // namespace
 
 StartWish
 start_wish(machine::Job job, std::optional<machine::QueuedJobId> queued, const ControllerView& machine) {
@@ -62,8 +33,8 @@ StartCheck check_start(const std::shared_ptr<const StartWish>& wish, const Progr
         check.survey = machine::survey(job.listing->text, job.project, wish->survey);
         check.faults = job.program != nullptr ? machine::preflight(job)
                                               : machine::faults_of(check.survey, wish->limits, job.project);
-        if (auto foreign = foreign_axes(check.survey, wish->survey.axes, job.project)) {
-            check.faults.insert(check.faults.begin(), std::move(*foreign));
+        if (job.program != nullptr && !check.survey.missing_axes.empty()) {
+            check.faults.insert(check.faults.begin(), check.survey.errors.front());
         }
         check.warnings = machine::warnings_of(check.survey, wish->limits, job.project);
     } catch (const Error& error) {

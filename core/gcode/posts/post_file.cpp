@@ -1,6 +1,7 @@
 #include "core/gcode/posts/post_file.h"
 
 #include "core/base/error.h"
+#include "core/base/file_format.h"
 #include "core/base/json.h"
 #include "core/gcode/posts/internal/post_values.h"
 
@@ -267,6 +268,7 @@ void check_parts(const JsonValue& root, const PostFormat& post) {
 }
 
 PostFormat post_of(const JsonValue& root) {
+    expect_format(root, "millwright-post", "a post file");
     root.expect_only({"format",
                       "version",
                       "name",
@@ -286,9 +288,6 @@ PostFormat post_of(const JsonValue& root) {
                       "feed",
                       "tip",
                       "arcs"});
-    if (root.at("format").text() != "millwright-post") {
-        root.at("format").fail("not a post file");
-    }
     (void)root.at("version").integer(1, 1);
     PostFormat post;
     post.name = text_of(root.at("name"));

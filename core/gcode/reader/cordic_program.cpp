@@ -13,6 +13,7 @@
 #include "core/gcode/reader/internal/xyz_machine.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace millwright::gcode {
 
@@ -134,16 +136,19 @@ private:
         if (settings_.leaves_out_other_axes) {
             return true;
         }
+        std::vector<char> missing;
         for (std::size_t n = 3; n < axis_count; ++n) {
             if (std::abs(end[n] - at_[n]) > same_place) {
-                code_.fault({source, axis_letters[n]},
-                            fmt::format("the CORDIC processor has no axis {}", axis_letters[n]),
-                            "it moves X, Y and Z");
+                missing.push_back(axis_letters[n]);
                 at_[n] = end[n]; // said once for each such move
-                return false;
             }
         }
-        return true;
+        if (!missing.empty()) {
+            code_.fault({source, missing.front()},
+                        fmt::format("the CORDIC processor has no axis {}", fmt::join(missing, " or ")),
+                        "it moves X, Y and Z");
+        }
+        return missing.empty();
     }
 
     /// mm/s; nothing, and a fault, where it is not known.

@@ -10,6 +10,7 @@
 #include "core/kinematics/travel.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace millwright::gcode {
 
@@ -217,9 +219,10 @@ private:
     std::pair<SourcePlace, std::string> comment_; ///< the last one, and its line
     bool pallet_moves_ = false;                   ///< and then the program stops
     AxisValues at_;                               ///< on the machine, mm and degrees
-    std::string_view text_;  ///< the line of the move at hand; empty where another line brought it
-    std::set<char> missing_; ///< axes that were complained about
-    AxisSet beyond_;         ///< the same for their travel
+    std::string_view text_;         ///< the line of the move at hand; empty where another line brought it
+    std::set<char> missing_;        ///< axes that were complained about
+    std::size_t first_missing_ = 0; ///< of the faults, the one of the first of them
+    AxisSet beyond_;                ///< the same for their travel
     bool no_feed_said_ = false;
 
     static std::size_t index_of(char letter) {
@@ -308,6 +311,18 @@ private:
         }
     }
 
+    /// Each at its first place. The first one names all, since it may be the only one that is shown.
+    void miss(SourcePlace source, char letter) {
+        if (missing_.size() == 1) {
+            first_missing_ = result_.faults.size();
+        }
+        fault(source, letter, fmt::format("the machine '{}' has no axis {}", machine_.name(), letter));
+        if (missing_.size() > 1 && first_missing_ < result_.faults.size()) {
+            result_.faults[first_missing_].hint =
+                fmt::format("the program moves {}, which it lacks", fmt::join(missing_, ", "));
+        }
+    }
+
     /// True if the machine has every axis that goes somewhere.
     bool can_go(const AxisValues& target, SourcePlace source) {
         bool can = true;
@@ -316,9 +331,7 @@ private:
             if (std::abs(target[n] - at_[n]) > same_place && machine_.axis_index(letter) < 0) {
                 can = false;
                 if (missing_.insert(letter).second) {
-                    fault(source,
-                          letter,
-                          fmt::format("the machine '{}' has no axis {}", machine_.name(), letter));
+                    miss(source, letter);
                 }
             }
         }

@@ -102,6 +102,26 @@ TEST(Survey, ReportsErrorsWithTheirPlace) {
 }
 
 /// A controller begins with what it has in force.
+// Only the first one was named, and by LinuxCNC's rules none.
+TEST(Survey, NamesAllAxesThatTheMachineLacks) {
+    const char* const text = "G21 G90\nM3 S1000\nG0 X1\nG1 B10 F100\nG1 A5 C3\nM2\n";
+    for (const Dialect dialect : {Dialect::grbl, Dialect::linuxcnc}) {
+        SurveySettings settings{dialect, xyz, {}, {}};
+        const Survey three = survey(text, "a.ngc", settings);
+        EXPECT_EQ(three.missing_axes, "ABC");
+        const auto faults = faults_of(three, {}, "a.ngc");
+        ASSERT_FALSE(faults.empty());
+        EXPECT_EQ(faults.front().place.line, 4);
+        EXPECT_EQ(faults.front().message, "the program moves A, B and C, and the machine has X, Y and Z");
+        settings.axes.push_back({'A', AxisKind::rotary});
+        EXPECT_EQ(survey(text, "a.ngc", settings).missing_axes, "BC");
+        settings.axes.push_back({'B', AxisKind::rotary});
+        settings.axes.push_back({'C', AxisKind::rotary});
+        EXPECT_TRUE(survey(text, "a.ngc", settings).errors.empty());
+    }
+    EXPECT_TRUE(survey(text, "a.ngc", {}).errors.empty()) << "nothing is known of the machine";
+}
+
 TEST(SurveyModes, CountInInchesWhereTheControllerDoes) {
     SurveySettings settings{Dialect::grbl, xyz, kinematics::AxisPositions::Zero(3), {}};
     settings.modes = "G0 G54 G17 G20 G90 G94 M5 M9 T0 F0 S0";

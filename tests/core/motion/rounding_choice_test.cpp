@@ -10,8 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -112,6 +114,39 @@ TEST(RoundingChoice, AZigzagIsNotSlowerThanWithStops) {
         turns.push_back({0.5 * n, n % 2 == 0 ? 0.0 : 0.5, 3000});
     }
     expect_never_slower(program_of(machine, turns), machine, "a zigzag");
+}
+
+/// Only sharp corners, between moves of 0.01 to 30 mm with feeds of 60 to 6000 mm/min.
+Program sharp_program(const MachineModel& machine, int moves, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> length(-2.0, 1.5), feed(1.8, 3.8);
+    std::bernoulli_distribution back(0.3);
+    std::vector<Turn> turns{{0, 0, 0}};
+    double x = 0.0, y = 0.0, to = 1.0;
+    for (int n = 0; n < moves; ++n) {
+        to = back(random) ? -to : to;
+        (n % 2 == 0 ? x : y) += to * std::pow(10.0, length(random));
+        turns.push_back({x, y, std::pow(10.0, feed(random))});
+    }
+    return program_of(machine, turns);
+}
+
+// On an exact path a corner is passed at a speed at which no axis steps by more than it can reach in the
+// corner time: braking from that speed and reaching it again takes twice the corner time at most.
+TEST(RoundingChoice, AnExactPathIsFasterByNoMoreThanTheCornerTimeInEachSharpCorner) {
+    constexpr int moves = 200;
+    for (const char* name : {"router-xyz", "forming-table", "rotary-tilt-gui", "rotary-tilt-listing"}) {
+        for (unsigned seed = 1; seed <= 5; ++seed) {
+            const MachineModel machine = test::machine(name);
+            const Program program = sharp_program(machine, moves, seed);
+            const std::string what = fmt::format("{}, seed {}", name, seed);
+            expect_never_slower(program, machine, what);
+            const double exact_path = seconds_of(program, machine, {}); // G61
+            const double stopped = seconds_of(program, machine, stopping());
+            EXPECT_LT(exact_path, stopped) << what;
+            EXPECT_LE(stopped, exact_path + moves * 2.0 * PlannerSettings().corner_time) << what;
+        }
+    }
 }
 
 // It gained nothing on machines without a limit of jerk, whatever the tolerance, and G61 was faster: a

@@ -191,6 +191,15 @@ TEST(MachineProgram, PausesForToolsAndStops) {
     EXPECT_EQ(program.program.blocks[0].spindle_rpm, -900.0);
 }
 
+TEST(MachineProgram, NamesAllAxesThatTheMachineLacksWithTheFirst) {
+    const MachineProgram made = read_on_machine("G21 G90 F100\nG1 X1 B2\nG1 A9\nA1 C3\nM2\n", "router-xyz");
+    ASSERT_EQ(made.faults.size(), 3U);
+    EXPECT_EQ(
+        to_text(made.faults[0]),
+        "part.ngc:2:7: the machine 'XYZ router' has no axis B (the program moves A, B, C, which it lacks)");
+    EXPECT_EQ(to_text(made.faults[2]), "part.ngc:4:4: the machine 'XYZ router' has no axis C");
+}
+
 TEST(MachineProgram, SaysWhereItLeavesTheTravelAndGoesThere) {
     const MachineProgram made = read_on_machine(
         "G21 G90 F100\nG0 X1\n\n  G1 Y1 X5000\nX6000 (again)\nG2 X0 Y9000 R8000\nG1 A9\nM2\n", "router-xyz");

@@ -6,11 +6,13 @@
 #include "core/machine/links/link.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace millwright::machine::records {
 
@@ -48,12 +50,17 @@ RecordText checked_text(const RecordsOptions& options, const MachineModel& model
     if (options.decimals < 0 || options.decimals > most_decimals) {
         throw Error(fmt::format("{} decimals are not between 0 and {}", options.decimals, most_decimals));
     }
+    std::vector<char> rotary;
     for (const MachineAxis& axis : model.axes()) {
         if (axis.kind != kinematics::AxisKind::linear) {
-            throw Error(fmt::format("the table is told straight moves, and '{}' has the rotary axis {}",
-                                    model.name(),
-                                    axis.letter));
+            rotary.push_back(axis.letter);
         }
+    }
+    if (!rotary.empty()) {
+        throw Error(fmt::format("the table is told straight moves, and '{}' has the rotary {} {}",
+                                model.name(),
+                                rotary.size() == 1 ? "axis" : "axes",
+                                fmt::join(rotary, " and ")));
     }
     return {options.format, model, options.decimals};
 }
