@@ -7,9 +7,9 @@
 // destructor.
 #pragma once
 
+#include "core/gcode/listing.h"
 #include "core/gcode/program.h"
 #include "core/gcode/reader/dialect.h"
-#include "core/gcode/writer.h"
 #include "core/machine/driver_status.h"
 #include "core/machine/point_track.h"
 #include "core/motion/trajectory.h"

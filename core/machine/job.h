@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/gcode/writer.h"
+#include "core/gcode/listing.h"
 #include "core/machine/driver.h"
 #include "core/motion/planner.h"
 

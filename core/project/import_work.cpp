@@ -2,7 +2,7 @@
 
 #include "core/project/internal/background.h"
 #include "core/project/internal/failure.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 
 #include <fmt/format.h>
 

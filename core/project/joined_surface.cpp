@@ -1,7 +1,7 @@
 #include "core/project/joined_surface.h"
 
 #include "core/base/error.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,11 @@
 
 #include "core/base/error.h"
 #include "core/base/file_snapshot.h"
+#include "core/gcode/listing.h"
 #include "core/gcode/program.h"
 #include "core/gcode/reader/dialect.h"
 #include "core/gcode/reader/line_index.h"
 #include "core/gcode/reader/preview_path.h"
-#include "core/gcode/writer.h"
 #include "core/kinematics/machine_model.h"
 #include "core/motion/trajectory.h"
 #include "core/project/pipeline.h"

@@ -15,6 +15,7 @@
 #include "core/project/planned_time.h"
 #include "core/project/settings.h"
 #include "core/project/strategy_path.h"
+#include "core/project/surface.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
@@ -96,14 +97,6 @@ std::shared_ptr<const CutStudy> Plan::cut_of(const Project& project, const Evalu
         }
     }
     return nullptr;
-}
-
-geometry::Surface surface_of(const SurfaceInput& input) {
-    std::vector<geometry::BezierPatch> patches;
-    for (const geometry::ControlNet& net : input.patches) {
-        patches.emplace_back(net);
-    }
-    return geometry::Surface(std::move(patches));
 }
 
 namespace {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/gcode/listing.h"
 #include "core/gcode/post.h"
-#include "core/gcode/writer.h"
 #include "core/motion/trajectory.h"
 #include "core/project/evaluation.h"
 #include "core/project/grids.h"
@@ -85,8 +85,6 @@ struct Folders {
     friend bool operator==(const Folders&, const Folders&) = default;
 };
 
-/// Throws Error if a net is none of a patch.
-[[nodiscard]] geometry::Surface surface_of(const SurfaceInput& input);
 /// Throws Error if the machine is unknown or its file wrong.
 [[nodiscard]] Workpiece workpiece_of(const Project& project, const Folders& folders);
 

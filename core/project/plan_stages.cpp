@@ -6,6 +6,7 @@
 #include "core/project/internal/failure.h"
 #include "core/project/left_out.h"
 #include "core/project/strategy_path.h"
+#include "core/project/surface.h"
 
 #include <algorithm>
 #include <system_error>

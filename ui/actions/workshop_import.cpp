@@ -3,7 +3,7 @@
 #include "core/base/sentences.h"
 #include "core/exchange/surface_file.h"
 #include "core/project/export_note.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 #include "ui/actions/import_bench.h"
 #include "ui/actions/surface_export.h"
 #include "ui/actions/workshop.h"

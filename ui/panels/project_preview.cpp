@@ -2,9 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/geometry/presets.h"
-#include "core/project/plan.h"
 #include "core/project/project_file.h"
 #include "core/project/settings.h"
+#include "core/project/surface.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/render/camera.h"
 #include "ui/render/view_colors.h"

@@ -2,6 +2,7 @@
 
 #include "core/project/plan.h"
 #include "core/project/settings.h"
+#include "core/project/surface.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/import_bench.h"
 #include "ui/actions/workshop.h"

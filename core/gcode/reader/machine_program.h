@@ -6,9 +6,9 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "core/gcode/listing.h"
 #include "core/gcode/program.h"
 #include "core/gcode/reader/canon.h"
-#include "core/gcode/writer.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,8 +1,8 @@
 // Where a program waits for a person, in words.
 #pragma once
 
+#include "core/gcode/listing.h"
 #include "core/gcode/program.h"
-#include "core/gcode/writer.h"
 
 #include <string>
 

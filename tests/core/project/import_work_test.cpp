@@ -2,7 +2,7 @@
 
 #include "core/base/files.h"
 #include "core/exchange/surface_file.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>

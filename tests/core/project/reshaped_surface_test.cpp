@@ -1,7 +1,7 @@
 #include "core/project/reshaped_surface.h"
 
 #include "core/base/error.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 #include "tests/support/without_traps.h"
 
 #include <gmock/gmock.h>

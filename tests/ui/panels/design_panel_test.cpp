@@ -1,6 +1,6 @@
 // The inspector of the Design workspace: symmetric editing, degrees and splitting by real mouse and keys.
 #include "core/geometry/patch_refinement.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 #include "tests/ui/panels/person.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Patches of a surface are joined from the menu, by real mouse and keys.
 #include "core/base/text.h"
 #include "core/geometry/patch_join.h"
-#include "core/project/plan.h"
+#include "core/project/surface.h"
 #include "tests/ui/panels/person.h"
 
 #include <gmock/gmock.h>

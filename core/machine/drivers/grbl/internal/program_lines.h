@@ -1,7 +1,7 @@
 // A program's text as the lines that Grbl is sent, and what can be said of them without executing them.
 #pragma once
 
-#include "core/gcode/writer.h"
+#include "core/gcode/listing.h"
 
 #include <filesystem>
 #include <string>

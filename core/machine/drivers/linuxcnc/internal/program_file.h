@@ -2,7 +2,7 @@
 // has been executed. Nothing else in its protocol tells a program that ended from one that was ended.
 #pragma once
 
-#include "core/gcode/writer.h"
+#include "core/gcode/listing.h"
 
 #include <filesystem>
 #include <string>
