@@ -15,9 +15,9 @@
 
 namespace millwright::app {
 
-using kinematics::ArmModel;
-using kinematics::JointKind;
-using kinematics::JointPositions;
+using arm::ArmModel;
+using arm::JointKind;
+using arm::JointPositions;
 
 void add_arm_option(CLI::App& command, std::string& arm) {
     command.add_option("--arm", arm, "Arm that ships with the program, or an arm file")
@@ -25,8 +25,8 @@ void add_arm_option(CLI::App& command, std::string& arm) {
         ->capture_default_str();
 }
 
-kinematics::ArmFile arm_file_of(const std::string& name) {
-    return kinematics::read_arm(project::arm_path(name, ".", project::assets_folder()));
+arm::ArmFile arm_file_of(const std::string& name) {
+    return arm::read_arm(project::arm_path(name, ".", project::assets_folder()));
 }
 
 ArmModel arm_of(const std::string& name) {

@@ -1,7 +1,7 @@
 // The arm that a command is about, and its joints in the units of people.
 #pragma once
 
-#include "core/kinematics/arm_file.h"
+#include "core/arm/arm_file.h"
 
 #include <memory>
 #include <string>
@@ -17,22 +17,21 @@ namespace millwright::app {
 void add_arm_option(CLI::App& command, std::string& arm);
 
 /// By its name or file. Throws Error for what is none.
-[[nodiscard]] kinematics::ArmFile arm_file_of(const std::string& name);
-[[nodiscard]] kinematics::ArmModel arm_of(const std::string& name);
+[[nodiscard]] arm::ArmFile arm_file_of(const std::string& name);
+[[nodiscard]] arm::ArmModel arm_of(const std::string& name);
 
 /// Degrees or mm to rad or mm, and back.
-[[nodiscard]] double to_joint(const kinematics::ArmModel& arm, int joint, double shown);
-[[nodiscard]] double from_joint(const kinematics::ArmModel& arm, int joint, double position);
+[[nodiscard]] double to_joint(const arm::ArmModel& arm, int joint, double shown);
+[[nodiscard]] double from_joint(const arm::ArmModel& arm, int joint, double position);
 
 /// A position for every joint, as typed: degrees, mm of a sliding one. Throws Error for another count, and
 /// for numbers that are not finite.
-[[nodiscard]] kinematics::JointPositions given_joints(const kinematics::ArmModel& arm,
-                                                      const std::vector<double>& shown);
+[[nodiscard]] arm::JointPositions given_joints(const arm::ArmModel& arm, const std::vector<double>& shown);
 
 /// To a billionth, so that rounding does not show.
 [[nodiscard]] double rounded(double value);
 
 /// Every joint at 0, or at its limit that is nearest to it.
-[[nodiscard]] kinematics::JointPositions resting(const kinematics::ArmModel& arm);
+[[nodiscard]] arm::JointPositions resting(const arm::ArmModel& arm);
 
 } // namespace millwright::app

@@ -19,14 +19,14 @@ OpenedProject open_project(const fs::path& file) {
     return {file, project::read_project(file), {file.parent_path(), project::assets_folder()}};
 }
 
-project::Plan planned(const OpenedProject& opened, project::Scope scope, const std::stop_token& stop) {
-    for (const std::string& sentence : project::memory_sentences(opened.project, scope)) {
+plan::Plan planned(const OpenedProject& opened, plan::Scope scope, const std::stop_token& stop) {
+    for (const std::string& sentence : plan::memory_sentences(opened.project, scope)) {
         fmt::print(stderr, "{}\n", sentence);
     }
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
     try {
-        return project::make_plan(opened.project, opened.folders, progress, scope);
+        return plan::make_plan(opened.project, opened.folders, progress, scope);
     } catch (const Error& error) {
         Diagnostic found = error.diagnostic();
         if (found.place.file.empty()) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/project/plan.h"
+#include "core/plan/plan.h"
 #include "core/project/project.h"
 
 #include <filesystem>
@@ -17,14 +17,13 @@ using Command = std::function<int()>;
 struct OpenedProject {
     std::filesystem::path file;
     project::Project project;
-    project::Folders folders;
+    plan::Folders folders;
 };
 
 /// Throws Error for anything wrong in the file.
 [[nodiscard]] OpenedProject open_project(const std::filesystem::path& file);
 
 /// make_plan under a progress bar that Ctrl+C cancels. An Error that names no file gets the project's.
-[[nodiscard]] project::Plan
-planned(const OpenedProject& opened, project::Scope scope, const std::stop_token& stop);
+[[nodiscard]] plan::Plan planned(const OpenedProject& opened, plan::Scope scope, const std::stop_token& stop);
 
 } // namespace millwright::app

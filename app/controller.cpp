@@ -9,13 +9,13 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/machine/box_trace.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/make_driver.h"
-#include "core/machine/drivers/pmac/arm_axes.h"
-#include "core/machine/drivers/pmac/pmac_driver.h"
-#include "core/machine/emulators/pmac/motion_program.h"
-#include "core/machine/survey.h"
+#include "core/jobs/box_trace.h"
+#include "core/jobs/dispatcher.h"
+#include "core/jobs/survey.h"
+#include "core/machine/make_driver.h"
+#include "core/pmac/driver/arm_axes.h"
+#include "core/pmac/driver/pmac_driver.h"
+#include "core/pmac/emulator/motion_program.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -77,22 +77,22 @@ Controller::Controller(ControllerChoice choice, const std::string& log_folder)
     wanted.one_by_one = choice_.one_by_one;
     machine::MovedAxes moved;
     if (wanted.kind == machine::DriverKind::pmac) {
-        moved.arm = std::make_shared<const kinematics::ArmModel>(arm_of(choice_.arm));
+        moved.arm = std::make_shared<const arm::ArmModel>(arm_of(choice_.arm));
     }
     driver_ = machine::make_driver(wanted, moved, clock_);
-    if (auto* const pmac = dynamic_cast<machine::PmacDriver*>(driver_.get())) {
-        pmac->set_parting(choice_.keep_power ? machine::Parting::keeps_power : machine::Parting::as_found);
+    if (auto* const pmac = dynamic_cast<pmac::PmacDriver*>(driver_.get())) {
+        pmac->set_parting(choice_.keep_power ? pmac::Parting::keeps_power : pmac::Parting::as_found);
     }
 }
 
 Controller::~Controller() {
     remember();
-    if (auto* const pmac = dynamic_cast<machine::PmacDriver*>(driver_.get())) {
+    if (auto* const pmac = dynamic_cast<pmac::PmacDriver*>(driver_.get())) {
         (void)part_from(*pmac);
     }
 }
 
-void Controller::check(const machine::Job& job) {
+void Controller::check(const jobs::Job& job) {
     driver_->check(*job.listing, job.project);
     checked_.push_back(job);
 }
@@ -100,7 +100,7 @@ void Controller::check(const machine::Job& job) {
 void Controller::connect(bool at_a_line, const std::stop_token& stop) {
     driver_->connect();
     memory_.remind(*driver_);
-    if (const auto* const pmac = dynamic_cast<machine::PmacDriver*>(driver_.get())) {
+    if (const auto* const pmac = dynamic_cast<pmac::PmacDriver*>(driver_.get())) {
         warn_of_protections(*pmac, clock_);
     }
     expect_rest();
@@ -117,10 +117,10 @@ void Controller::connect(bool at_a_line, const std::stop_token& stop) {
 
 /// What runs there for somebody else, or from a job whose link broke, is left alone. Throws Error.
 void Controller::expect_rest() const {
-    using machine::DriverState;
-    const machine::DriverStatus now = driver_->status();
-    if (machine::is_at_work(now.state)) {
-        const std::string why = now.message.empty() ? std::string(machine::to_text(now.state)) : now.message;
+    using drivers::DriverState;
+    const drivers::DriverStatus now = driver_->status();
+    if (drivers::is_at_work(now.state)) {
+        const std::string why = now.message.empty() ? std::string(to_text(now.state)) : now.message;
         throw Error("the machine takes no job: " + why,
                     {},
                     "wait until it stands, or end that: millwright stop --driver " + choice_.driver +
@@ -134,7 +134,7 @@ void Controller::expect_axes() const {
     if (!choice_.home && !choice_.power && !choice_.unlock) {
         return;
     }
-    for (const machine::Job& job : checked_) {
+    for (const jobs::Job& job : checked_) {
         if (const auto found = survey_of(job); found && !found->missing_axes.empty()) {
             throw Error(found->errors.front());
         }
@@ -144,8 +144,8 @@ void Controller::expect_axes() const {
 /// What a person said may be done before the job. Nothing is, for a job that is refused; homing ends every
 /// doubt.
 void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
-    using machine::DriverState;
-    using machine::DriverStatus;
+    using drivers::DriverState;
+    using drivers::DriverStatus;
     if (!choice_.home && !choice_.check_only) { // nothing moves in a check
         settle_position(at_a_line, stop);
     }
@@ -160,13 +160,13 @@ void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     }
     if (choice_.home) {
         driver_->home();
-        wait_for([](const DriverStatus& now) { return !machine::is_at_work(now.state); }, stop);
+        wait_for([](const DriverStatus& now) { return !drivers::is_at_work(now.state); }, stop);
         settle_position(at_a_line, stop);
     }
 }
 
 /// Throws Error for an alarm, and where somebody stopped it.
-void Controller::wait_for(const std::function<bool(const machine::DriverStatus&)>& done,
+void Controller::wait_for(const std::function<bool(const drivers::DriverStatus&)>& done,
                           const std::stop_token& stop) {
     constexpr double glance = 0.02; // s
     while (!done(driver_->status())) {
@@ -176,13 +176,13 @@ void Controller::wait_for(const std::function<bool(const machine::DriverStatus&)
         }
         clock_.wait(glance);
     }
-    if (const machine::DriverStatus now = driver_->status(); now.state == machine::DriverState::alarm) {
+    if (const drivers::DriverStatus now = driver_->status(); now.state == drivers::DriverState::alarm) {
         throw Error(now.message);
     }
 }
 
 void Controller::unlock() {
-    const machine::DriverStatus status = driver_->status();
+    const drivers::DriverStatus status = driver_->status();
     if (status.link_lost) {
         throw Error(status.message);
     }
@@ -212,25 +212,25 @@ void Controller::settle_position(bool at_a_line, const std::stop_token& stop) {
         return;
     }
     if (at_a_line) {
-        throw Error(machine::doubt_sentence(why) + " A job that begins at a line could begin anywhere",
+        throw Error(drivers::doubt_sentence(why) + " A job that begins at a line could begin anywhere",
                     {},
                     "--trust-position if it stands where the controller says");
     }
-    const bool every_job = machine::needs_confirmation(driver_->status(), driver_->stored_offsets());
+    const bool every_job = drivers::needs_confirmation(driver_->status(), driver_->stored_offsets());
     if (every_job && ::isatty(STDIN_FILENO) != 0) {
         ask_whether_position_is_right(why, stop);
         return;
     }
     fmt::print(stderr,
                "millwright: {} {} needs that, or --trust-position if it is where the controller says.\n",
-               machine::doubt_sentence(why),
+               drivers::doubt_sentence(why),
                every_job ? "Every job" : "A job that begins at a line");
 }
 
 /// No word but yes lets anything move.
 void Controller::ask_whether_position_is_right(const std::string& why, const std::stop_token& stop) {
     const std::string answer =
-        question(machine::doubt_sentence(why) +
+        question(drivers::doubt_sentence(why) +
                      "\nIs the machine where the controller says? Type yes to run the job, anything else to "
                      "leave it > ",
                  stop);
@@ -252,88 +252,88 @@ void Controller::remember() {
 }
 
 /// From where the machine stands, with its offsets; nothing where it reads no G-code.
-std::optional<machine::Survey> Controller::survey_of(const machine::Job& job) const {
-    const machine::Capabilities able = driver_->capabilities();
+std::optional<jobs::Survey> Controller::survey_of(const jobs::Job& job) const {
+    const drivers::Capabilities able = driver_->capabilities();
     if (!able.dialect) {
         return std::nullopt;
     }
-    const machine::DriverStatus now = driver_->status();
-    return machine::survey(job.listing->text,
-                           job.project,
-                           {.dialect = *able.dialect,
-                            .axes = able.axes,
-                            .start = now.position,
-                            .offsets = driver_->stored_offsets(),
-                            .modes = now.modes,
-                            .mist = able.mist,
-                            .firmware = able.firmware});
+    const drivers::DriverStatus now = driver_->status();
+    return jobs::survey(job.listing->text,
+                        job.project,
+                        {.dialect = *able.dialect,
+                         .axes = able.axes,
+                         .start = now.position,
+                         .offsets = driver_->stored_offsets(),
+                         .modes = now.modes,
+                         .mist = able.mist,
+                         .firmware = able.firmware});
 }
 
-void Controller::look_at(const machine::Job& job) const {
+void Controller::look_at(const jobs::Job& job) const {
     const auto found = survey_of(job);
     const auto faults =
-        found ? machine::faults_of(*found, driver_->limits(), job.project) : std::vector<Diagnostic>{};
+        found ? jobs::faults_of(*found, driver_->limits(), job.project) : std::vector<Diagnostic>{};
     if (!faults.empty()) {
         throw Error(faults.front());
     }
 }
 
-void Controller::check_there(const machine::Job& job, const std::stop_token& stop) {
+void Controller::check_there(const jobs::Job& job, const std::stop_token& stop) {
     const int number = driver_->check_there(*job.listing);
-    wait_for([](const machine::DriverStatus& now) { return !machine::is_at_work(now.state); }, stop);
-    const machine::CommandAnswer answer = driver_->status().answer;
-    if (answer.number != number || answer.state != machine::CommandAnswer::State::done) {
+    wait_for([](const drivers::DriverStatus& now) { return !drivers::is_at_work(now.state); }, stop);
+    const drivers::CommandAnswer answer = driver_->status().answer;
+    if (answer.number != number || answer.state != drivers::CommandAnswer::State::done) {
         throw Error(Diagnostic{{job.project}, "refused in check mode:\n" + answer.text, {}});
     }
     fmt::print("{}: {}.\n", job.project, answer.text);
 }
 
-machine::Job Controller::box_of(const machine::Job& job) const {
+jobs::Job Controller::box_of(const jobs::Job& job) const {
     const auto found = survey_of(job);
     expects(found.has_value(), "a controller that reads G-code");
-    return machine::box_trace_job(job, *found);
+    return jobs::box_trace_job(job, *found);
 }
 
-void Controller::show_warnings(const machine::Job& job) const {
+void Controller::show_warnings(const jobs::Job& job) const {
     if (const auto found = survey_of(job)) {
-        for (const Diagnostic& warning : machine::warnings_of(*found, driver_->limits(), job.project)) {
+        for (const Diagnostic& warning : jobs::warnings_of(*found, driver_->limits(), job.project)) {
             fmt::print(stderr, "millwright: {}\n", to_text(warning));
         }
     }
 }
 
 /// Of a motion program, on an emulated card: whether the joints would leave their limits.
-void Controller::check_joints(const machine::Job& job, const std::stop_token& stop) const {
-    const kinematics::ArmModel arm = arm_of(choice_.arm);
-    const machine::DriverStatus now = driver_->status();
-    machine::MotionSimulationSettings settings;
-    settings.card = machine::within_limits(machine::arm_settings_of(choice_.axes), arm);
+void Controller::check_joints(const jobs::Job& job, const std::stop_token& stop) const {
+    const arm::ArmModel arm = arm_of(choice_.arm);
+    const drivers::DriverStatus now = driver_->status();
+    pmac::MotionSimulationSettings settings;
+    settings.card = pmac::within_limits(pmac::arm_settings_of(choice_.axes), arm);
     for (Eigen::Index n = 0; n < now.position.size(); ++n) {
         settings.start_deg.push_back(to_degrees(now.position[n]));
     }
     const Progress progress([](const Progress::Report&) {}, stop);
-    const machine::MotionSimulation found =
-        machine::simulate_motion_program(job.listing->text, job.project, settings, progress);
+    const pmac::MotionSimulation found =
+        pmac::simulate_motion_program(job.listing->text, job.project, settings, progress);
     if (found.beyond_limits) {
         throw Error(*found.beyond_limits);
     }
 }
 
-machine::JobOutcome Controller::run(const machine::Job& wanted, const Interrupt& interrupt) {
+jobs::JobOutcome Controller::run(const jobs::Job& wanted, const Interrupt& interrupt) {
     if (choice_.check) {
         check_there(wanted, interrupt.token());
     }
-    const machine::Job job = choice_.trace_box ? box_of(wanted) : wanted;
+    const jobs::Job job = choice_.trace_box ? box_of(wanted) : wanted;
     show_warnings(job);
     if (choice_.driver == "pmac") {
         check_joints(job, interrupt.token());
     }
-    machine::Dispatcher dispatcher(*driver_, clock_, log_folder_);
+    jobs::Dispatcher dispatcher(*driver_, clock_, log_folder_);
     JobPrinter printer;
     const JobKeys keys(dispatcher, choice_.keys, {choice_.optional_stop, choice_.single_block});
     const Progress progress([](const Progress::Report&) {}, interrupt.token());
     bool cut = false;
-    return dispatcher.run(job, progress, [&](const machine::JobReport& report) {
+    return dispatcher.run(job, progress, [&](const jobs::JobReport& report) {
         if (interrupt.insisted() && !std::exchange(cut, true)) {
             driver_->emergency_stop();
         }

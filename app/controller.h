@@ -2,13 +2,13 @@
 #pragma once
 
 #include "app/interrupt.h"
+#include "core/base/clock.h"
 #include "core/base/progress.h"
-#include "core/machine/clock.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/driver.h"
-#include "core/machine/job.h"
-#include "core/machine/position_memory.h"
-#include "core/machine/survey.h"
+#include "core/drivers/driver.h"
+#include "core/jobs/dispatcher.h"
+#include "core/jobs/job.h"
+#include "core/jobs/position_memory.h"
+#include "core/jobs/survey.h"
 
 #include <functional>
 #include <memory>
@@ -61,7 +61,7 @@ public:
     ~Controller();
 
     /// Throws Error for what this controller must not be sent. To be called for each job before connect().
-    void check(const machine::Job& job);
+    void check(const jobs::Job& job);
     /// Asks a person at a terminal whether the position is right where something has cost it. Throws Error if
     /// nobody answers, or if the controller is locked and nobody said that it may be unlocked, or that it
     /// shall be homed first, which moves it; also if the machine lacks an axis of a job that was checked;
@@ -69,35 +69,35 @@ public:
     /// or moved then.
     void connect(bool at_a_line, const std::stop_token& stop);
     /// Throws Error for what the connected machine could not do of it from where it stands; nothing moves.
-    void look_at(const machine::Job& job) const;
+    void look_at(const jobs::Job& job) const;
     /// Has the controller read it in its check mode, in which nothing moves. Throws Error with what it
     /// refuses.
-    void check_there(const machine::Job& job, const std::stop_token& stop);
+    void check_there(const jobs::Job& job, const std::stop_token& stop);
     /// Says what a person should know, and runs the job to its end under a progress bar. Throws Error, before
     /// anything is sent if the text is at fault.
-    [[nodiscard]] machine::JobOutcome run(const machine::Job& job, const Interrupt& interrupt);
+    [[nodiscard]] jobs::JobOutcome run(const jobs::Job& job, const Interrupt& interrupt);
 
 private:
     void expect_rest() const;
     void expect_axes() const;
     void prepare(bool at_a_line, const std::stop_token& stop);
-    void wait_for(const std::function<bool(const machine::DriverStatus&)>& done, const std::stop_token& stop);
+    void wait_for(const std::function<bool(const drivers::DriverStatus&)>& done, const std::stop_token& stop);
     void unlock();
     void settle_position(bool at_a_line, const std::stop_token& stop);
     void ask_whether_position_is_right(const std::string& why, const std::stop_token& stop);
     void say_who_is_there() const;
     void remember();
-    [[nodiscard]] machine::Job box_of(const machine::Job& job) const;
-    [[nodiscard]] std::optional<machine::Survey> survey_of(const machine::Job& job) const;
-    void show_warnings(const machine::Job& job) const;
-    void check_joints(const machine::Job& job, const std::stop_token& stop) const;
+    [[nodiscard]] jobs::Job box_of(const jobs::Job& job) const;
+    [[nodiscard]] std::optional<jobs::Survey> survey_of(const jobs::Job& job) const;
+    void show_warnings(const jobs::Job& job) const;
+    void check_joints(const jobs::Job& job, const std::stop_token& stop) const;
 
     ControllerChoice choice_;
     std::string log_folder_;
-    machine::PositionMemory memory_;
-    machine::SteadyClock clock_;
-    std::unique_ptr<machine::Driver> driver_;
-    std::vector<machine::Job> checked_; ///< the jobs that are to be run
+    jobs::PositionMemory memory_;
+    SteadyClock clock_;
+    std::unique_ptr<drivers::Driver> driver_;
+    std::vector<jobs::Job> checked_; ///< the jobs that are to be run
 };
 
 /// Date and time for people.

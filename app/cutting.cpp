@@ -5,13 +5,13 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/gcode/plot_program.h"
 #include "core/kinematics/machine_file.h"
+#include "core/plan/plot_time.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/finished_look.h"
+#include "core/plot/plot_program.h"
 #include "core/plot/work_time.h"
 #include "core/project/assets.h"
-#include "core/project/plot_time.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -92,22 +92,22 @@ plot::ToolTips tips_with(const plot::ToolTip& usual, const PreviewOptions& previ
     return tips;
 }
 
-gcode::Program program_of(const plot::CutPath& path,
-                          const kinematics::MachineModel& machine,
-                          const CuttingOptions& options,
-                          const std::vector<std::string>& header,
-                          const std::optional<plot::ToolTip>& tip) {
-    gcode::PlotProgramSettings settings;
+program::Program program_of(const plot::CutPath& path,
+                            const kinematics::MachineModel& machine,
+                            const CuttingOptions& options,
+                            const std::vector<std::string>& header,
+                            const std::optional<plot::ToolTip>& tip) {
+    plot::PlotProgramSettings settings;
     if (tip) {
         settings.tips = tips_with(*tip, options.preview);
     }
     settings.machine = machine.name();
-    settings.axes = gcode::plot_axes(machine);
+    settings.axes = plot::plot_axes(machine);
     settings.spindle_rpm = options.spindle_rpm;
     settings.header = header;
     const plot::CutPath on_machine = placed(path, origin_of(options));
-    gcode::expect_on_table(on_machine, machine, origin_of(options).head<2>());
-    return gcode::plot_program(on_machine, settings);
+    plot::expect_on_table(on_machine, machine, origin_of(options).head<2>());
+    return plot::plot_program(on_machine, settings);
 }
 
 std::string preview_of(const plot::CutPath& path,
@@ -137,7 +137,7 @@ double seconds_of(const PostedText& text,
                   const kinematics::MachineModel& machine,
                   const CuttingOptions& options,
                   const Progress& progress) {
-    return project::seconds_of_text(text.text, text.format, machine, options.out, progress);
+    return plan::seconds_of_text(text.text, text.format, machine, options.out, progress);
 }
 
 } // namespace
@@ -172,7 +172,7 @@ WrittenProgram write_program_files(const plot::CutPath& path,
         write_file(options.preview.file, preview);
     }
     print_notes(text);
-    if (const auto slower = gcode::speeds_not_reached(path, machine)) {
+    if (const auto slower = plot::speeds_not_reached(path, machine)) {
         fmt::print(stderr, "millwright: {}\n", to_text(*slower));
     }
     if (!seconds) {

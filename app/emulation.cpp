@@ -2,12 +2,12 @@
 
 #include "app/interrupt.h"
 #include "app/usage_error.h"
+#include "core/base/clock.h"
 #include "core/base/error.h"
-#include "core/machine/clock.h"
-#include "core/machine/emulators/emulator_server.h"
-#include "core/machine/links/fault_link.h"
-#include "core/machine/links/pseudo_terminal.h"
-#include "core/machine/links/tcp_server.h"
+#include "core/emulators/emulator_server.h"
+#include "core/links/fault_link.h"
+#include "core/links/pseudo_terminal.h"
+#include "core/links/tcp_server.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -23,27 +23,27 @@ namespace millwright::app {
 
 namespace {
 
-using Links = std::vector<std::unique_ptr<machine::Link>>;
+using Links = std::vector<std::unique_ptr<links::Link>>;
 
 Links open_links(const EmulationChoice& choice,
                  const std::string& name,
-                 const machine::FaultSpec& faults,
-                 const machine::Clock& clock) {
+                 const links::FaultSpec& faults,
+                 const Clock& clock) {
     Links inner;
     if (!choice.pty.empty()) {
-        inner.push_back(std::make_unique<machine::PseudoTerminal>(choice.pty));
+        inner.push_back(std::make_unique<links::PseudoTerminal>(choice.pty));
     }
     if (choice.tcp >= 0) {
         inner.push_back(
-            std::make_unique<machine::TcpServer>(static_cast<std::uint16_t>(choice.tcp), choice.bind));
+            std::make_unique<links::TcpServer>(static_cast<std::uint16_t>(choice.tcp), choice.bind));
     }
     if (inner.empty()) {
         throw UsageError("nobody could reach the emulated controller", {}, "name --pty LINK or --tcp PORT");
     }
     Links links;
     for (auto& link : inner) {
-        links.push_back(std::make_unique<machine::FaultLink>(
-            std::move(link), faults, machine::WireEnd::controller, clock));
+        links.push_back(
+            std::make_unique<links::FaultLink>(std::move(link), faults, links::WireEnd::controller, clock));
         links.back()->open();
         fmt::print("{} at {}\n", name, links.back()->name());
     }
@@ -51,9 +51,9 @@ Links open_links(const EmulationChoice& choice,
     return links;
 }
 
-machine::FaultSpec faults_of(const EmulationChoice& choice) {
+links::FaultSpec faults_of(const EmulationChoice& choice) {
     try {
-        return machine::read_fault_spec(choice.faults);
+        return links::read_fault_spec(choice.faults);
     } catch (const Error& error) {
         throw UsageError(error.diagnostic());
     }
@@ -93,12 +93,12 @@ void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
 
 int serve(const EmulationChoice& choice,
           const std::string& name,
-          const std::function<std::unique_ptr<machine::Emulator>()>& make,
-          const std::function<void(const machine::Emulator&)>& last_words) {
+          const std::function<std::unique_ptr<emulators::Emulator>()>& make,
+          const std::function<void(const emulators::Emulator&)>& last_words) {
     const Interrupt interrupt; // before the emulator, which may have a thread
-    const machine::FaultSpec faults = faults_of(choice);
-    machine::SteadyClock clock;
-    machine::EmulatorServer server(
+    const links::FaultSpec faults = faults_of(choice);
+    SteadyClock clock;
+    emulators::EmulatorServer server(
         open_links(choice, name, faults, clock), clock, make(), choice.speed, faults);
     server.wait_for_host(choice.wait_for_host);
     server.reset_when_opened(choice.reset_when_opened);
@@ -110,7 +110,7 @@ int serve(const EmulationChoice& choice,
         }
     }
     if (last_words) {
-        server.with_emulator([&](const machine::Emulator& served) { last_words(served); });
+        server.with_emulator([&](const emulators::Emulator& served) { last_words(served); });
     }
     return 0;
 }

@@ -1,7 +1,7 @@
 // Emulated controllers at the other end of a wire, on the command line.
 #pragma once
 
-#include "core/machine/emulators/emulator.h"
+#include "core/emulators/emulator.h"
 
 #include <functional>
 #include <memory>
@@ -32,7 +32,7 @@ void add_emulation_options(CLI::App& command, EmulationChoice& choice);
 /// exit code. Throws Error.
 [[nodiscard]] int serve(const EmulationChoice& choice,
                         const std::string& name,
-                        const std::function<std::unique_ptr<machine::Emulator>()>& make,
-                        const std::function<void(const machine::Emulator&)>& last_words = {});
+                        const std::function<std::unique_ptr<emulators::Emulator>()>& make,
+                        const std::function<void(const emulators::Emulator&)>& last_words = {});
 
 } // namespace millwright::app

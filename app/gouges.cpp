@@ -1,7 +1,7 @@
 #include "app/gouges.h"
 
-#include "core/project/cut_study.h"
-#include "core/project/gouges.h"
+#include "core/plan/cut_study.h"
+#include "core/plan/gouges.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -18,8 +18,8 @@ void add_gouges_option(CLI::App& command, bool& allowed) {
                      "Accept a program that cuts deeper into the part than the tool's gouge limit");
 }
 
-std::string gouges_of(const OpenedProject& opened, const project::Plan& plan) {
-    return plan.cut ? project::gouge_text(opened.project, *plan.cut) : std::string();
+std::string gouges_of(const OpenedProject& opened, const plan::Plan& plan) {
+    return plan.cut ? plan::gouge_text(opened.project, *plan.cut) : std::string();
 }
 
 void answer_for_gouges(const OpenedProject& opened,

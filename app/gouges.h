@@ -21,9 +21,9 @@ public:
 /// Adds --allow-gouges to `command`.
 void add_gouges_option(CLI::App& command, bool& allowed);
 
-/// How the program of `plan` gouges the part, as project::gouge_text(); empty if it does not, if the tool is
+/// How the program of `plan` gouges the part, as plan::gouge_text(); empty if it does not, if the tool is
 /// a point, or if `plan` has no cut study.
-[[nodiscard]] std::string gouges_of(const OpenedProject& opened, const project::Plan& plan);
+[[nodiscard]] std::string gouges_of(const OpenedProject& opened, const plan::Plan& plan);
 
 /// Says what `gouges` says: as a warning where that is allowed, else throws GougeError with what was not
 /// done ("program.ngc was not written"). Nothing if it is empty.

@@ -1,7 +1,7 @@
 #include "app/held_story.h"
 
 #include "core/base/sentences.h"
-#include "core/machine/way_on.h"
+#include "core/jobs/way_on.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@ namespace millwright::app {
 
 namespace {
 
-using machine::JobStory;
-using machine::QueuedJob;
+using jobs::JobStory;
+using jobs::QueuedJob;
 
 /// Nothing if there is none, or nothing is left of its job.
 std::optional<JobStory> log_of(const QueuedJob& job, const std::filesystem::path& folder) {
-    std::vector<JobStory> all = machine::read_job_folder(folder).jobs; // newest first
+    std::vector<JobStory> all = jobs::read_job_folder(folder).jobs; // newest first
     const auto found = std::ranges::find_if(all, [&job](const JobStory& story) {
         return job.log_file.empty()
                    ? story.start.project == job.project && story.start.program_hash == job.hash
@@ -29,7 +29,7 @@ std::optional<JobStory> log_of(const QueuedJob& job, const std::filesystem::path
 }
 
 std::string how_it_goes_on(const JobStory& story) {
-    const machine::WayOn way = machine::way_on(story);
+    const jobs::WayOn way = jobs::way_on(story);
     return way.why_the_beginning.empty()
                ? fmt::format("Line {} comes next{}.",
                              way.line,

@@ -2,7 +2,7 @@
 // of it.
 #pragma once
 
-#include "core/machine/job_queue.h"
+#include "core/jobs/job_queue.h"
 
 #include <filesystem>
 #include <string>
@@ -11,6 +11,6 @@ namespace millwright::app {
 
 /// What the queue says; with its log in `folder`, if there is one, also what that tells, which nobody has
 /// entered in the queue if this program was killed: what was executed, and where the job can go on.
-[[nodiscard]] std::string held_story(const machine::QueuedJob& job, const std::filesystem::path& folder);
+[[nodiscard]] std::string held_story(const jobs::QueuedJob& job, const std::filesystem::path& folder);
 
 } // namespace millwright::app

@@ -51,7 +51,7 @@ private:
 
 } // namespace
 
-JobKeys::JobKeys(machine::Dispatcher& dispatcher, bool always, JobSwitches now)
+JobKeys::JobKeys(jobs::Dispatcher& dispatcher, bool always, JobSwitches now)
     : dispatcher_(dispatcher), switches_(now) {
     if (!always && !is_own_terminal()) {
         return;

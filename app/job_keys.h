@@ -2,7 +2,7 @@
 // change the feed by 10 %, 0 makes it 100 % again, b switches single block, o optional stops, q stops.
 #pragma once
 
-#include "core/machine/dispatcher.h"
+#include "core/jobs/dispatcher.h"
 
 #include <thread>
 
@@ -17,7 +17,7 @@ class JobKeys {
 public:
     /// Listens to standard input while it is this program's terminal; to any standard input if `always`.
     /// `now`: how the switches are.
-    JobKeys(machine::Dispatcher& dispatcher, bool always, JobSwitches now);
+    JobKeys(jobs::Dispatcher& dispatcher, bool always, JobSwitches now);
     JobKeys(const JobKeys&) = delete;
     JobKeys& operator=(const JobKeys&) = delete;
     ~JobKeys();
@@ -28,8 +28,8 @@ private:
     void listen(const std::stop_token& over);
     void obey(char key);
 
-    machine::Dispatcher& dispatcher_;
-    machine::Overrides overrides_;
+    jobs::Dispatcher& dispatcher_;
+    drivers::Overrides overrides_;
     JobSwitches switches_;
     int over_ = -1;       ///< readable when nobody listens any more
     std::jthread thread_; // last: it uses what stands before it

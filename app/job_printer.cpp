@@ -8,12 +8,12 @@ namespace millwright::app {
 
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 
 } // namespace
 
-void JobPrinter::show(const machine::JobReport& report, bool keys) {
-    const machine::DriverStatus& now = report.driver;
+void JobPrinter::show(const jobs::JobReport& report, bool keys) {
+    const drivers::DriverStatus& now = report.driver;
     const bool holding = now.state == DriverState::holding;
     tell_waiting(now, keys);
     printer_.pause(holding);
@@ -21,7 +21,7 @@ void JobPrinter::show(const machine::JobReport& report, bool keys) {
 }
 
 /// On a line of its own, whole: a bar has no room for what a person has to do.
-void JobPrinter::tell_waiting(const machine::DriverStatus& now, bool keys) {
+void JobPrinter::tell_waiting(const drivers::DriverStatus& now, bool keys) {
     const std::string why = now.state == DriverState::holding
                                 ? "holding" + (now.message.empty() ? "" : ": " + now.message)
                                 : std::string();

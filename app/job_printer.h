@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/progress_printer.h"
-#include "core/machine/dispatcher.h"
+#include "core/jobs/dispatcher.h"
 
 #include <string>
 
@@ -11,12 +11,12 @@ namespace millwright::app {
 class JobPrinter {
 public:
     /// `keys`: can be pressed.
-    void show(const machine::JobReport& report, bool keys);
+    void show(const jobs::JobReport& report, bool keys);
     /// Of what comes before the job.
     void show(const Progress::Report& report) { printer_.show(report); }
 
 private:
-    void tell_waiting(const machine::DriverStatus& now, bool keys);
+    void tell_waiting(const drivers::DriverStatus& now, bool keys);
 
     ProgressPrinter printer_;
     std::string waits_for_; ///< that was told; empty: nothing

@@ -7,9 +7,9 @@
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/make_driver.h"
-#include "core/machine/drivers/virtual_machine/virtual_machine.h"
+#include "core/drivers/virtual_machine/virtual_machine.h"
+#include "core/jobs/dispatcher.h"
+#include "core/machine/make_driver.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -26,7 +26,7 @@ namespace millwright::app {
 namespace {
 
 std::string fault_of_speed(const std::string& text) {
-    using machine::VirtualSpeed;
+    using drivers::VirtualSpeed;
     double speed = 0.0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), speed);
     const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
@@ -78,8 +78,8 @@ void check_from_line(const PlannedMachineChoice& choice, int from_line) {
     }
 }
 
-machine::JobOutcome
-PlannedMachine::run(const machine::Job& job, const std::string& log_folder, const Interrupt& interrupt) {
+jobs::JobOutcome
+PlannedMachine::run(const jobs::Job& job, const std::string& log_folder, const Interrupt& interrupt) {
     connect(job);
     JobPrinter printer;
     bool begun = false; // from then on the report says more
@@ -91,11 +91,11 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
         },
         interrupt.token());
     bool cut = false;
-    machine::Dispatcher dispatcher(*driver_, clock_, log_folder);
+    jobs::Dispatcher dispatcher(*driver_, clock_, log_folder);
     const JobKeys keys(dispatcher,
                        choice_.controller.keys,
                        {choice_.controller.optional_stop, choice_.controller.single_block});
-    machine::JobOutcome outcome = dispatcher.run(job, progress, [&](const machine::JobReport& report) {
+    jobs::JobOutcome outcome = dispatcher.run(job, progress, [&](const jobs::JobReport& report) {
         begun = true;
         if (interrupt.insisted() && !std::exchange(cut, true)) {
             driver_->emergency_stop();
@@ -106,7 +106,7 @@ PlannedMachine::run(const machine::Job& job, const std::string& log_folder, cons
     return outcome;
 }
 
-void PlannedMachine::tell_remarks(const machine::Job& job) const {
+void PlannedMachine::tell_remarks(const jobs::Job& job) const {
     if (cordic_ == nullptr) {
         return;
     }
@@ -120,7 +120,7 @@ void PlannedMachine::tell_remarks(const machine::Job& job) const {
     }
 }
 
-void PlannedMachine::connect(const machine::Job& job) {
+void PlannedMachine::connect(const jobs::Job& job) {
     if (driver_ == nullptr) {
         model_ = job.machine->name();
         driver_ = make_driver(job);
@@ -136,23 +136,23 @@ void PlannedMachine::connect(const machine::Job& job) {
     }
 }
 
-std::unique_ptr<machine::Driver> PlannedMachine::make_driver(const machine::Job& job) {
+std::unique_ptr<drivers::Driver> PlannedMachine::make_driver(const jobs::Job& job) {
     machine::DriverChoice choice;
     choice.kind = machine::driver_kind(choice_.driver);
     choice.address = choice_.controller.port;
     choice.period = choice_.period;
     if (choice.kind == machine::DriverKind::cordic) {
-        machine::CordicDriverOptions processor;
+        cordic_machine::CordicDriverOptions processor;
         processor.clock_hz = choice_.processor_hz;
         processor.origin = choice_.origin;
-        auto made = std::make_unique<machine::CordicDriver>(
-            job.program->start, machine::VirtualSpeed{choice_.speed}, clock_, job.machine, processor);
+        auto made = std::make_unique<cordic_machine::CordicDriver>(
+            job.program->start, drivers::VirtualSpeed{choice_.speed}, clock_, job.machine, processor);
         cordic_ = made.get();
         return made;
     }
     RecordChoice record = choice_.record;
     if (choice_.driver == "records" && record.pattern.empty()) {
-        record.pattern = machine::RecordFormat().pattern;
+        record.pattern = drivers::RecordFormat().pattern;
     }
     choice.record = record_of(record);
     return machine::make_driver(choice, {job.machine, job.program->start, choice_.speed}, clock_);

@@ -4,10 +4,10 @@
 
 #include "app/controller.h"
 #include "app/record_choice.h"
-#include "core/machine/clock.h"
-#include "core/machine/driver.h"
-#include "core/machine/drivers/cordic/cordic_driver.h"
-#include "core/machine/job.h"
+#include "core/base/clock.h"
+#include "core/cordic_machine/cordic_driver.h"
+#include "core/drivers/driver.h"
+#include "core/jobs/job.h"
 
 #include <memory>
 #include <stop_token>
@@ -24,7 +24,7 @@ struct PlannedMachineChoice {
     std::string driver = "virtual"; ///< or cordic, stream, records
     double speed = 1.0;             ///< times real time; 0: as fast as it goes
     double period = 0.01;           ///< of a coordinate stream, s
-    double processor_hz = machine::CordicDriverOptions().clock_hz;
+    double processor_hz = cordic_machine::CordicDriverOptions().clock_hz;
     std::optional<gcode::WorkOrigin> origin{}; ///< of what the CORDIC processor executes
     RecordChoice record;                       ///< of a coordinate stream, and of records
     ControllerChoice controller;               ///< port of these, keys, optional stops
@@ -46,20 +46,20 @@ public:
     explicit PlannedMachine(const PlannedMachineChoice& choice) : choice_(choice) {}
 
     /// Under a progress bar. Throws Error, before anything moves if the job is at fault.
-    [[nodiscard]] machine::JobOutcome
-    run(const machine::Job& job, const std::string& log_folder, const Interrupt& interrupt);
+    [[nodiscard]] jobs::JobOutcome
+    run(const jobs::Job& job, const std::string& log_folder, const Interrupt& interrupt);
 
 private:
-    void connect(const machine::Job& job);
+    void connect(const jobs::Job& job);
     /// What the CORDIC processor did otherwise than the job says, and too late.
-    void tell_remarks(const machine::Job& job) const;
-    [[nodiscard]] std::unique_ptr<machine::Driver> make_driver(const machine::Job& job);
+    void tell_remarks(const jobs::Job& job) const;
+    [[nodiscard]] std::unique_ptr<drivers::Driver> make_driver(const jobs::Job& job);
 
     const PlannedMachineChoice& choice_;
-    machine::SteadyClock clock_;
+    SteadyClock clock_;
     std::string model_; ///< name of the machine that the driver moves
-    std::unique_ptr<machine::Driver> driver_;
-    const machine::CordicDriver* cordic_ = nullptr; ///< the same, if it is one
+    std::unique_ptr<drivers::Driver> driver_;
+    const cordic_machine::CordicDriver* cordic_ = nullptr; ///< the same, if it is one
 };
 
 } // namespace millwright::app

@@ -8,7 +8,7 @@
 
 namespace millwright::app {
 
-void warn_of_protections(const machine::PmacDriver& driver, machine::Clock& clock) {
+void warn_of_protections(const pmac::PmacDriver& driver, Clock& clock) {
     constexpr double glance = 0.005, patience = 2.0; // s
     auto off = driver.protections_off();
     for (double waited = 0.0; !off && waited < patience; waited += glance) {
@@ -22,7 +22,7 @@ void warn_of_protections(const machine::PmacDriver& driver, machine::Clock& cloc
     }
 }
 
-bool part_from(machine::PmacDriver& driver) {
+bool part_from(pmac::PmacDriver& driver) {
     const bool had_power = driver.any_power();
     driver.close();
     if (const std::string farewell = driver.farewell(); !farewell.empty()) {

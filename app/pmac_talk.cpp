@@ -3,7 +3,7 @@
 #include "app/arm_choice.h"
 #include "app/pmac_care.h"
 #include "core/base/error.h"
-#include "core/machine/drivers/pmac/arm_axes.h"
+#include "core/pmac/driver/arm_axes.h"
 
 #include <utility>
 
@@ -11,20 +11,20 @@ namespace millwright::app {
 
 namespace {
 
-std::unique_ptr<machine::PmacDriver>
-connected_driver(const std::string& port, machine::PmacSettings settings, const machine::SteadyClock& clock) {
+std::unique_ptr<pmac::PmacDriver>
+connected_driver(const std::string& port, pmac::PmacSettings settings, const SteadyClock& clock) {
     settings.patience = 10.0; // s
-    settings.parting = machine::Parting::as_found;
-    auto driver = std::make_unique<machine::PmacDriver>(machine::make_link(port), clock, std::move(settings));
+    settings.parting = pmac::Parting::as_found;
+    auto driver = std::make_unique<pmac::PmacDriver>(links::make_link(port), clock, std::move(settings));
     driver->connect();
     return driver;
 }
 
-bool has_motor_5(machine::PmacDriver& driver, machine::SteadyClock& clock) {
+bool has_motor_5(pmac::PmacDriver& driver, SteadyClock& clock) {
     constexpr double glance = 0.001;
     const int number = driver.command("I500");
-    machine::DriverStatus now = driver.status();
-    while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
+    drivers::DriverStatus now = driver.status();
+    while (now.answer.number == number && now.answer.state == drivers::CommandAnswer::State::pending) {
         clock.wait(glance);
         now = driver.status();
     }
@@ -33,14 +33,13 @@ bool has_motor_5(machine::PmacDriver& driver, machine::SteadyClock& clock) {
 
 } // namespace
 
-std::unique_ptr<machine::PmacDriver>
-connected_pmac(const std::string& port, const std::string& arm, machine::SteadyClock& clock) {
-    const kinematics::ArmModel model = arm_of(arm);
-    auto driver = connected_driver(port, machine::within_limits(machine::arm_settings(), model), clock);
+std::unique_ptr<pmac::PmacDriver>
+connected_pmac(const std::string& port, const std::string& arm, SteadyClock& clock) {
+    const arm::ArmModel model = arm_of(arm);
+    auto driver = connected_driver(port, pmac::within_limits(pmac::arm_settings(), model), clock);
     if (model.joint_count() > 4 && has_motor_5(*driver, clock)) {
         driver.reset();
-        driver =
-            connected_driver(port, machine::within_limits(machine::five_axis_arm_settings(), model), clock);
+        driver = connected_driver(port, pmac::within_limits(pmac::five_axis_arm_settings(), model), clock);
     }
     return driver;
 }
@@ -54,7 +53,7 @@ PmacTalk::~PmacTalk() {
     (void)part_from(*driver_);
 }
 
-machine::CardTalk PmacTalk::card() {
+pmac::CardTalk PmacTalk::card() {
     return {.ask = [this](const std::string& line) { return ask(line); },
             .wait =
                 [this](double seconds) {
@@ -70,11 +69,11 @@ void PmacTalk::give_power() {
     for (double waited = 0.0; waited < patience; waited += glance) {
         check();
         clock_.wait(glance);
-        const machine::DriverStatus now = driver_->status();
-        if (now.state == machine::DriverState::alarm) {
+        const drivers::DriverStatus now = driver_->status();
+        if (now.state == drivers::DriverState::alarm) {
             throw Error(now.message);
         }
-        if (now.powered && now.state == machine::DriverState::idle) {
+        if (now.powered && now.state == drivers::DriverState::idle) {
             return;
         }
     }
@@ -94,7 +93,7 @@ void PmacTalk::check() {
 
 void PmacTalk::wait_for_rest() {
     constexpr double glance = 0.005;
-    while (driver_->status().activity == machine::Activity::command) {
+    while (driver_->status().activity == drivers::Activity::command) {
         check();
         clock_.wait(glance);
     }
@@ -103,16 +102,16 @@ void PmacTalk::wait_for_rest() {
 std::string PmacTalk::ask(const std::string& line) {
     check();
     constexpr double glance = 0.001;
-    if (machine::PmacDriver::needs_rest(line)) {
+    if (pmac::PmacDriver::needs_rest(line)) {
         wait_for_rest();
     }
     const int number = driver_->command(line);
-    machine::DriverStatus now = driver_->status();
-    while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
+    drivers::DriverStatus now = driver_->status();
+    while (now.answer.number == number && now.answer.state == drivers::CommandAnswer::State::pending) {
         clock_.wait(glance);
         now = driver_->status();
     }
-    if (now.answer.state != machine::CommandAnswer::State::done) {
+    if (now.answer.state != drivers::CommandAnswer::State::done) {
         throw Error(now.answer.text.empty() ? "the card did not take '" + line + "'" : now.answer.text);
     }
     return now.answer.text;

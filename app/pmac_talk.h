@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/interrupt.h"
-#include "core/machine/clock.h"
-#include "core/machine/drivers/pmac/pmac_driver.h"
-#include "core/machine/service/card_talk.h"
+#include "core/base/clock.h"
+#include "core/pmac/driver/pmac_driver.h"
+#include "core/pmac/service/card_talk.h"
 
 #include <memory>
 #include <string>
@@ -14,8 +14,8 @@ namespace millwright::app {
 /// Connected, with the joint limits of `arm` (a name or a file) and with axis 5 where the card has a motor 5,
 /// as a person wants it: nothing moves for long without us, so a slow line may be slow. Throws Error if
 /// nobody answers as a PMAC.
-[[nodiscard]] std::unique_ptr<machine::PmacDriver>
-connected_pmac(const std::string& port, const std::string& arm, machine::SteadyClock& clock);
+[[nodiscard]] std::unique_ptr<pmac::PmacDriver>
+connected_pmac(const std::string& port, const std::string& arm, SteadyClock& clock);
 
 class PmacTalk {
 public:
@@ -28,7 +28,7 @@ public:
 
     /// For commands that set up motors. Ctrl+C throws Cancelled out of it once, so that what was begun can be
     /// put in order. It must not outlive this.
-    [[nodiscard]] machine::CardTalk card();
+    [[nodiscard]] pmac::CardTalk card();
     /// Closes the loops of the arm's motors: only because a person looked and said so. Throws Error for an
     /// alarm or a motor that gets none.
     void give_power();
@@ -41,8 +41,8 @@ private:
     void wait_for_rest();
 
     Interrupt interrupt_{Suspending::refused};
-    machine::SteadyClock clock_;
-    std::unique_ptr<machine::PmacDriver> driver_;
+    SteadyClock clock_;
+    std::unique_ptr<pmac::PmacDriver> driver_;
     bool cancelled_ = false;
 };
 

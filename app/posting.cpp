@@ -1,7 +1,7 @@
 #include "app/posting.h"
 
 #include "core/base/counted.h"
-#include "core/gcode/posts/post_file.h"
+#include "core/posts/post_file.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>
@@ -25,11 +25,11 @@ CLI::Option& add_post_options(CLI::App& command, PostChoice& choice) {
 namespace {
 
 /// mm by which corners may be rounded: as the first move that says it has it, else the usual.
-double path_tolerance_of(const gcode::Program& program) {
-    const double usual = gcode::TextSettings{}.path_tolerance;
-    for (const gcode::Block& block : program.blocks) {
+double path_tolerance_of(const program::Program& program) {
+    const double usual = posts::TextSettings{}.path_tolerance;
+    for (const program::Block& block : program.blocks) {
         if (block.moves() && block.path) {
-            const bool blends = block.path->mode == gcode::PathMode::continuous;
+            const bool blends = block.path->mode == program::PathMode::continuous;
             const double tolerance = block.path->tolerance > 0.0 ? block.path->tolerance : usual;
             return blends ? tolerance : 0.0;
         }
@@ -37,9 +37,9 @@ double path_tolerance_of(const gcode::Program& program) {
     return usual;
 }
 
-bool path_mode_changes(const gcode::Program& program) {
-    const gcode::Block* first = nullptr;
-    for (const gcode::Block& block : program.blocks) {
+bool path_mode_changes(const program::Program& program) {
+    const program::Block* first = nullptr;
+    for (const program::Block& block : program.blocks) {
         if (block.moves() && first == nullptr) {
             first = &block;
         }
@@ -52,17 +52,17 @@ bool path_mode_changes(const gcode::Program& program) {
 
 } // namespace
 
-PostedText posted(const gcode::Program& program,
+PostedText posted(const program::Program& program,
                   const kinematics::MachineModel& machine,
                   const PostChoice& choice,
                   const std::string& name) {
     const std::filesystem::path file =
         project::post_path(choice.post, std::filesystem::current_path(), project::assets_folder());
-    PostedText result{gcode::read_post(file), {}, path_mode_changes(program)};
-    result.text = gcode::release(program,
+    PostedText result{posts::read_post(file), {}, path_mode_changes(program)};
+    result.text = posts::release(program,
                                  machine,
                                  result.format,
-                                 {.text = {.name = gcode::text_name(name),
+                                 {.text = {.name = posts::text_name(name),
                                            .line_numbers = choice.line_numbers,
                                            .path_tolerance = path_tolerance_of(program)},
                                   .arc_tolerance = choice.arc_tolerance,
@@ -72,7 +72,7 @@ PostedText posted(const gcode::Program& program,
 }
 
 void print_notes(const PostedText& posted) {
-    if (posted.format.positions == gcode::PositionsOf::tip) {
+    if (posted.format.positions == posts::PositionsOf::tip) {
         fmt::print(
             stderr,
             "{}: the tip goes straight from block to block, at most {:.4f} mm from where straight axes "

@@ -1,7 +1,7 @@
 // Programs for any control, on the command line.
 #pragma once
 
-#include "core/gcode/posts/release.h"
+#include "core/posts/release.h"
 
 #include <string>
 
@@ -21,8 +21,8 @@ struct PostChoice {
 };
 
 struct PostedText {
-    gcode::PostFormat format;
-    gcode::ReleasedText text;
+    posts::PostFormat format;
+    posts::ReleasedText text;
     bool path_mode_changes = false; ///< of which the text has the first only
 };
 
@@ -30,7 +30,7 @@ struct PostedText {
 CLI::Option& add_post_options(CLI::App& command, PostChoice& choice);
 
 /// Written and read back. `name` stands in the text where the control wants one. Throws Error.
-[[nodiscard]] PostedText posted(const gcode::Program& program,
+[[nodiscard]] PostedText posted(const program::Program& program,
                                 const kinematics::MachineModel& machine,
                                 const PostChoice& choice,
                                 const std::string& name);

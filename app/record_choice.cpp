@@ -27,11 +27,11 @@ void add_record_options(CLI::App& command, RecordChoice& choice) {
         ->capture_default_str();
 }
 
-std::optional<machine::RecordFormat> record_of(const RecordChoice& choice) {
+std::optional<drivers::RecordFormat> record_of(const RecordChoice& choice) {
     if (choice.pattern.empty()) {
         return std::nullopt;
     }
-    machine::RecordFormat format = choice.format;
+    drivers::RecordFormat format = choice.format;
     format.pattern = choice.pattern;
     format.ending = choice.ending == "crlf" ? "\r\n" : choice.ending == "cr" ? "\r" : "\n";
     return format;

@@ -1,7 +1,7 @@
 // Which records a machine takes that is told where to go in words of its own.
 #pragma once
 
-#include "core/machine/drivers/stream/record_format.h"
+#include "core/drivers/stream/record_format.h"
 
 #include <optional>
 #include <string>
@@ -15,13 +15,13 @@ namespace millwright::app {
 struct RecordChoice {
     std::string pattern; ///< empty: none
     std::string ending = "lf";
-    machine::RecordFormat format = {};
+    drivers::RecordFormat format = {};
 };
 
 /// Adds --record, --ending, --relative, --answer and --patience to `command`.
 void add_record_options(CLI::App& command, RecordChoice& choice);
 
 /// Nothing if no record was named.
-[[nodiscard]] std::optional<machine::RecordFormat> record_of(const RecordChoice& choice);
+[[nodiscard]] std::optional<drivers::RecordFormat> record_of(const RecordChoice& choice);
 
 } // namespace millwright::app

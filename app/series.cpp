@@ -7,7 +7,7 @@
 #include "app/usage_error.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "core/machine/job_queue.h"
+#include "core/jobs/job_queue.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -29,10 +29,10 @@ namespace millwright::app {
 
 namespace {
 
-using machine::JobEnd;
-using machine::JobQueue;
-using machine::QueuedJob;
-using machine::QueueState;
+using jobs::JobEnd;
+using jobs::JobQueue;
+using jobs::QueuedJob;
+using jobs::QueueState;
 
 enum class Decision { begin, leave_out, not_now };
 
@@ -53,11 +53,11 @@ public:
         } else {
             refuse_leftovers();
             queue_->remove_done();
-            std::vector<machine::Job> jobs; // all, before the first is in the queue
+            std::vector<jobs::Job> jobs; // all, before the first is in the queue
             for (const std::string& file : choice_.files) {
                 jobs.push_back(made(file, jobs.empty() ? choice_.from_line : 1));
             }
-            for (const machine::Job& job : jobs) {
+            for (const jobs::Job& job : jobs) {
                 (void)queue_->add(job);
             }
             steps_.ready();
@@ -78,7 +78,7 @@ public:
                 queue_->remove(job->id);
                 continue;
             }
-            const machine::JobOutcome outcome = queue_->run(job->id, steps_.run);
+            const jobs::JobOutcome outcome = queue_->run(job->id, steps_.run);
             say(outcome);
             if (outcome.end == JobEnd::cancelled) {
                 say_what_is_left();
@@ -105,7 +105,7 @@ private:
     std::unique_ptr<JobQueue> queue_;
 
     /// None begins where one of them could not be run; then nothing is left of them.
-    void look_at(const std::vector<machine::Job>& jobs) {
+    void look_at(const std::vector<jobs::Job>& jobs) {
         if (jobs.size() < 2 || !steps_.look) {
             return;
         }
@@ -118,8 +118,8 @@ private:
             throw;
         }
     }
-    [[nodiscard]] machine::Job made(const std::string& file, int from_line) const {
-        machine::Job job = steps_.make(file, from_line);
+    [[nodiscard]] jobs::Job made(const std::string& file, int from_line) const {
+        jobs::Job job = steps_.make(file, from_line);
         job.options = choice_.options;
         return job;
     }
@@ -227,7 +227,7 @@ private:
         return whole ? std::optional(value) : std::nullopt;
     }
 
-    static void say(const machine::JobOutcome& outcome) {
+    static void say(const jobs::JobOutcome& outcome) {
         fmt::print("{}\nLog: {}\n", printable(outcome.sentence), printable(outcome.log_file.string()));
         std::fflush(stdout);
     }
@@ -299,7 +299,7 @@ int run_series(const SeriesChoice& choice, const SeriesSteps& steps, const std::
         if (choice.go_on) {
             throw UsageError("--continue goes on with jobs, and none is run here");
         }
-        std::vector<machine::Job> jobs;
+        std::vector<jobs::Job> jobs;
         for (const std::string& file : choice.files) {
             jobs.push_back(steps.make(file, 1));
         }

@@ -2,7 +2,7 @@
 // of several jobs stays in the folder of the logs, and the same command goes on with it.
 #pragma once
 
-#include "core/machine/job.h"
+#include "core/jobs/job.h"
 #include "core/project/recent_files.h"
 
 #include <functional>
@@ -37,13 +37,13 @@ void add_series_options(CLI::App& command, SeriesChoice& choice, const std::stri
 void add_clearance_option(CLI::App& command, std::optional<double>& clearance);
 
 struct SeriesSteps {
-    std::function<machine::Job(const std::string& file, int from_line)> make;
+    std::function<jobs::Job(const std::string& file, int from_line)> make;
     std::function<void()> ready; ///< once: all jobs are made, none has begun
     /// Throws Error for what the machine that is there now cannot do of one of several; may be none.
-    std::function<void(const machine::Job&)> look = {};
-    std::function<machine::JobOutcome(const machine::Job&)> run;
+    std::function<void(const jobs::Job&)> look = {};
+    std::function<jobs::JobOutcome(const jobs::Job&)> run;
     /// In place of all running: done with each job, which leaves nothing behind. May be none.
-    std::function<void(const machine::Job&)> instead = {};
+    std::function<void(const jobs::Job&)> instead = {};
 };
 
 /// The exit code: 0 if all were done. Throws Error, also for what `steps` throws, or Cancelled.

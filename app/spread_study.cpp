@@ -20,8 +20,8 @@ namespace millwright::app {
 
 namespace {
 
-using project::StudyCase;
-using project::StudyRow;
+using studies::StudyCase;
+using studies::StudyRow;
 
 /// The cases of one rank, one after another; every one is told of, and the end in any case.
 void study_cases(const Ranks& ranks,

@@ -13,8 +13,8 @@ namespace millwright::app {
 namespace {
 
 using Json = nlohmann::json;
-using project::StudyFigures;
-using project::StudyRow;
+using studies::StudyFigures;
+using studies::StudyRow;
 
 /// All figures of a row in one order; time last.
 template <class Figures> auto figures_in_order(Figures& of) {
@@ -72,7 +72,7 @@ Json packed_row(const StudyRow& row) {
 StudyRow unpacked_row(const Json& from) {
     StudyRow row;
     row.of = {from.at("surface"), from.at("machine"), from.at("points"), from.at("tracks")};
-    row.method = project::every_study_method.at(from.at("method").get<std::size_t>());
+    row.method = studies::every_study_method.at(from.at("method").get<std::size_t>());
     row.note = from.at("note");
     row.no_gain = from.at("no_gain");
     row.loss = from.at("loss");

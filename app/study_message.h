@@ -2,7 +2,7 @@
 // their end.
 #pragma once
 
-#include "core/project/kinematic_study.h"
+#include "core/studies/kinematic_study.h"
 
 #include <cstddef>
 #include <optional>
@@ -16,7 +16,7 @@ struct StudyMessage {
     std::optional<std::size_t> at = {};                      ///< index of the case that it is about
     double fraction = 0.0;                                   ///< of that case
     std::string text = {};                                   ///< what is being done, or why it failed
-    std::optional<std::vector<project::StudyRow>> rows = {}; ///< of the case, which is done
+    std::optional<std::vector<studies::StudyRow>> rows = {}; ///< of the case, which is done
     bool failed = false;
     bool ended = false; ///< nothing more comes
 };

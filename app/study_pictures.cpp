@@ -17,7 +17,7 @@ namespace millwright::app {
 
 namespace {
 
-using project::StudyRow;
+using studies::StudyRow;
 
 struct Figure {
     const char* title;
@@ -37,7 +37,7 @@ constexpr std::array figures{
            [](const grid::ErrorSummary& error) { return to_degrees(error.axis_max); }}};
 
 viewport::Chart chart_of(std::span<const StudyRow> rows, const Figure& figure) {
-    const project::StudyCase& of = rows.front().of;
+    const studies::StudyCase& of = rows.front().of;
     viewport::Chart chart;
     chart.title =
         fmt::format("{} on {}, {}: {}", of.surface, of.machine, counted(of.tracks, "track"), figure.title);
@@ -52,8 +52,8 @@ viewport::Chart curves_of(std::span<const StudyRow> rows, const Figure& figure) 
     chart.x_label = "points a track";
     chart.y_is_log = true;
     chart.shows_values = true;
-    for (const project::StudyMethod method : project::every_study_method) {
-        viewport::ChartLine line{std::string(project::label(method)), {}, {}};
+    for (const studies::StudyMethod method : studies::every_study_method) {
+        viewport::ChartLine line{std::string(studies::label(method)), {}, {}};
         for (const StudyRow& row : rows) {
             if (row.method == method && row.figures) {
                 line.x.push_back(row.of.points);
@@ -63,7 +63,7 @@ viewport::Chart curves_of(std::span<const StudyRow> rows, const Figure& figure) 
         chart.lines.push_back(std::move(line));
     }
     for (const StudyRow& row : rows) {
-        if (row.method == project::StudyMethod::uniform) {
+        if (row.method == studies::StudyMethod::uniform) {
             chart.x_ticks.push_back({static_cast<double>(row.of.points), fmt::format("{}", row.of.points)});
         }
     }
@@ -78,7 +78,7 @@ viewport::Chart bars_of(std::span<const StudyRow> rows, const Figure& figure) {
     chart.has_key = false;
     for (std::size_t n = 0; n < rows.size(); ++n) {
         const double x = static_cast<double>(n) + 1.0;
-        const std::string method(project::label(rows[n].method));
+        const std::string method(studies::label(rows[n].method));
         viewport::ChartLine bar{method, {}, {}, true};
         if (rows[n].figures) {
             const double y = figure.of(rows[n].figures->error);
@@ -94,7 +94,7 @@ viewport::Chart bars_of(std::span<const StudyRow> rows, const Figure& figure) {
 
 } // namespace
 
-std::string study_picture_name(const project::StudyCase& of) {
+std::string study_picture_name(const studies::StudyCase& of) {
     return fmt::format("{}-{}.png", of.surface, of.machine);
 }
 
@@ -110,7 +110,7 @@ std::vector<OutputFile> study_pictures(const std::vector<StudyRow>& rows) {
         const auto of = std::span(rows).subspan(from, to - from);
         std::vector<viewport::Chart> charts;
         for (const Figure& figure : figures) {
-            charts.push_back(of.size() > project::every_study_method.size() ? curves_of(of, figure)
+            charts.push_back(of.size() > studies::every_study_method.size() ? curves_of(of, figure)
                                                                             : bars_of(of, figure));
         }
         files.push_back({study_picture_name(of.front().of),

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/outputs.h"
-#include "core/project/kinematic_study.h"
+#include "core/studies/kinematic_study.h"
 
 #include <string>
 #include <vector>
@@ -10,10 +10,10 @@
 namespace millwright::app {
 
 /// Of the file of this surface and machine.
-[[nodiscard]] std::string study_picture_name(const project::StudyCase& of);
+[[nodiscard]] std::string study_picture_name(const studies::StudyCase& of);
 
 /// A PNG file a surface and machine: a curve a method over the numbers of points, or a bar a method where
-/// there is one number. `rows` as project::studied gives them, case after case.
-[[nodiscard]] std::vector<OutputFile> study_pictures(const std::vector<project::StudyRow>& rows);
+/// there is one number. `rows` as studies::studied gives them, case after case.
+[[nodiscard]] std::vector<OutputFile> study_pictures(const std::vector<studies::StudyRow>& rows);
 
 } // namespace millwright::app

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using project::StudyCase;
-using project::StudyRow;
+using studies::StudyCase;
+using studies::StudyRow;
 
 constexpr const char* missing_name = "missing.txt";
 
@@ -56,9 +56,9 @@ std::vector<StudyRow> joined(const std::vector<std::vector<StudyRow>>& rows) {
 }
 
 std::vector<OutputFile> study_tables(const std::vector<StudyRow>& rows) {
-    return {{"kinematic-error.csv", project::study_csv(rows)},
-            {"kinematic-error.json", project::study_json(rows)},
-            {"kinematic-error.md", project::study_markdown(rows)}};
+    return {{"kinematic-error.csv", studies::study_csv(rows)},
+            {"kinematic-error.json", studies::study_json(rows)},
+            {"kinematic-error.md", studies::study_markdown(rows)}};
 }
 
 UnfinishedStudy::UnfinishedStudy(const fs::path& out)

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/outputs.h"
-#include "core/project/kinematic_study.h"
+#include "core/studies/kinematic_study.h"
 
 #include <filesystem>
 #include <optional>
@@ -14,13 +14,13 @@
 namespace millwright::app {
 
 /// For people.
-[[nodiscard]] std::string name_of(const project::StudyCase& of);
+[[nodiscard]] std::string name_of(const studies::StudyCase& of);
 
 /// Of all cases, one case after another.
-[[nodiscard]] std::vector<project::StudyRow> joined(const std::vector<std::vector<project::StudyRow>>& rows);
+[[nodiscard]] std::vector<studies::StudyRow> joined(const std::vector<std::vector<studies::StudyRow>>& rows);
 
 /// kinematic-error.csv, .json and .md.
-[[nodiscard]] std::vector<OutputFile> study_tables(const std::vector<project::StudyRow>& rows);
+[[nodiscard]] std::vector<OutputFile> study_tables(const std::vector<studies::StudyRow>& rows);
 
 /// OUT/unfinished, of one study on any of its ranks.
 class UnfinishedStudy {
@@ -34,14 +34,14 @@ public:
     /// element a case, empty for one that did not come. The first time what an earlier study left goes to a
     /// folder beside it, unfinished-1 ..., which is returned. Throws Error.
     /// `pictures` are written with them.
-    std::optional<std::filesystem::path> keep(std::span<const project::StudyCase> cases,
-                                              const std::vector<std::vector<project::StudyRow>>& rows,
+    std::optional<std::filesystem::path> keep(std::span<const studies::StudyCase> cases,
+                                              const std::vector<std::vector<studies::StudyRow>>& rows,
                                               std::vector<OutputFile> pictures = {});
     /// Whether keep() was called, on whatever rank that writes into the same folder.
     [[nodiscard]] bool kept() const;
     /// Takes away what this one kept, with the pictures of these cases, and the folder where nothing else is
     /// in it. What another study has written there meanwhile stays.
-    void remove(std::span<const project::StudyCase> cases) const;
+    void remove(std::span<const studies::StudyCase> cases) const;
 
 private:
     [[nodiscard]] std::optional<std::filesystem::path> set_earlier_aside() const;

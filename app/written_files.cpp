@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/json.h"
-#include "core/machine/job.h"
+#include "core/jobs/job.h"
 #include "core/project/recent_files.h"
 
 #include <fcntl.h>
@@ -81,7 +81,7 @@ WrittenFiles::WrittenFiles() {
 bool WrittenFiles::holds(const fs::path& file) const {
     const auto found = entries_.find(lasting_path(file));
     try {
-        return found != entries_.end() && machine::program_hash(read_file(file)) == found->second.hash;
+        return found != entries_.end() && jobs::program_hash(read_file(file)) == found->second.hash;
     } catch (const std::exception&) {
         return false;
     }
@@ -89,7 +89,7 @@ bool WrittenFiles::holds(const fs::path& file) const {
 
 bool WrittenFiles::had_other_bytes(const fs::path& file, std::string_view bytes) const {
     const auto found = entries_.find(lasting_path(file));
-    return found != entries_.end() && machine::program_hash(bytes) != found->second.hash;
+    return found != entries_.end() && jobs::program_hash(bytes) != found->second.hash;
 }
 
 std::vector<fs::path> WrittenFiles::written_with(const fs::path& file) const {
@@ -154,7 +154,7 @@ void WrittenFiles::put(const std::vector<fs::path>& files, bool together) {
         if (name.empty()) {
             continue;
         }
-        Entry entry{machine::program_hash(read_file(file)), {}};
+        Entry entry{jobs::program_hash(read_file(file)), {}};
         const auto before = entries_.find(name);
         if (before != entries_.end() && before->second.hash == entry.hash && !before->second.set.empty()) {
             entry.set = before->second.set;
@@ -163,7 +163,7 @@ void WrittenFiles::put(const std::vector<fs::path>& files, bool together) {
         identity += name + "\n" + entry.hash + "\n";
         added[name] = std::move(entry);
     }
-    const std::string set = machine::program_hash(identity);
+    const std::string set = jobs::program_hash(identity);
     for (auto& [name, entry] : entries_) {
         if (together && joined.contains(entry.set)) {
             entry.set = set;

@@ -1,6 +1,6 @@
 // The arm's kinematics beside Orocos KDL's, in one run.
-#include "core/kinematics/arm_forward.h"
-#include "core/kinematics/arm_inverse.h"
+#include "core/arm/arm_forward.h"
+#include "core/arm/arm_inverse.h"
 #include "tests/support/arms.h"
 #include "tests/support/kdl_arm.h"
 
@@ -11,10 +11,10 @@
 namespace millwright {
 namespace {
 
-using kinematics::JointPositions;
+using arm::JointPositions;
 
 struct Poses {
-    kinematics::ArmModel arm = test::arm("motoman-l3");
+    arm::ArmModel arm = test::arm("motoman-l3");
     std::vector<JointPositions> joints;
     std::vector<Frame> goals;
 
@@ -22,7 +22,7 @@ struct Poses {
         std::mt19937 random(1);
         for (int n = 0; n < 1024; ++n) {
             joints.push_back(test::random_joints(random, arm, 0.6));
-            goals.push_back(kinematics::base_T_tool(arm, joints.back()));
+            goals.push_back(arm::base_T_tool(arm, joints.back()));
         }
     }
     [[nodiscard]] std::size_t next() { return at_++ % joints.size(); }
@@ -34,7 +34,7 @@ private:
 void forward(benchmark::State& state) {
     Poses poses;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(kinematics::base_T_tool(poses.arm, poses.joints[poses.next()]));
+        benchmark::DoNotOptimize(arm::base_T_tool(poses.arm, poses.joints[poses.next()]));
     }
 }
 void forward_kdl(benchmark::State& state) {
@@ -47,7 +47,7 @@ void forward_kdl(benchmark::State& state) {
 void jacobian(benchmark::State& state) {
     Poses poses;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(kinematics::arm_jacobian(poses.arm, poses.joints[poses.next()]));
+        benchmark::DoNotOptimize(arm::arm_jacobian(poses.arm, poses.joints[poses.next()]));
     }
 }
 void jacobian_kdl(benchmark::State& state) {
@@ -61,7 +61,7 @@ void inverse_all_branches(benchmark::State& state) {
     Poses poses;
     for (auto _ : state) {
         const std::size_t n = poses.next();
-        benchmark::DoNotOptimize(kinematics::arm_inverse(poses.arm, poses.goals[n], poses.joints[n]));
+        benchmark::DoNotOptimize(arm::arm_inverse(poses.arm, poses.goals[n], poses.joints[n]));
     }
 }
 /// One solution, from 0.1 rad beside it.

@@ -6,7 +6,7 @@
 #include "core/grid/chain_optimiser.h"
 #include "core/kinematics/machine_file.h"
 #include "core/project/assets.h"
-#include "core/project/fewest_points_study.h"
+#include "core/studies/fewest_points_study.h"
 #include "core/toolpath/kinematic_error.h"
 #include "tests/support/inner_tracks.h"
 
@@ -106,9 +106,9 @@ BENCHMARK(dome_in_its_best_set_up)
 void points_for_an_error(benchmark::State& state) {
     const std::map<std::int64_t, double> prototype{{500, 138.0}, {200, 234.0}, {100, 334.0}, {50, 466.0}};
     const std::array tolerance{1e-3 * static_cast<double>(state.range(0))};
-    const project::Folders folders{{}, project::assets_folder()};
+    const plan::Folders folders{{}, project::assets_folder()};
     for (auto _ : state) {
-        const auto row = project::fewest_points({}, tolerance, folders, Progress()).front();
+        const auto row = studies::fewest_points({}, tolerance, folders, Progress()).front();
         state.counters["uniform"] = row.uniform.value_or(0);
         state.counters["fewest"] = row.fewest.value_or(0);
         state.counters["prototype"] = prototype.at(state.range(0));

@@ -1,7 +1,7 @@
 // What a person waits for while dragging a control point of a 20 x 20 project: surface, path and error at
 // once, the optimised grid soon after.
+#include "core/plan/pipeline.h"
 #include "core/project/assets.h"
-#include "core/project/pipeline.h"
 #include "core/project/project_file.h"
 
 #include <benchmark/benchmark.h>
@@ -11,7 +11,7 @@
 namespace millwright::project {
 namespace {
 
-Folders folders() {
+plan::Folders folders() {
     return {assets_folder() / "projects", assets_folder()};
 }
 
@@ -30,28 +30,28 @@ void surface_path_and_error(benchmark::State& state) {
     Project project = sample(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         edit(project);
-        const Workpiece workpiece = workpiece_of(project, folders());
+        const plan::Workpiece workpiece = plan::workpiece_of(project, folders());
         benchmark::DoNotOptimize(
-            evaluate(workpiece, uniform_outcome(project.grid), live_sampling, Progress()));
+            plan::evaluate(workpiece, plan::uniform_outcome(project.grid), plan::live_sampling, Progress()));
     }
 }
 
-void optimised_grid(benchmark::State& state, Effort effort) {
+void optimised_grid(benchmark::State& state, plan::Effort effort) {
     Project project = sample(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         edit(project);
-        const Workpiece workpiece = workpiece_of(project, folders());
-        const Evaluation uniform =
-            evaluate(workpiece, uniform_outcome(project.grid), sampling_of(effort), Progress());
-        benchmark::DoNotOptimize(
-            improved_evaluation({GridMethod::tracks, project.grid, workpiece, effort}, uniform, Progress()));
+        const plan::Workpiece workpiece = plan::workpiece_of(project, folders());
+        const plan::Evaluation uniform = plan::evaluate(
+            workpiece, plan::uniform_outcome(project.grid), plan::sampling_of(effort), Progress());
+        benchmark::DoNotOptimize(plan::improved_evaluation(
+            {GridMethod::tracks, project.grid, workpiece, effort}, uniform, Progress()));
     }
 }
 
 /// From the request to a publication that `fits`, through the pipeline's thread.
 template <class Fits> void through_the_pipeline(benchmark::State& state, Fits fits) {
     std::atomic<int> woken{0};
-    Pipeline pipeline(folders(), [&] {
+    plan::Pipeline pipeline(folders(), [&] {
         ++woken;
         woken.notify_all();
     });
@@ -73,23 +73,23 @@ template <class Fits> void through_the_pipeline(benchmark::State& state, Fits fi
 }
 
 void first_publication(benchmark::State& state) {
-    through_the_pipeline(state, [](const PublishedPlan&) { return true; });
+    through_the_pipeline(state, [](const plan::PublishedPlan&) { return true; });
 }
 
 void quick_program(benchmark::State& state) {
-    through_the_pipeline(state, [](const PublishedPlan& plan) { return plan.plan.program != nullptr; });
+    through_the_pipeline(state, [](const plan::PublishedPlan& plan) { return plan.plan.program != nullptr; });
 }
 
 void exact_plan(benchmark::State& state) {
-    through_the_pipeline(state, [](const PublishedPlan& plan) { return plan.exact; });
+    through_the_pipeline(state, [](const plan::PublishedPlan& plan) { return plan.exact; });
 }
 
 BENCHMARK(surface_path_and_error)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(optimised_grid, live, Effort::live)
+BENCHMARK_CAPTURE(optimised_grid, live, plan::Effort::live)
     ->DenseRange(0, 2)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK_CAPTURE(optimised_grid, full, Effort::full)
+BENCHMARK_CAPTURE(optimised_grid, full, plan::Effort::full)
     ->DenseRange(0, 2)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();

@@ -1,10 +1,10 @@
 // What a frame of the 3D view costs: where no graphics card is, Mesa's llvmpipe draws on the processor, and
 // the person who turns the view waits for it. In memory, so no display is needed.
+#include "core/arm/arm_simulation.h"
 #include "core/geometry/mesh.h"
 #include "core/geometry/presets.h"
-#include "core/kinematics/arm_simulation.h"
+#include "core/plan/plan.h"
 #include "core/project/assets.h"
-#include "core/project/plan.h"
 #include "core/project/project_file.h"
 #include "ui/render/camera.h"
 #include "ui/render/convert.h"
@@ -117,8 +117,8 @@ void view(benchmark::State& state) {
     const render::OffscreenContext context(pane);
     const std::filesystem::path assets = project::assets_folder();
     const project::Project project = project::read_project(assets / "projects/dome.json");
-    const project::Plan plan =
-        project::make_plan(project, {assets / "projects", assets}, Progress(), project::Scope::program);
+    const plan::Plan plan =
+        plan::make_plan(project, {assets / "projects", assets}, Progress(), plan::Scope::program);
     const auto kind = static_cast<ViewKind>(state.range(1));
     SceneView drawn;
     drawn.update(scene_of(project, plan, kind));
@@ -181,14 +181,13 @@ void arm(benchmark::State& state) {
     for (int n = 0; n < points; ++n) {
         const double share = static_cast<double>(n) / points;
         track->tips.emplace_back(700.0 + 200.0 * std::cos(400.0 * share), 400.0 * (share - 0.5), 300.0);
-        track->troubles.push_back(n % 100 < 90 ? kinematics::ArmTrouble::none
-                                               : kinematics::ArmTrouble::out_of_reach);
+        track->troubles.push_back(n % 100 < 90 ? arm::ArmTrouble::none : arm::ArmTrouble::out_of_reach);
     }
     Scene scene;
     scene.layers = layers_of_arm();
     scene.arm = ArmScene{};
     scene.arm->look = look;
-    scene.arm->joints = kinematics::arm_home();
+    scene.arm->joints = arm::arm_home();
     scene.arm->track = track;
     scene.arm->trace = std::make_shared<const std::vector<Vec3>>(track->tips);
     SceneView drawn;

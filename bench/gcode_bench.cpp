@@ -3,8 +3,8 @@
 // the same of the same file in the same run (processor time of both, where rs274 is installed).
 #include "bench/processor_time.h"
 #include "core/base/files.h"
-#include "core/gcode/reader/canon_printer.h"
-#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/canon_printer.h"
+#include "core/gcode/interpreter.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -38,7 +38,7 @@ std::string program_text(int lines) {
 }
 
 /// Of text index, path in memory and on the graphics processor, and what is in force when.
-double bytes_a_move(const project::OpenedProgram& opened) {
+double bytes_a_move(const plan::OpenedProgram& opened) {
     const auto moves = static_cast<double>(opened.path.point_count() - 1);
     const auto on_graphics = static_cast<double>(opened.path.point_count() * sizeof(render::PathVertex));
     return (static_cast<double>(opened.path.bytes() + opened.execution->bytes()) + on_graphics) / moves;

@@ -1,13 +1,13 @@
 // Streaming 1,000 short blocks a second to an emulated Grbl over a pseudo-terminal, in real time: how full
 // its planner is meanwhile. 15 blocks are full; a planner that runs dry brakes.
 #include "core/base/error.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/grbl/grbl_driver.h"
-#include "core/machine/emulators/grbl/grbl_server.h"
-#include "core/machine/job.h"
-#include "core/machine/job_log.h"
-#include "core/machine/links/pseudo_terminal.h"
-#include "core/machine/links/serial_link.h"
+#include "core/drivers/grbl/grbl_driver.h"
+#include "core/emulators/grbl/grbl_server.h"
+#include "core/jobs/dispatcher.h"
+#include "core/jobs/job.h"
+#include "core/jobs/job_log.h"
+#include "core/links/pseudo_terminal.h"
+#include "core/links/serial_link.h"
 #include "tests/support/scratch_folder.h"
 
 #include <benchmark/benchmark.h>
@@ -23,7 +23,7 @@
 namespace millwright {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 
 constexpr int blocks = 5000;
 
@@ -36,7 +36,7 @@ std::string short_blocks() {
 }
 
 /// Waits for the end of a command or a program.
-template <class Look> void watch(const machine::Driver& driver, const Look& look) {
+template <class Look> void watch(const drivers::Driver& driver, const Look& look) {
     while (driver.status().state == DriverState::running) {
         look();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -46,19 +46,19 @@ template <class Look> void watch(const machine::Driver& driver, const Look& look
 
 /// A driver and an emulated controller that can do 1,000 such blocks a second.
 struct Wire {
-    machine::SteadyClock clock;
-    std::unique_ptr<machine::GrblServer> server;
-    std::unique_ptr<machine::GrblDriver> driver;
+    SteadyClock clock;
+    std::unique_ptr<emulators::GrblServer> server;
+    std::unique_ptr<drivers::GrblDriver> driver;
 
     Wire() {
-        auto terminal = std::make_unique<machine::PseudoTerminal>();
+        auto terminal = std::make_unique<links::PseudoTerminal>();
         terminal->open();
-        auto near_end = std::make_unique<machine::SerialLink>(terminal->path());
-        std::vector<std::unique_ptr<machine::Link>> links;
+        auto near_end = std::make_unique<links::SerialLink>(terminal->path());
+        std::vector<std::unique_ptr<links::Link>> links;
         links.push_back(std::move(terminal));
-        server = std::make_unique<machine::GrblServer>(
-            std::move(links), clock, machine::GrblEmulatorOptions{.keep_truth = false});
-        driver = std::make_unique<machine::GrblDriver>(std::move(near_end), clock);
+        server = std::make_unique<emulators::GrblServer>(
+            std::move(links), clock, emulators::GrblEmulatorOptions{.keep_truth = false});
+        driver = std::make_unique<drivers::GrblDriver>(std::move(near_end), clock);
         driver->connect();
         for (const char* setting : {"$110=12000", "$120=9000", "$130=1000"}) {
             (void)driver->command(setting);
@@ -66,7 +66,7 @@ struct Wire {
         }
     }
     [[nodiscard]] int planned() const {
-        return server->with_controller([](machine::GrblEmulator& grbl) { return grbl.planned_blocks(); });
+        return server->with_controller([](emulators::GrblEmulator& grbl) { return grbl.planned_blocks(); });
     }
 };
 
@@ -86,7 +86,7 @@ void stream(benchmark::State& state) {
     for (auto _ : state) {
         std::vector<int> planned;
         const double begin = wire.clock.now();
-        wire.driver->start({nullptr, nullptr, machine::text_job(short_blocks(), "short.ngc").listing, {}});
+        wire.driver->start({nullptr, nullptr, jobs::text_job(short_blocks(), "short.ngc").listing, {}});
         watch(*wire.driver, [&] {
             const int sent = wire.driver->status().sent_blocks;
             if (sent > blocks / 10 && sent < blocks) {
@@ -114,16 +114,15 @@ void stream_a_job(benchmark::State& state) {
                 }
             }
         });
-        machine::Dispatcher dispatcher(*wire.driver, wire.clock, folder.path());
-        const machine::JobOutcome outcome =
-            dispatcher.run(machine::text_job(short_blocks(), "short.ngc"), {});
+        jobs::Dispatcher dispatcher(*wire.driver, wire.clock, folder.path());
+        const jobs::JobOutcome outcome = dispatcher.run(jobs::text_job(short_blocks(), "short.ngc"), {});
         over = true;
         look.join();
-        expects(outcome.end == machine::JobEnd::done, "the job is done");
-        const machine::ReadLog log = machine::read_job_log(outcome.log_file);
+        expects(outcome.end == jobs::JobEnd::done, "the job is done");
+        const jobs::ReadLog log = jobs::read_job_log(outcome.log_file);
         int allowed = 0;
         std::vector<int> unknown;
-        for (const machine::LogRecord& record : log.records) {
+        for (const jobs::LogRecord& record : log.records) {
             allowed = std::max(allowed, record.allowed_blocks);
             unknown.push_back(allowed - record.executed_blocks);
         }

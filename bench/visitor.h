@@ -69,7 +69,7 @@ public:
         longest_cpu_ = std::max(longest_cpu_, processor_time(CLOCK_THREAD_CPUTIME_ID) - cpu);
     }
 
-    [[nodiscard]] std::shared_ptr<const project::OpenedProgram> opened() { return workshop_.look().opened; }
+    [[nodiscard]] std::shared_ptr<const plan::OpenedProgram> opened() { return workshop_.look().opened; }
     [[nodiscard]] actions::Workshop& workshop() { return workshop_; }
     [[nodiscard]] const render::Camera& camera() { return desktop_.window().view().viewport().camera(); }
     void forget_longest() { longest_ = longest_cpu_ = 0.0; }

@@ -1,10 +1,10 @@
 #include "app/commands/arm_bodies.h"
 
 #include "app/arm_choice.h"
+#include "core/arm/arm_file.h"
+#include "core/arm/motoman_solids.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/kinematics/arm_file.h"
-#include "core/kinematics/motoman_solids.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -23,12 +23,12 @@ struct ArmBodiesOptions {
 };
 
 int write_arm_bodies(const ArmBodiesOptions& options) {
-    const kinematics::ArmFile file = arm_file_of(options.arm);
+    const arm::ArmFile file = arm_file_of(options.arm);
     if (!file.actuators) {
         throw Error(file.arm.name() +
                     ": bodies are made from the linkages, which its file does not describe");
     }
-    const kinematics::MotomanSolids made = kinematics::motoman_solids(file.arm, *file.actuators);
+    const arm::MotomanSolids made = arm::motoman_solids(file.arm, *file.actuators);
     write_file(options.out, geometry::glb_of(made.bodies, file.arm.name()));
     fmt::print("{}: {} bodies\n", options.out, made.bodies.size());
     return 0;

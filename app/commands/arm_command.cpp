@@ -8,12 +8,12 @@
 #include "app/commands/arm_reach.h"
 #include "app/commands/arm_service.h"
 #include "app/commands/arm_stream.h"
+#include "core/arm/arm_motion_file.h"
+#include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_motion_file.h"
-#include "core/kinematics/arm_simulation.h"
 #include "ui/actions/motion_file_bench.h"
 
 #include <CLI/Config.hpp>
@@ -29,7 +29,7 @@ namespace millwright::app {
 
 namespace {
 
-using kinematics::ArmModel;
+using arm::ArmModel;
 
 struct ArmSimulationOptions {
     std::string arm = "motoman-l3";
@@ -39,11 +39,11 @@ struct ArmSimulationOptions {
     std::vector<double> start; ///< degrees or mm; empty: the arm's home
 };
 
-kinematics::JointPositions start_of(const ArmModel& arm, const ArmSimulationOptions& options) {
+arm::JointPositions start_of(const ArmModel& arm, const ArmSimulationOptions& options) {
     if (options.start.empty()) {
         return arm.home();
     }
-    kinematics::JointPositions start = given_joints(arm, options.start);
+    arm::JointPositions start = given_joints(arm, options.start);
     if (const int outside = arm.joint_outside(start); outside >= 0) {
         throw Error(fmt::format("--start is outside of the limits of joint {}", arm.joint(outside).name));
     }
@@ -52,14 +52,14 @@ kinematics::JointPositions start_of(const ArmModel& arm, const ArmSimulationOpti
 
 int simulate(const ArmSimulationOptions& options) {
     const ArmModel arm = arm_of(options.arm);
-    const kinematics::JointPositions start = start_of(arm, options);
+    const arm::JointPositions start = start_of(arm, options);
     const std::string text = read_file(options.file);
-    const auto blocks = kinematics::parse_arm_motion(text, options.file);
-    const auto records = kinematics::simulate_arm(arm, blocks, start, options.step_mm, options.file);
+    const auto blocks = arm::parse_arm_motion(text, options.file);
+    const auto records = arm::simulate_arm(arm, blocks, start, options.step_mm, options.file);
     const double seconds = actions::motion_of_file(arm, text, start, options.file).trajectory.duration();
-    write_file(options.out, kinematics::arm_result_text(arm, records));
+    write_file(options.out, arm::arm_result_text(arm, records));
     double most_tilt = 0.0;
-    for (const kinematics::ArmRecord& record : records) {
+    for (const arm::ArmRecord& record : records) {
         most_tilt = std::max(most_tilt, record.tilt);
     }
     fmt::print("{}, {} in {}\nplanned for the arm: {:.2f} s\ntool axis turned by at most {:.3f} deg\n",
@@ -90,7 +90,7 @@ void add_arm_command(CLI::App& app, Command& chosen) {
                     options->start,
                     "Where the joints begin, degrees or mm; without it at the home of the arm")
         ->delimiter(',')
-        ->expected(1, static_cast<int>(kinematics::most_arm_joints))
+        ->expected(1, static_cast<int>(arm::most_arm_joints))
         ->allow_extra_args(false)
         ->type_name("J1,J2,...");
     path.add_option("--out", options->out, "File for the positions and joints")->required();

@@ -1,10 +1,10 @@
 #include "app/commands/arm_drives.h"
 
 #include "app/arm_choice.h"
+#include "core/arm/arm_drive_readings.h"
+#include "core/arm/arm_zone.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/kinematics/arm_drive_readings.h"
-#include "core/kinematics/arm_zone.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -21,8 +21,8 @@ namespace millwright::app {
 
 namespace {
 
-using kinematics::ArmDriveReadings;
-using kinematics::DriveReading;
+using arm::ArmDriveReadings;
+using arm::DriveReading;
 
 struct ArmDrivesOptions {
     std::string arm = "motoman-l3";
@@ -31,9 +31,9 @@ struct ArmDrivesOptions {
     bool json = false;
 };
 
-kinematics::DrivePositions given_counts(const std::vector<double>& numbers) {
+arm::DrivePositions given_counts(const std::vector<double>& numbers) {
     constexpr double most = 1e9;
-    kinematics::DrivePositions counts;
+    arm::DrivePositions counts;
     if (static_cast<Eigen::Index>(numbers.size()) != counts.size()) {
         throw Error(
             fmt::format("the arm has {} drives, {} counts were given", counts.size(), numbers.size()));
@@ -51,7 +51,7 @@ nlohmann::ordered_json finite_or_null(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(rounded(value)) : nlohmann::ordered_json(nullptr);
 }
 
-void print_json(const kinematics::ArmModel& arm, const ArmDriveReadings& found) {
+void print_json(const arm::ArmModel& arm, const ArmDriveReadings& found) {
     nlohmann::ordered_json answer;
     auto joints = nlohmann::ordered_json::array();
     for (int n = 0; n < arm.joint_count(); ++n) {
@@ -84,7 +84,7 @@ std::string counts_text(double value) {
     return std::isfinite(value) ? fixed(value, 1) : "-";
 }
 
-void print_table(const kinematics::ArmModel& arm, const ArmDriveReadings& found) {
+void print_table(const arm::ArmModel& arm, const ArmDriveReadings& found) {
     std::string joints;
     for (int n = 0; n < arm.joint_count(); ++n) {
         joints += fmt::format("{:>14.6f}", from_joint(arm, n, found.joints[n]));
@@ -119,14 +119,14 @@ void print_table(const kinematics::ArmModel& arm, const ArmDriveReadings& found)
 }
 
 int actuators(const ArmDrivesOptions& options) {
-    const kinematics::ArmFile file = arm_file_of(options.arm);
+    const arm::ArmFile file = arm_file_of(options.arm);
     if (!file.actuators) {
         throw Error(file.arm.name() + " has no actuators: its file describes none, each joint is a drive");
     }
     ArmDriveReadings found =
-        options.counts ? kinematics::drive_readings(*file.actuators, given_counts(options.numbers))
-                       : kinematics::drive_readings(*file.actuators, given_joints(file.arm, options.numbers));
-    const std::vector<std::string> others = kinematics::broken_limits(file.arm, std::nullopt, found.joints);
+        options.counts ? arm::drive_readings(*file.actuators, given_counts(options.numbers))
+                       : arm::drive_readings(*file.actuators, given_joints(file.arm, options.numbers));
+    const std::vector<std::string> others = arm::broken_limits(file.arm, std::nullopt, found.joints);
     found.reasons.insert(found.reasons.begin(), others.begin(), others.end());
     options.json ? print_json(file.arm, found) : print_table(file.arm, found);
     return 0;

@@ -5,10 +5,10 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
-#include "core/machine/drivers/pmac/arm_axes.h"
-#include "core/machine/service/direction_check.h"
-#include "core/machine/service/offset_finder.h"
-#include "core/machine/service/step_test.h"
+#include "core/pmac/driver/arm_axes.h"
+#include "core/pmac/service/direction_check.h"
+#include "core/pmac/service/offset_finder.h"
+#include "core/pmac/service/step_test.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/chart_picture.h"
 
@@ -31,9 +31,9 @@ struct ArmMotorOptions {
     std::string arm = "motoman-l3";
     bool apply = false;
     std::optional<int> from;
-    double most_way = machine::OffsetSearch().most_way;
-    machine::StepTest step;
-    machine::DirectionCheck direction;
+    double most_way = pmac::OffsetSearch().most_way;
+    pmac::StepTest step;
+    pmac::DirectionCheck direction;
     bool power = false; ///< a person has looked: the motors may have power
     std::string out;
     std::string picture;
@@ -42,10 +42,10 @@ struct ArmMotorOptions {
 int offset(const ArmMotorOptions& options) {
     PmacTalk talk(options.port, options.arm);
     talk.let_lines_give_power(); // to the motor that creeps
-    machine::OffsetSearch search;
+    pmac::OffsetSearch search;
     search.from = options.from;
     search.most_way = options.most_way;
-    const machine::OffsetFound found = machine::find_offset(talk.card(), options.motor, search);
+    const pmac::OffsetFound found = pmac::find_offset(talk.card(), options.motor, search);
     fmt::print("motor {}: creeps back up to Ix29 = {}, forward from {}: {} is the middle (it was {})\n"
                "at most {:.0f} counts from where it began; it has no power now\n",
                options.motor,
@@ -61,18 +61,18 @@ int offset(const ArmMotorOptions& options) {
     return 0;
 }
 
-std::string csv(const machine::StepResponse& response) {
+std::string csv(const pmac::StepResponse& response) {
     std::string text = "seconds,counts\n";
-    for (const machine::StepReading& reading : response.readings) {
+    for (const pmac::StepReading& reading : response.readings) {
         text += fmt::format("{},{}\n", fixed(reading.time, 4), fixed(reading.position, 1));
     }
     return text;
 }
 
-void draw(const machine::StepResponse& response, const ArmMotorOptions& options) {
+void draw(const pmac::StepResponse& response, const ArmMotorOptions& options) {
     viewport::ChartLine is{"position", {0.0}, {0.0}};
     viewport::ChartLine should{"command", {0.0}, {response.size}};
-    for (const machine::StepReading& reading : response.readings) {
+    for (const pmac::StepReading& reading : response.readings) {
         is.x.push_back(reading.time);
         is.y.push_back(reading.position);
         should.x.push_back(reading.time);
@@ -95,18 +95,18 @@ std::string seconds(double time) {
 
 /// Throws Error for a step that the driver makes a ramp of.
 void expect_step(const ArmMotorOptions& options) {
-    for (const machine::PmacAxis& axis : machine::five_axis_arm_settings().axes) {
+    for (const pmac::PmacAxis& axis : pmac::five_axis_arm_settings().axes) {
         const double degrees = std::abs(options.step.size) / axis.counts_per_degree;
-        if (axis.motor == options.motor && degrees > machine::pmac_step_deg) {
+        if (axis.motor == options.motor && degrees > pmac::pmac_step_deg) {
             throw Error(
                 fmt::format("a step of {:.0f} counts is one of {:.1f} degrees, and beyond {} degrees a "
                             "jog is slowed down",
                             options.step.size,
                             degrees,
-                            machine::pmac_step_deg),
+                            pmac::pmac_step_deg),
                 {},
                 fmt::format("--size {:.0f} at most",
-                            std::floor(machine::pmac_step_deg * axis.counts_per_degree)));
+                            std::floor(pmac::pmac_step_deg * axis.counts_per_degree)));
         }
     }
 }
@@ -117,7 +117,7 @@ int step(const ArmMotorOptions& options) {
     if (options.power) {
         talk.give_power();
     }
-    const machine::StepResponse response = machine::step_test(talk.card(), options.motor, options.step);
+    const pmac::StepResponse response = pmac::step_test(talk.card(), options.motor, options.step);
     fmt::print("motor {}: rise {}, overshoot {:.1f} %, settled {}, {:+.1f} counts at the end\n",
                options.motor,
                seconds(response.rise_time),
@@ -143,8 +143,7 @@ int direction(const ArmMotorOptions& options) {
     if (options.power) {
         talk.give_power();
     }
-    const machine::DirectionFound found =
-        machine::direction_check(talk.card(), options.motor, options.direction);
+    const pmac::DirectionFound found = pmac::direction_check(talk.card(), options.motor, options.direction);
     fmt::print("motor {}: {}{} of a jog were {:+.0f} counts, of a program {:+.0f}: {}\n",
                options.motor,
                found.axis,

@@ -2,13 +2,13 @@
 
 #include "app/arm_choice.h"
 #include "app/usage_error.h"
+#include "core/arm/arm_forward.h"
+#include "core/arm/arm_inverse.h"
+#include "core/arm/arm_solver.h"
+#include "core/arm/arm_zone.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
-#include "core/kinematics/arm_inverse.h"
-#include "core/kinematics/arm_solver.h"
-#include "core/kinematics/arm_zone.h"
 #include "core/kinematics/tool_roll.h"
 #include "core/kinematics/tool_rotation.h"
 
@@ -27,8 +27,8 @@ namespace millwright::app {
 
 namespace {
 
-using kinematics::ArmModel;
-using kinematics::JointPositions;
+using arm::ArmModel;
+using arm::JointPositions;
 
 constexpr int starting_points = 200; ///< for arms without a closed form
 
@@ -63,15 +63,14 @@ void print_rotation(const Mat3& rotation) {
 }
 
 int forward(const ArmPoseOptions& options) {
-    const kinematics::ArmFile file = arm_file_of(options.arm);
+    const arm::ArmFile file = arm_file_of(options.arm);
     const ArmModel& arm = file.arm;
     const JointPositions q = given_joints(arm, options.numbers);
-    const Frame tool = kinematics::base_T_tool(arm, q);
+    const Frame tool = arm::base_T_tool(arm, q);
     const Vec3 tip = tool.translation(), axis = tool.linear().col(2);
     const double roll = to_degrees(kinematics::roll_of(tool.linear()));
-    const double measure =
-        kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
-    const std::vector<std::string> reasons = kinematics::broken_limits(arm, file.actuators, q);
+    const double measure = arm::manipulability(arm::arm_jacobian(arm, q), arm::stretched_length(arm));
+    const std::vector<std::string> reasons = arm::broken_limits(arm, file.actuators, q);
     if (options.json) {
         nlohmann::ordered_json answer;
         answer["x"] = rounded(tip.x());
@@ -104,7 +103,7 @@ int forward(const ArmPoseOptions& options) {
 
 /// Where the tool shall be. With neither roll nor rotation any roll will do.
 struct ToolGoal {
-    kinematics::PointedGoal pointed;
+    arm::PointedGoal pointed;
     std::optional<double> roll;   ///< about the axis, rad
     std::optional<Mat3> rotation; ///< all directions; the axis is its z
 };
@@ -120,7 +119,7 @@ struct Solutions {
 void keep_zone(const ArmModel& arm, Solutions& found) {
     std::string why;
     std::erase_if(found.joints, [&](const JointPositions& q) {
-        const auto breaches = kinematics::zone_breaches(arm, q);
+        const auto breaches = arm::zone_breaches(arm, q);
         why = breaches.empty() ? why : breaches.front().why;
         return !breaches.empty();
     });
@@ -128,8 +127,8 @@ void keep_zone(const ArmModel& arm, Solutions& found) {
 }
 
 void search(const ArmModel& arm, const Frame& goal, bool any_roll, Solutions& found) {
-    const auto demand = any_roll ? kinematics::ArmDemand::tip_and_axis : kinematics::ArmDemand::frame;
-    found.joints = kinematics::solve_arm_from_many_starts(arm, goal, demand, resting(arm), starting_points);
+    const auto demand = any_roll ? arm::ArmDemand::tip_and_axis : arm::ArmDemand::frame;
+    found.joints = arm::solve_arm_from_many_starts(arm, goal, demand, resting(arm), starting_points);
     if (found.joints.empty()) {
         found.reason = fmt::format("none was found from {} starting points", starting_points);
     }
@@ -138,7 +137,7 @@ void search(const ArmModel& arm, const Frame& goal, bool any_roll, Solutions& fo
 /// An arm of five joints holds its tool in its own plane only.
 void solve_in_plane(
     const ArmModel& arm, const ToolGoal& goal, Frame frame, bool any_roll, bool project, Solutions& found) {
-    const auto projected = kinematics::projected_goal(frame);
+    const auto projected = arm::projected_goal(frame);
     const double out =
         projected ? to_degrees(angle_between(projected->linear().col(2), goal.pointed.axis)) : 90.0;
     if (projected && (project || out < rounding_deg)) {
@@ -147,9 +146,9 @@ void solve_in_plane(
                           : kinematics::frame_with_roll(projected->linear().col(2), goal.roll.value_or(0.0));
         found.projected_deg = out;
     }
-    const kinematics::PointedGoal pointed{frame.translation(), frame.linear().col(2)};
-    auto answer = any_roll ? kinematics::arm_inverse(arm, pointed, resting(arm))
-                           : kinematics::arm_inverse(arm, frame, resting(arm));
+    const arm::PointedGoal pointed{frame.translation(), frame.linear().col(2)};
+    auto answer =
+        any_roll ? arm::arm_inverse(arm, pointed, resting(arm)) : arm::arm_inverse(arm, frame, resting(arm));
     found.joints = std::move(answer.branches);
     found.reason = std::move(answer.why);
     if (!any_roll) {
@@ -193,8 +192,7 @@ std::vector<bool> singular_ones(const ArmModel& arm, const std::vector<JointPosi
     constexpr double singular = 1e-6;
     std::vector<bool> found;
     for (const JointPositions& q : solutions) {
-        const double measure =
-            kinematics::manipulability(kinematics::arm_jacobian(arm, q), kinematics::stretched_length(arm));
+        const double measure = arm::manipulability(arm::arm_jacobian(arm, q), arm::stretched_length(arm));
         found.push_back(measure < singular);
     }
     return found;

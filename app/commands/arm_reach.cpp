@@ -3,17 +3,17 @@
 #include "app/arm_choice.h"
 #include "app/diagnostics.h"
 #include "app/watched_work.h"
+#include "core/arm/arm_reach.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/gcode/arm_ways.h"
-#include "core/gcode/reader/interpreter.h"
-#include "core/gcode/reader/machine_program.h"
-#include "core/kinematics/arm_reach.h"
+#include "core/gcode/interpreter.h"
+#include "core/gcode/machine_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
+#include "core/program/arm_ways.h"
 #include "core/project/arm_input.h"
 #include "core/project/assets.h"
 #include "core/project/plot_input.h"
@@ -36,11 +36,11 @@ namespace millwright::app {
 
 namespace {
 
-using kinematics::ArmHole;
-using kinematics::ArmModel;
-using kinematics::ArmReach;
-using kinematics::ArmReachPoint;
-using kinematics::ArmWay;
+using arm::ArmHole;
+using arm::ArmModel;
+using arm::ArmReach;
+using arm::ArmReachPoint;
+using arm::ArmWay;
 using kinematics::MachineModel;
 
 constexpr std::size_t most_holes_shown = 20;
@@ -116,7 +116,7 @@ std::vector<ArmWay> ways_of(const ArmReachOptions& options) {
     }
     print_warnings(found.unplaced);
     auto ways =
-        gcode::arm_ways(std::make_shared<const gcode::Program>(std::move(found.program)), machine, frame);
+        program::arm_ways(std::make_shared<const program::Program>(std::move(found.program)), machine, frame);
     if (ways.empty()) {
         throw Error(
             Diagnostic{.place = {.file = options.file}, .message = "the program moves nothing", .hint = {}});
@@ -127,7 +127,7 @@ std::vector<ArmWay> ways_of(const ArmReachOptions& options) {
 /// What the arm takes for it, s; nothing if it cannot go all of it.
 std::optional<double> planned_path_time(const ArmModel& arm,
                                         const std::vector<ArmWay>& ways,
-                                        const kinematics::ArmPath& path,
+                                        const arm::ArmPath& path,
                                         const ArmReachOptions& options,
                                         const Progress& progress) {
     if (!path.whole()) {
@@ -214,7 +214,7 @@ void print_text(const ArmReachOptions& options,
                    from_joint(arm, joint, reach.highest[n]),
                    shortest(rounded(from_joint(arm, joint, arm.joint(joint).min))),
                    shortest(rounded(from_joint(arm, joint, arm.joint(joint).max))),
-                   arm.joint(joint).kind == kinematics::JointKind::revolute ? "deg" : "mm");
+                   arm.joint(joint).kind == arm::JointKind::revolute ? "deg" : "mm");
     }
     if (reach.lowest.size() > 0) {
         fmt::print(
@@ -246,7 +246,7 @@ nlohmann::ordered_json point_json(const ArmReachPoint& at, const ArmModel& arm, 
     }
     if (at.off.joint.joint >= 0) {
         const int joint = at.off.joint.joint;
-        const bool turns = arm.joint(joint).kind == kinematics::JointKind::revolute;
+        const bool turns = arm.joint(joint).kind == arm::JointKind::revolute;
         json["joint"] = arm.joint(joint).name;
         json[turns ? "joint_deg" : "joint_mm"] = from_joint(arm, joint, at.off.joint.beyond);
     }
@@ -299,12 +299,12 @@ void print_reach_json(const ArmReachOptions& options,
 int reach(const ArmReachOptions& options) {
     const ArmModel arm = arm_of(options.arm);
     const std::vector<ArmWay> ways = ways_of(options);
-    kinematics::ArmPathSettings settings;
+    arm::ArmPathSettings settings;
     settings.tip_tolerance = options.tolerance_mm;
     settings.aim.most_tilt = from_degrees(options.tilt_deg);
     constexpr double followed = 0.8; // of the work
     WatchedWork work;
-    const kinematics::ArmPath path =
+    const arm::ArmPath path =
         follow_path_well(arm, ways, resting(arm), settings, work.progress().part(0.0, followed));
     const std::optional<double> planned =
         planned_path_time(arm, ways, path, options, work.progress().part(followed, 1.0));

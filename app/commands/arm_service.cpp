@@ -4,9 +4,9 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/numbers.h"
-#include "core/machine/service/maestro_amplifier.h"
-#include "core/machine/service/pmac_wiring.h"
-#include "core/machine/service/scale_calibration.h"
+#include "core/pmac/service/maestro_amplifier.h"
+#include "core/pmac/service/pmac_wiring.h"
+#include "core/pmac/service/scale_calibration.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -32,15 +32,14 @@ struct ArmServiceOptions {
 };
 
 int calibrate(const ArmServiceOptions& options) {
-    const auto fits =
-        machine::fit_scales(machine::parse_scale_readings(read_file(options.file), options.file));
+    const auto fits = pmac::fit_scales(pmac::parse_scale_readings(read_file(options.file), options.file));
     if (fits.empty()) {
         throw Error(Diagnostic{.place = {.file = options.file},
                                .message = "there are no readings",
                                .hint = "a line is: motor counts angle"});
     }
     auto list = nlohmann::ordered_json::array();
-    for (const machine::ScaleFit& fit : fits) {
+    for (const pmac::ScaleFit& fit : fits) {
         if (options.json) {
             list.push_back({{"motor", fit.motor},
                             {"counts_per_deg", fit.counts_per_degree},
@@ -73,8 +72,8 @@ std::string kilo_ohms(const std::optional<double>& value) {
     return value ? fmt::format("{:.2f} kOhm", *value) : std::string("none is fitted");
 }
 
-void print_resistor_table(std::span<const machine::FittedResistor> table, double peak, double current) {
-    for (const machine::FittedResistor& row : table) {
+void print_resistor_table(std::span<const pmac::FittedResistor> table, double peak, double current) {
+    for (const pmac::FittedResistor& row : table) {
         if (exactly_equal(row.peak, peak) &&
             exactly_equal(row.current, current)) { // typed as they stand there
             fmt::print("  in the table of model {}: {}\n", row.model, kilo_ohms(row.kilo_ohm));
@@ -83,12 +82,12 @@ void print_resistor_table(std::span<const machine::FittedResistor> table, double
 }
 
 void print_speed(const ArmServiceOptions& options) {
-    const auto speed = machine::speed_resistor(options.max_rpm, options.tacho);
+    const auto speed = pmac::speed_resistor(options.max_rpm, options.tacho);
     fmt::print("RT  (speed): {}\n",
                !speed         ? "none: take a tachometer of a higher constant"
                : *speed > 0.0 ? fmt::format("{:.0f}", *speed)
                               : "a bridge");
-    const auto loss = machine::tacho_loss_resistor(options.max_rpm, options.tacho);
+    const auto loss = pmac::tacho_loss_resistor(options.max_rpm, options.tacho);
     fmt::print("RRT (loss of the tachometer; switch 3 on first): {}\n",
                loss ? fmt::format("{:.0f}", *loss) : "none");
 }
@@ -108,31 +107,31 @@ int amplifier(const ArmServiceOptions& options) {
         print_speed(options);
     }
     if (options.nominal > 0.0) {
-        const auto value = machine::nominal_current_resistor(options.nominal, options.peak);
+        const auto value = pmac::nominal_current_resistor(options.nominal, options.peak);
         fmt::print("RIN (nominal current): {} (as printed {})\n",
                    kilo_ohms(value.corrected),
                    kilo_ohms(value.printed));
-        print_resistor_table(machine::nominal_current_table(), options.peak, options.nominal);
+        print_resistor_table(pmac::nominal_current_table(), options.peak, options.nominal);
     }
     if (options.limit > 0.0) {
         const double nominal = options.nominal > 0.0 ? options.nominal : options.peak / 2.0;
-        const auto value = machine::peak_current_resistor(nominal, options.limit, options.peak);
+        const auto value = pmac::peak_current_resistor(nominal, options.limit, options.peak);
         fmt::print(
             "RIP (peak current): {} (as printed {})\n", kilo_ohms(value.corrected), kilo_ohms(value.printed));
-        print_resistor_table(machine::peak_current_table(), options.peak, options.limit);
+        print_resistor_table(pmac::peak_current_table(), options.peak, options.limit);
     }
     return 0;
 }
 
 /// Of the pins of `motor`, or of all of them, 0.
-std::string trust_text(const machine::PmacPin& pin, int motor) {
+std::string trust_text(const pmac::PmacPin& pin, int motor) {
     const bool differs = motor == 0 && trust_of(pin, 4) != pin.trust;
     return std::string(name_of(motor == 0 ? pin.trust : trust_of(pin, motor))) +
            (differs ? " of motor 1" : "");
 }
 
 int wiring(const ArmServiceOptions& options) {
-    for (const machine::PmacPin& pin : machine::pmac_pins()) {
+    for (const pmac::PmacPin& pin : pmac::pmac_pins()) {
         std::string numbers;
         for (int motor = 1; motor <= 4; ++motor) {
             const int number = pin.of_motor[static_cast<std::size_t>(motor - 1)];
@@ -143,7 +142,7 @@ int wiring(const ArmServiceOptions& options) {
         fmt::print("{:<11}{}  {:<21} {}\n", pin.signal, numbers, trust_text(pin, options.motor), pin.note);
     }
     fmt::print("\n");
-    for (const machine::PmacJumper& jumper : machine::pmac_jumpers()) {
+    for (const pmac::PmacJumper& jumper : pmac::pmac_jumpers()) {
         fmt::print("{:<18}  {:<21}{}\n", jumper.jumper, name_of(jumper.trust), jumper.meaning);
     }
     return 0;

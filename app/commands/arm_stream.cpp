@@ -1,13 +1,13 @@
 #include "app/commands/arm_stream.h"
 
 #include "app/arm_choice.h"
+#include "core/arm/arm_motion_file.h"
+#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/kinematics/arm_motion_file.h"
-#include "core/kinematics/arm_motion_ways.h"
-#include "core/kinematics/arm_simulation.h"
-#include "core/machine/emulators/pmac/shared_memory_stream.h"
+#include "core/pmac/emulator/shared_memory_stream.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -23,8 +23,8 @@
 namespace millwright::app {
 namespace {
 
-using machine::SharedMemoryBuffer;
-using machine::SharedMemoryStream;
+using pmac::SharedMemoryBuffer;
+using pmac::SharedMemoryStream;
 
 struct StreamOptions {
     std::string arm = "motoman-l3";
@@ -40,10 +40,10 @@ struct StreamedFile {
 };
 
 StreamedFile streamed_file(const StreamOptions& options) {
-    const kinematics::ArmModel arm = arm_of(options.arm);
-    const auto blocks = kinematics::parse_arm_motion(read_file(options.file), options.file);
-    const auto records = kinematics::simulate_arm(arm, blocks, arm.home(), options.step_mm, options.file);
-    return {kinematics::first_turns_deg(arm, records), kinematics::sets_feed(blocks)};
+    const arm::ArmModel arm = arm_of(options.arm);
+    const auto blocks = arm::parse_arm_motion(read_file(options.file), options.file);
+    const auto records = arm::simulate_arm(arm, blocks, arm.home(), options.step_mm, options.file);
+    return {arm::first_turns_deg(arm, records), arm::sets_feed(blocks)};
 }
 
 std::string row_of(const SharedMemoryBuffer& now) {

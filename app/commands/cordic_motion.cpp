@@ -3,7 +3,7 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/gcode/reader/cordic_motion.h"
+#include "core/cordic_machine/cordic_motion.h"
 #include "core/motion/plan_within.h"
 #include "core/motion/step_pulses.h"
 
@@ -64,7 +64,7 @@ private:
 
 /// Pulses that come later and later lead the axes beside their path.
 void refuse_overrun(const std::vector<motion::StepJitter>& axes,
-                    const gcode::Program& program,
+                    const program::Program& program,
                     const CordicMotionOptions& options,
                     const std::string& file) {
     for (std::size_t n = 0; n < axes.size(); ++n) {
@@ -86,7 +86,7 @@ void refuse_overrun(const std::vector<motion::StepJitter>& axes,
 }
 
 std::vector<AxisPulses> pulses_of(const motion::Trajectory& trajectory,
-                                  const gcode::Program& program,
+                                  const program::Program& program,
                                   const CordicMotionOptions& options,
                                   const std::string& file) {
     motion::StepSettings settings;
@@ -188,7 +188,7 @@ void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) 
 }
 
 std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
-                                             const gcode::CordicProgram& made,
+                                             const cordic_machine::CordicProgram& made,
                                              const CordicMotionOptions& options,
                                              double most_acceleration,
                                              const std::string& file) {
@@ -205,11 +205,11 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
     }
     const double jerk = s_curve ? options.jerk.value_or(usual_jerk) : 0.0;
     constexpr double of_no_motion = 1.0;
-    const double greatest = std::min(gcode::greatest_acceleration(processor), most_acceleration);
-    const auto machine = gcode::cordic_machine(greatest > 0.0 ? greatest : of_no_motion, jerk);
+    const double greatest = std::min(cordic_machine::greatest_acceleration(processor), most_acceleration);
+    const auto machine = cordic_machine::cordic_machine(greatest > 0.0 ? greatest : of_no_motion, jerk);
     const kinematics::AxisPositions start = kinematics::AxisPositions::Zero(machine.axis_count());
     const auto [program, accelerations] =
-        gcode::cordic_motion(processor, made, machine, start, file, most_acceleration);
+        cordic_machine::cordic_motion(processor, made, machine, start, file, most_acceleration);
     const motion::Trajectory trajectory =
         motion::plan_within(program, accelerations, machine, {}, Progress());
     CordicMotionReport report;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/cordic/processor.h"
-#include "core/gcode/reader/cordic_program.h"
+#include "core/cordic_machine/cordic_program.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -54,7 +54,7 @@ struct CordicMotionReport {
 /// for. Nothing if no motion was asked for. It accelerates as the records say, and by `most_acceleration`
 /// mm/s2 at most. Throws Error.
 [[nodiscard]] std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
-                                                           const gcode::CordicProgram& made,
+                                                           const cordic_machine::CordicProgram& made,
                                                            const CordicMotionOptions& options,
                                                            double most_acceleration,
                                                            const std::string& file);

@@ -37,7 +37,7 @@ int assemble(const CordicProgramsOptions& options) {
     if (std::filesystem::path(options.source.file).extension() == ".bin") {
         throw Error("is an image already", options.source.file, "millwright cordic disasm prints its text");
     }
-    const gcode::CordicProgram program = cordic_program(options.source, options.arithmetic);
+    const cordic_machine::CordicProgram program = cordic_program(options.source, options.arithmetic);
     const auto bytes = cordic::to_bytes(program.image);
     write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     fmt::print("{} of code, {}\n",

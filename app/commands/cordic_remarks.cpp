@@ -31,7 +31,7 @@ bool has_arcs(const cordic::Processor& processor) {
 
 /// Set-points that are where the axes were already. Those of G-code are left out when it is compiled.
 std::optional<Diagnostic> idle_remark(const cordic::Processor& processor,
-                                      const gcode::CordicProgram& program,
+                                      const cordic_machine::CordicProgram& program,
                                       const std::string& file) {
     const auto& published = processor.published();
     const auto same_place = [](const cordic::Published& a, const cordic::Published& b) {
@@ -88,7 +88,7 @@ std::string cause_of_speed_error(const cordic::Processor& processor,
 
 std::vector<Diagnostic> remarks_on(const cordic::Processor& processor,
                                    const cordic::RunReport& report,
-                                   const gcode::CordicProgram& program,
+                                   const cordic_machine::CordicProgram& program,
                                    const CordicChoice& choice,
                                    const std::string& file) {
     const bool of_gcode = !program.points.empty();

@@ -13,7 +13,7 @@ namespace millwright::app {
 /// With the place in `file`, as far as they have one; none if all is as promised.
 [[nodiscard]] std::vector<Diagnostic> remarks_on(const cordic::Processor& processor,
                                                  const cordic::RunReport& report,
-                                                 const gcode::CordicProgram& program,
+                                                 const cordic_machine::CordicProgram& program,
                                                  const CordicChoice& choice,
                                                  const std::string& file);
 

@@ -45,7 +45,7 @@ struct CordicRunOptions {
 };
 
 /// What the axes get of an Amax that was asked for beside the program's own; G-code is compiled with it.
-double most_acceleration(const CordicRunOptions& options, const gcode::CordicProgram& program) {
+double most_acceleration(const CordicRunOptions& options, const cordic_machine::CordicProgram& program) {
     constexpr double half = 0.5; // eq. 4.2
     if (!options.source.acceleration || !program.points.empty()) {
         return std::numeric_limits<double>::infinity();
@@ -54,7 +54,7 @@ double most_acceleration(const CordicRunOptions& options, const gcode::CordicPro
 }
 
 void run_traced(cordic::Processor& processor,
-                const gcode::CordicProgram& program,
+                const cordic_machine::CordicProgram& program,
                 const CordicRunOptions& options) {
     constexpr std::size_t much = 1U << 20U; // a long run has gigabytes of waves
     cordic::VcdWriter waves(processor.format(), options.clock_hz);
@@ -134,7 +134,7 @@ nlohmann::ordered_json json_of_warning(const Diagnostic& warning) {
 
 void print_run_json(JsonMembers& answer,
                     const cordic::Processor& processor,
-                    const gcode::CordicProgram& program,
+                    const cordic_machine::CordicProgram& program,
                     const cordic::RunReport& report,
                     const std::optional<cordic::SupervisedRun>& supervised,
                     bool has_exact) {
@@ -201,8 +201,9 @@ void fill_ram(cordic::Processor& processor, const CordicRunOptions& options) {
     std::ranges::copy(bytes, ram.begin());
 }
 
-std::optional<cordic::SupervisedRun>
-execute(cordic::Processor& processor, const gcode::CordicProgram& program, const CordicRunOptions& options) {
+std::optional<cordic::SupervisedRun> execute(cordic::Processor& processor,
+                                             const cordic_machine::CordicProgram& program,
+                                             const CordicRunOptions& options) {
     if (!options.plc.logic.empty()) {
         return run_with_logic(
             processor, program.code_lines, options.source.file, options.plc, options.clock_hz);
@@ -232,7 +233,7 @@ bool is_at_an_end(const cordic::Processor& processor,
 int run_cordic_program(const CordicRunOptions& options) {
     CordicSource source = options.source;
     source.plans_motion = !options.motion.profile.empty();
-    const gcode::CordicProgram program = cordic_program(source, options.choice.arithmetic);
+    const cordic_machine::CordicProgram program = cordic_program(source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     fill_ram(processor, options);
     const auto supervised = execute(processor, program, options);

@@ -28,12 +28,14 @@ struct CordicSewOptions {
 };
 
 /// Of the program, from which the n-th set-point comes; 0: not known.
-int gcode_line_of(const cordic::Processor& processor, const gcode::CordicProgram& program, std::size_t n) {
+int gcode_line_of(const cordic::Processor& processor,
+                  const cordic_machine::CordicProgram& program,
+                  std::size_t n) {
     return cordic::line_at(program.code_lines, processor.published()[n].instruction_at).line;
 }
 
 int sew(const CordicSewOptions& options) {
-    const gcode::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
+    const cordic_machine::CordicProgram program = cordic_program(options.source, options.choice.arithmetic);
     cordic::Processor processor = cordic_processor(options.choice, program.image);
     execute_to_end(processor, program, options.source, options.choice, options.most_clocks);
     if (processor.state().stop != cordic::Stop::halted) {

@@ -11,8 +11,8 @@
 #include "core/cordic/endless_watch.h"
 #include "core/cordic/microprogram.h"
 #include "core/cordic/run_report.h"
-#include "core/gcode/reader/interpreter.h"
-#include "core/gcode/reader/work_origin.h"
+#include "core/gcode/interpreter.h"
+#include "core/gcode/work_origin.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -49,18 +49,19 @@ cordic::ProcessorSettings processor_settings(const cordic::MadeFor& made_for) {
     return settings;
 }
 
-gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic& arithmetic) {
+cordic_machine::CordicProgram compiled(const CordicSource& source, const CordicArithmetic& arithmetic) {
     const cordic::MadeFor made_for = made_for_options(arithmetic);
-    gcode::CordicProgramSettings settings;
+    cordic_machine::CordicProgramSettings settings;
     settings.format = source_format(source);
     settings.processor = processor_settings(made_for);
     settings.chord_tolerance = source.tolerance;
-    settings.arc_end = source.thesis_arcs ? gcode::ArcEnd::rotated : gcode::ArcEnd::programmed;
+    settings.arc_end =
+        source.thesis_arcs ? cordic_machine::ArcEnd::rotated : cordic_machine::ArcEnd::programmed;
     settings.lets_arcs_drift = source.whole_arcs;
     settings.rapid_speed = from_mm_per_min(source.rapid_mm_per_min);
     settings.acceleration = source.acceleration.value_or(settings.acceleration);
     settings.leaves_out_other_axes = source.other_axes;
-    gcode::CordicProgramBuilder builder(source.file, settings);
+    cordic_machine::CordicProgramBuilder builder(source.file, settings);
     gcode::ReaderSettings reading;
     reading.any_tool = true;
     reading.most_errors = 100;
@@ -70,7 +71,7 @@ gcode::CordicProgram compiled(const CordicSource& source, const CordicArithmetic
     gcode::Interpreter program(source.file, std::move(reading), builder);
     program.run();
     refuse(program.errors());
-    gcode::CordicProgram made = builder.take();
+    cordic_machine::CordicProgram made = builder.take();
     refuse(made.faults);
     refuse(made.unplaced);
     print_warnings(made.warnings);
@@ -127,7 +128,7 @@ void expect_arithmetic(const CordicSource& source,
     }
 }
 
-gcode::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& arithmetic) {
+cordic_machine::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& arithmetic) {
     const std::string bytes = read_file(source.file);
     cordic::Image image = cordic::parse_image(text_bytes(bytes), source.file);
     expect_format(source, image.format);
@@ -135,7 +136,7 @@ gcode::CordicProgram loaded(const CordicSource& source, const CordicArithmetic& 
     return {std::move(image), {}, {}, {}, {}, {}};
 }
 
-gcode::CordicProgram assembled(const CordicSource& source, const CordicArithmetic& arithmetic) {
+cordic_machine::CordicProgram assembled(const CordicSource& source, const CordicArithmetic& arithmetic) {
     auto made = cordic::assemble(
         read_file(source.file), source.file, source_format(source), made_for_options(arithmetic));
     refuse(made.errors);
@@ -186,7 +187,7 @@ void add_cordic_source(CLI::App& command, CordicSource& source, const char* kind
         command.get_option("--origin")};
     command.add_option("--acceleration", source.acceleration, "G-code: Amax, mm/s2")
         ->check(CLI::Range(1e-3, 1e7))
-        ->default_str(fmt::format("{}", gcode::CordicProgramSettings().acceleration));
+        ->default_str(fmt::format("{}", cordic_machine::CordicProgramSettings().acceleration));
 }
 
 CLI::Validator number_format_text() {
@@ -247,7 +248,7 @@ void refuse(const std::vector<Diagnostic>& errors) {
     }
 }
 
-gcode::CordicProgram cordic_program(const CordicSource& source, const CordicArithmetic& arithmetic) {
+cordic_machine::CordicProgram cordic_program(const CordicSource& source, const CordicArithmetic& arithmetic) {
     if (is_gcode(source)) {
         return compiled(source, arithmetic);
     }
@@ -278,7 +279,7 @@ std::int64_t most_clocks_of(const CordicSource& source, const CordicChoice& choi
 }
 
 Error goes_round(const cordic::Processor& processor,
-                 const gcode::CordicProgram& program,
+                 const cordic_machine::CordicProgram& program,
                  const CordicSource& source) {
     const cordic::CodeAddress address = processor.state().instruction_at;
     const cordic::CodeLine at = cordic::line_at(program.code_lines, address);
@@ -292,7 +293,7 @@ Error goes_round(const cordic::Processor& processor,
 }
 
 void execute_to_end(cordic::Processor& processor,
-                    const gcode::CordicProgram& program,
+                    const cordic_machine::CordicProgram& program,
                     const CordicSource& source,
                     const CordicChoice& choice,
                     std::optional<std::int64_t> most_clocks) {
@@ -310,7 +311,7 @@ void add_cordic_clocks(CLI::App& command, std::optional<std::int64_t>& most_cloc
 }
 
 Error not_at_its_end(const cordic::Processor& processor,
-                     const gcode::CordicProgram& program,
+                     const cordic_machine::CordicProgram& program,
                      const CordicSource& source,
                      const CordicChoice& choice) {
     const cordic::ProcessorState& state = processor.state();

@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/cordic/processor.h"
-#include "core/gcode/reader/cordic_program.h"
+#include "core/cordic_machine/cordic_program.h"
 
 #include <CLI/App.hpp>
 
@@ -18,8 +18,8 @@ namespace millwright::app {
 struct CordicSource {
     std::string file;                  ///< G-code, assembler text (.asm) or image (.bin)
     std::optional<std::string> format; ///< of an image: its own; else f32
-    double tolerance = gcode::usual_chord_tolerance;
-    double rapid_mm_per_min = to_mm_per_min(gcode::CordicProgramSettings().rapid_speed);
+    double tolerance = cordic_machine::usual_chord_tolerance;
+    double rapid_mm_per_min = to_mm_per_min(cordic_machine::CordicProgramSettings().rapid_speed);
     std::optional<double> acceleration; ///< Amax; of G-code without it that of CordicProgramSettings
     bool thesis_arcs = false;
     bool whole_arcs = false;
@@ -65,21 +65,21 @@ void refuse(const std::vector<Diagnostic>& errors);
 /// Made for such arithmetic. Throws Error, after printing what is wrong, if it is no program of the
 /// processor, for options that mean nothing to it, and if it is made for other arithmetic. Warnings are
 /// printed.
-[[nodiscard]] gcode::CordicProgram cordic_program(const CordicSource& source,
-                                                  const CordicArithmetic& arithmetic);
+[[nodiscard]] cordic_machine::CordicProgram cordic_program(const CordicSource& source,
+                                                           const CordicArithmetic& arithmetic);
 
 [[nodiscard]] cordic::Processor cordic_processor(const CordicChoice& choice, const cordic::Image& image);
 
 /// To the end, or `most_clocks` where they are asked for. Throws Error for a program that goes round without
 /// end, with the place in it; G-code ends, unless a microprogram of one's own executes it.
 void execute_to_end(cordic::Processor& processor,
-                    const gcode::CordicProgram& program,
+                    const cordic_machine::CordicProgram& program,
                     const CordicSource& source,
                     const CordicChoice& choice,
                     std::optional<std::int64_t> most_clocks);
 /// Of the instruction that goes round.
 [[nodiscard]] Error goes_round(const cordic::Processor& processor,
-                               const gcode::CordicProgram& program,
+                               const cordic_machine::CordicProgram& program,
                                const CordicSource& source);
 /// What is executed where no --clocks is given.
 [[nodiscard]] std::int64_t most_clocks_of(const CordicSource& source, const CordicChoice& choice);
@@ -88,7 +88,7 @@ void add_cordic_clocks(CLI::App& command, std::optional<std::int64_t>& most_cloc
 /// Why the processor is not at the end of `program`, with the place in it or in the microprogram. `clocks`:
 /// how many it had.
 [[nodiscard]] Error not_at_its_end(const cordic::Processor& processor,
-                                   const gcode::CordicProgram& program,
+                                   const cordic_machine::CordicProgram& program,
                                    const CordicSource& source,
                                    const CordicChoice& choice);
 

@@ -10,8 +10,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/project/cut_remarks.h"
-#include "core/project/cut_study.h"
+#include "core/plan/cut_remarks.h"
+#include "core/plan/cut_study.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
 
@@ -40,14 +40,14 @@ struct CutterOptions {
     bool allow_gouges = false;
 };
 
-void print_cutter_summary(const project::Plan& plan, const project::Project& project) {
-    const project::Evaluation& chosen = *plan.program_path(project);
-    const project::CutStudy& study = *plan.cut;
+void print_cutter_summary(const plan::Plan& plan, const project::Project& project) {
+    const plan::Evaluation& chosen = *plan.program_path(project);
+    const plan::CutStudy& study = *plan.cut;
     fmt::print("error of the cutter: at most {} mm, {} mm on average; axis at most {} deg off\n",
                fixed(chosen.closest.max, 4),
                fixed(chosen.closest.mean, 4),
                fixed(to_degrees(chosen.closest.axis_max), 2));
-    fmt::print("left on the surface: {}\n", project::left_text(project, plan));
+    fmt::print("left on the surface: {}\n", plan::left_text(project, plan));
     fmt::print("tracks: {}; a scallop of {} mm asks for {}\n",
                chosen.track_gap ? "at most " + fixed(*chosen.track_gap, 3) + " mm apart"
                                 : "as far apart as the scallop allows",
@@ -55,21 +55,21 @@ void print_cutter_summary(const project::Plan& plan, const project::Project& pro
                std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm" : std::string("no gap"));
     fmt::print("deepest cut below the surface: {} mm ({}); estimated time {}\n",
                fixed(study.deepest, 4),
-               project::checked_text(project),
+               plan::checked_text(project),
                clock_time(plan.trajectory->duration()));
 }
 
-void print_why_higher(const project::Project& project, const project::Plan& plan) {
-    if (const std::string why = project::why_higher(project, plan); !why.empty()) {
+void print_why_higher(const project::Project& project, const plan::Plan& plan) {
+    if (const std::string why = plan::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }
 }
 
 /// A few by name, the rest by their number: all of them are in cut.json.
-void print_bites(const project::CutStudy& study) {
+void print_bites(const plan::CutStudy& study) {
     constexpr std::size_t named = 5;
     for (std::size_t n = 0; n < std::min(named, study.bites.size()); ++n) {
-        const project::BlockBite& bite = study.bites[n];
+        const plan::BlockBite& bite = study.bites[n];
         fmt::print(stderr,
                    "warning: line {}: the {} is {} mm deep in the part at {} {} {}\n",
                    bite.line,
@@ -84,7 +84,7 @@ void print_bites(const project::CutStudy& study) {
             stderr, "warning: {}, all in cut.json\n", counted(study.bites.size() - named, "more such line"));
     }
     if (!study.local_gouges.empty()) {
-        const project::LocalGouge& first = study.local_gouges.front();
+        const plan::LocalGouge& first = study.local_gouges.front();
         fmt::print(stderr,
                    "warning: the cutter does not fit into the surface at {}, the first of them {},{}\n",
                    counted(study.local_gouges.size(), "node"),
@@ -107,18 +107,18 @@ int cut(const CutterOptions& options) {
                     "name a tool file with --tool");
     }
     const OutputFolder folder(options.out);
-    project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
+    plan::Plan plan = planned(opened, plan::Scope::program, interrupt.token());
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
-    project::add_cut_study(plan, project, progress);
+    plan::add_cut_study(plan, project, progress);
     printer.finish();
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
-    OutputSet set{{{"cut.json", project::cut_report_text(project, plan)},
-                   {"surface.csv", project::surface_csv(*plan.workpiece, plan.cut->swept)}}};
+    OutputSet set{{{"cut.json", plan::cut_report_text(project, plan)},
+                   {"surface.csv", plan::surface_csv(*plan.workpiece, plan.cut->swept)}}};
     if (writes) {
         set.files.push_back({program, text.text.listing.text});
     } else { // an older one would be taken for it
@@ -130,7 +130,7 @@ int cut(const CutterOptions& options) {
     fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
     print_cutter_summary(plan, project);
     print_why_higher(project, plan);
-    if (const std::string why = project::why_not_kept(project, *plan.program_path(project)); !why.empty()) {
+    if (const std::string why = plan::why_not_kept(project, *plan.program_path(project)); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }
     print_bites(*plan.cut);

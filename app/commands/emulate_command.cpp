@@ -5,11 +5,11 @@
 #include "app/usage_error.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/emulators/grbl/grbl_emulator.h"
+#include "core/emulators/linuxcnc/linuxcnc_emulator.h"
+#include "core/emulators/stream/stream_emulator.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/emulators/grbl/grbl_emulator.h"
-#include "core/machine/emulators/linuxcnc/linuxcnc_emulator.h"
-#include "core/machine/emulators/pmac/pmac_emulator.h"
-#include "core/machine/emulators/stream/stream_emulator.h"
+#include "core/pmac/emulator/pmac_emulator.h"
 #include "core/project/assets.h"
 
 #include <CLI/Config.hpp>
@@ -47,12 +47,12 @@ struct EmulateOptions {
 
 struct FirmwareName {
     std::string_view name, version;
-    machine::EmulatedFirmware firmware;
+    emulators::EmulatedFirmware firmware;
 };
 constexpr std::array firmware_names = {
-    FirmwareName{"grbl", "Grbl 1.1h", machine::EmulatedFirmware::grbl},
-    FirmwareName{"grblhal", "grblHAL 1.1f", machine::EmulatedFirmware::grblhal},
-    FirmwareName{"fluidnc", "FluidNC v3.7.12", machine::EmulatedFirmware::fluidnc}};
+    FirmwareName{"grbl", "Grbl 1.1h", emulators::EmulatedFirmware::grbl},
+    FirmwareName{"grblhal", "grblHAL 1.1f", emulators::EmulatedFirmware::grblhal},
+    FirmwareName{"fluidnc", "FluidNC v3.7.12", emulators::EmulatedFirmware::fluidnc}};
 
 int emulate_grbl(const EmulateOptions& options) {
     const auto* const firmware = std::ranges::find(firmware_names, options.firmware, &FirmwareName::name);
@@ -64,15 +64,15 @@ int emulate_grbl(const EmulateOptions& options) {
         throw UsageError("who opens a pseudo-terminal is not known", {}, "--reset-when-opened needs --tcp");
     }
     return serve(options.wire, std::string(firmware->version), [&] {
-        auto grbl = std::make_unique<machine::GrblEmulator>(
-            machine::GrblEmulatorOptions{.firmware = firmware->firmware,
-                                         .axes = options.axes,
-                                         .eeprom_file = options.eeprom,
-                                         .line_numbers = options.line_numbers,
-                                         .echo = options.echo,
-                                         .mist = options.mist,
-                                         .keep_truth = false,
-                                         .surface = surface});
+        auto grbl = std::make_unique<emulators::GrblEmulator>(
+            emulators::GrblEmulatorOptions{.firmware = firmware->firmware,
+                                           .axes = options.axes,
+                                           .eeprom_file = options.eeprom,
+                                           .line_numbers = options.line_numbers,
+                                           .echo = options.echo,
+                                           .mist = options.mist,
+                                           .keep_truth = false,
+                                           .surface = surface});
         if (options.no_switches) {
             grbl->break_limit_switches();
         }
@@ -81,7 +81,7 @@ int emulate_grbl(const EmulateOptions& options) {
 }
 
 int emulate_linuxcnc(const EmulateOptions& options) {
-    machine::LinuxCncEmulatorOptions wanted;
+    emulators::LinuxCncEmulatorOptions wanted;
     wanted.model = std::make_shared<const kinematics::MachineModel>(kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
     for (const kinematics::MachineAxis& axis : wanted.model->axes()) {
@@ -91,11 +91,11 @@ int emulate_linuxcnc(const EmulateOptions& options) {
     }
     wanted.homed = options.homed;
     return serve(
-        options.wire, "LinuxCNC", [&] { return std::make_unique<machine::LinuxCncEmulator>(wanted); });
+        options.wire, "LinuxCNC", [&] { return std::make_unique<emulators::LinuxCncEmulator>(wanted); });
 }
 
-void tell_samples(const machine::StreamEmulator& stream) {
-    const machine::StreamTruth& truth = stream.truth();
+void tell_samples(const emulators::StreamEmulator& stream) {
+    const emulators::StreamTruth& truth = stream.truth();
     fmt::print("{}\n", counted(truth.samples, "sample"));
     for (std::size_t n = 0; n < stream.position().size(); ++n) {
         fmt::print("{} {:.4f}, at most {:.2f} a second\n",
@@ -114,17 +114,17 @@ int emulate_stream(const EmulateOptions& options) {
     return serve(
         options.wire,
         "A coordinate stream",
-        [] { return std::make_unique<machine::StreamEmulator>(); },
-        [](const machine::Emulator& served) {
-            tell_samples(static_cast<const machine::StreamEmulator&>(served));
+        [] { return std::make_unique<emulators::StreamEmulator>(); },
+        [](const emulators::Emulator& served) {
+            tell_samples(static_cast<const emulators::StreamEmulator&>(served));
         });
 }
 
 int emulate_pmac(const EmulateOptions& options) {
-    const machine::PmacEmulatorOptions wanted{.plants = options.arm ? machine::arm_plants()
-                                                                    : std::vector<machine::PmacPlant>{},
-                                              .channels = options.channels};
-    return serve(options.wire, "PMAC-Lite", [&] { return std::make_unique<machine::PmacEmulator>(wanted); });
+    const pmac::PmacEmulatorOptions wanted{.plants = options.arm ? pmac::arm_plants()
+                                                                 : std::vector<pmac::PmacPlant>{},
+                                           .channels = options.channels};
+    return serve(options.wire, "PMAC-Lite", [&] { return std::make_unique<pmac::PmacEmulator>(wanted); });
 }
 
 CLI::App& add_emulated(CLI::App& group,

@@ -5,9 +5,9 @@
 #include "app/usage_error.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/emulators/table/table_emulator.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/emulators/table/table_emulator.h"
-#include "core/machine/links/faults.h"
+#include "core/links/faults.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>
@@ -26,11 +26,11 @@ namespace {
 struct TableChoice {
     EmulationChoice wire;
     std::string machine = "forming-table";
-    RecordChoice record = {.pattern = machine::RecordFormat().pattern, .format = {}};
-    machine::TableOptions table;
+    RecordChoice record = {.pattern = drivers::RecordFormat().pattern, .format = {}};
+    emulators::TableOptions table;
 };
 
-void tell_records(const machine::TableEmulator& table,
+void tell_records(const emulators::TableEmulator& table,
                   const kinematics::MachineModel& model,
                   const std::string& pattern) {
     fmt::print("{} obeyed, {}, at",
@@ -48,17 +48,17 @@ void tell_records(const machine::TableEmulator& table,
 int emulate_table(const TableChoice& choice) {
     const kinematics::MachineModel model = kinematics::read_machine(
         project::machine_path(choice.machine, std::filesystem::current_path(), project::assets_folder()));
-    const machine::RecordFormat format = record_of(choice.record).value();
-    if (machine::read_fault_spec(choice.wire.faults).lost_ok > 0.0 && format.answer != "ok") {
+    const drivers::RecordFormat format = record_of(choice.record).value();
+    if (links::read_fault_spec(choice.wire.faults).lost_ok > 0.0 && format.answer != "ok") {
         throw UsageError(
             "the fault lost-ok loses an answer 'ok', which this table does not give", {}, "give --answer ok");
     }
     return serve(
         choice.wire,
         model.name(),
-        [&] { return std::make_unique<machine::TableEmulator>(format, model, choice.table); },
-        [&](const machine::Emulator& served) {
-            tell_records(static_cast<const machine::TableEmulator&>(served), model, format.pattern);
+        [&] { return std::make_unique<emulators::TableEmulator>(format, model, choice.table); },
+        [&](const emulators::Emulator& served) {
+            tell_records(static_cast<const emulators::TableEmulator&>(served), model, format.pattern);
         });
 }
 

@@ -9,14 +9,14 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
-#include "core/gcode/reader/canon_printer.h"
-#include "core/gcode/reader/interpreter.h"
-#include "core/gcode/reader/klartext.h"
-#include "core/gcode/reader/language.h"
-#include "core/gcode/reader/line_index.h"
-#include "core/gcode/reader/machine_program.h"
-#include "core/gcode/reader/program_text.h"
-#include "core/gcode/reader/tool_comments.h"
+#include "core/gcode/canon_printer.h"
+#include "core/gcode/interpreter.h"
+#include "core/gcode/klartext.h"
+#include "core/gcode/language.h"
+#include "core/gcode/line_index.h"
+#include "core/gcode/machine_program.h"
+#include "core/gcode/program_text.h"
+#include "core/gcode/tool_comments.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/motion/time_estimate.h"
@@ -216,7 +216,7 @@ MachineRun machine_run(const GcodeOptions& options) {
 
 /// Whose lines are those of `file`.
 PostedText posted_from(const std::string& file,
-                       const gcode::Program& program,
+                       const program::Program& program,
                        const kinematics::MachineModel& machine,
                        const PostChoice& post) {
     try {
@@ -232,8 +232,8 @@ PostedText posted_from(const std::string& file,
 
 /// That the comments of the file name, which are not taken along otherwise. What can be read but once has
 /// none.
-std::vector<gcode::ProgramCutter> cutters_named_in(const std::string& file) {
-    std::vector<gcode::ProgramCutter> cutters;
+std::vector<program::ProgramCutter> cutters_named_in(const std::string& file) {
+    std::vector<program::ProgramCutter> cutters;
     std::error_code none;
     if (std::filesystem::is_regular_file(file, none)) {
         for (const gcode::CommentTool& tool : gcode::tools_in_comments(read_file(file))) {
@@ -255,8 +255,8 @@ int convert_gcode(const GcodeOptions& options) {
     if (run.found.start_notice) {
         fmt::print(stderr, "warning: {}\n", to_text(*run.found.start_notice));
     }
-    const bool spindle_turns = std::ranges::any_of(run.found.program.blocks, [](const gcode::Block& block) {
-        return block.kind == gcode::BlockKind::spindle_on;
+    const bool spindle_turns = std::ranges::any_of(run.found.program.blocks, [](const program::Block& block) {
+        return block.kind == program::BlockKind::spindle_on;
     });
     if (!spindle_turns && run.found.first_rpm > 0.0) {
         fmt::print(
@@ -296,7 +296,7 @@ public:
                        : gcode::Interpreter(options.file, reader_settings(options), builder_)) {}
 
     /// False at the end of the file.
-    [[nodiscard]] bool next(std::vector<gcode::Block>& blocks) {
+    [[nodiscard]] bool next(std::vector<program::Block>& blocks) {
         blocks.clear();
         constexpr int lines = 1000;
         bool more = true;
@@ -328,15 +328,15 @@ motion::FilterTime filter_time(const GcodeOptions& options,
                                const std::optional<std::string>& text) {
     motion::FilterTime filter(machine, start);
     BlockStream stream(options, machine, text);
-    std::vector<gcode::Block> blocks;
+    std::vector<program::Block> blocks;
     for (bool more = true; more && !filter.settled();) {
         more = stream.next(blocks);
-        for (const gcode::Block& block : blocks) {
+        for (const program::Block& block : blocks) {
             filter.add(block);
         }
     }
     if (!filter.settled()) {
-        for (const gcode::Block& block : stream.rest().program.blocks) {
+        for (const program::Block& block : stream.rest().program.blocks) {
             filter.add(block);
         }
     }
@@ -362,10 +362,10 @@ EstimatedTime estimated_time(const GcodeOptions& options) {
     motion::TimeEstimate estimate(
         machine, planner_settings(options), start, filter_time(options, machine, start, text));
     BlockStream stream(options, machine, text);
-    std::vector<gcode::Block> blocks;
+    std::vector<program::Block> blocks;
     for (bool more = true; more;) {
         more = stream.next(blocks);
-        for (const gcode::Block& block : blocks) {
+        for (const program::Block& block : blocks) {
             estimate.add(block);
         }
     }
@@ -373,7 +373,7 @@ EstimatedTime estimated_time(const GcodeOptions& options) {
     const int count = stream.block_count();
     const gcode::MachineProgram rest = stream.rest();
     throw_first(rest.faults);
-    for (const gcode::Block& block : rest.program.blocks) {
+    for (const program::Block& block : rest.program.blocks) {
         estimate.add(block);
     }
     std::vector<Diagnostic> warnings = rest.unplaced;

@@ -1,8 +1,8 @@
 #include "app/commands/gcode_options.h"
 
 #include "app/origin_choice.h"
-#include "core/gcode/reader/parameter_file.h"
-#include "core/gcode/reader/work_origin.h"
+#include "core/gcode/parameter_file.h"
+#include "core/gcode/work_origin.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -51,7 +51,7 @@ gcode::ReaderSettings reader_settings(const GcodeOptions& options) {
 motion::PlannerSettings planner_settings(const GcodeOptions& options) {
     motion::PlannerSettings settings;
     if (options.path_tolerance > 0.0) {
-        settings.path = {gcode::PathMode::continuous, options.path_tolerance};
+        settings.path = {program::PathMode::continuous, options.path_tolerance};
     }
     const bool is_grbl = options.dialect == "grbl";
     const double deviation = options.junction_deviation.value_or(is_grbl ? grbl_junction_deviation : 0.0);

@@ -59,9 +59,9 @@ void take_steps(std::string_view word, std::vector<AxisSteps>& axes) {
     }
 }
 
-std::vector<AxisSteps> steps_of(const gcode::Program& program, const PulseOptions& options) {
+std::vector<AxisSteps> steps_of(const program::Program& program, const PulseOptions& options) {
     std::vector<AxisSteps> axes;
-    for (const gcode::ProgramAxis& axis : program.axes) {
+    for (const program::ProgramAxis& axis : program.axes) {
         const bool rotary = axis.kind == kinematics::AxisKind::rotary;
         axes.push_back({axis.letter, rotary, rotary ? usual_steps_per_degree : usual_steps_per_mm});
     }
@@ -71,7 +71,7 @@ std::vector<AxisSteps> steps_of(const gcode::Program& program, const PulseOption
     return axes;
 }
 
-int source_line(const gcode::Program& program, int block) {
+int source_line(const program::Program& program, int block) {
     return program.blocks[static_cast<std::size_t>(block)].source_line;
 }
 
@@ -102,7 +102,7 @@ void print_step_table(const std::vector<AxisSteps>& axes, const std::vector<moti
 }
 
 nlohmann::ordered_json
-axis_steps_json(const AxisSteps& steps, const motion::StepJitter& found, const gcode::Program& program) {
+axis_steps_json(const AxisSteps& steps, const motion::StepJitter& found, const program::Program& program) {
     nlohmann::ordered_json axis;
     axis["axis"] = std::string(1, steps.letter);
     axis[steps.rotary ? "steps_per_deg" : "steps_per_mm"] = steps.steps;
@@ -123,7 +123,7 @@ axis_steps_json(const AxisSteps& steps, const motion::StepJitter& found, const g
 
 void print_sentences(const std::vector<AxisSteps>& axes,
                      const std::vector<motion::StepJitter>& found,
-                     const gcode::Program& program,
+                     const program::Program& program,
                      const PulseOptions& options,
                      const std::string& file) {
     for (std::size_t n = 0; n < axes.size(); ++n) {
@@ -168,7 +168,7 @@ void add_pulse_options(CLI::App& command, PulseOptions& options) {
 }
 
 int report_pulses(const motion::Trajectory& trajectory,
-                  const gcode::Program& program,
+                  const program::Program& program,
                   const PulseOptions& options,
                   const std::string& file,
                   bool json) {

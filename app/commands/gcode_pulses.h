@@ -1,8 +1,8 @@
 // `millwright gcode pulses`: step and direction pulses of a program, and how uneven a timer makes them.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/motion/trajectory.h"
+#include "core/program/program.h"
 
 #include <cstdint>
 #include <string>
@@ -27,7 +27,7 @@ void add_pulse_options(CLI::App& command, PulseOptions& options);
 /// Prints the report of every axis; 1 if the timer does not keep up with one of them. Throws Error for steps
 /// that make no sense. `file` is the program's.
 [[nodiscard]] int report_pulses(const motion::Trajectory& trajectory,
-                                const gcode::Program& program,
+                                const program::Program& program,
                                 const PulseOptions& options,
                                 const std::string& file,
                                 bool json);

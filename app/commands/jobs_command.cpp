@@ -3,7 +3,7 @@
 #include "app/given_options.h"
 #include "core/base/error.h"
 #include "core/base/sentences.h"
-#include "core/machine/way_on.h"
+#include "core/jobs/way_on.h"
 #include "core/project/recent_files.h"
 
 #include <CLI/Config.hpp>
@@ -19,18 +19,18 @@ namespace millwright::app {
 
 namespace {
 
-using machine::LogStart;
+using jobs::LogStart;
 
 struct JobsOptions {
     std::string folder = project::job_logs_place().string();
     bool json = false;
 };
 
-std::string state_of(const machine::JobStory& story) {
+std::string state_of(const jobs::JobStory& story) {
     return story.running ? "running" : story.end ? std::string(to_text(*story.end)) : "broken off";
 }
 
-nlohmann::ordered_json job_json(const machine::JobStory& story) {
+nlohmann::ordered_json job_json(const jobs::JobStory& story) {
     return {{"log", story.log_file.string()},
             {"job", story.start.job},
             {"program", story.start.project},
@@ -65,11 +65,11 @@ void say_how_it_is_played_again(const LogStart& start) {
                printable(start.options));
 }
 
-void say_how_it_goes_on(const machine::JobStory& story) {
+void say_how_it_goes_on(const jobs::JobStory& story) {
     if (story.start.driver == "points") {
         return say_how_it_is_played_again(story.start);
     }
-    const machine::WayOn way = machine::way_on(story);
+    const jobs::WayOn way = jobs::way_on(story);
     const bool from_line = way.why_the_beginning.empty();
     const LogStart& start = story.start;
     const bool from_here = from_line && (start.driver == "stream" || start.driver == "records");
@@ -99,7 +99,7 @@ void say_how_it_goes_on(const machine::JobStory& story) {
 }
 
 /// `told`: the programs of later jobs; what these have left is what counts.
-void show(const machine::JobStory& story, std::set<std::string>& told) {
+void show(const jobs::JobStory& story, std::set<std::string>& told) {
     fmt::print("{}  {}  {}\n    {}\n",
                printable(story.log_file.string()),
                story.start.started_at.empty() ? "-" : printable(story.start.started_at),
@@ -112,19 +112,19 @@ void show(const machine::JobStory& story, std::set<std::string>& told) {
 }
 
 int list_jobs(const JobsOptions& options) {
-    const machine::JobFolder folder = machine::read_job_folder(options.folder);
+    const jobs::JobFolder folder = jobs::read_job_folder(options.folder);
     for (const Diagnostic& diagnostic : folder.unreadable) {
         fmt::print(stderr, "millwright: {}\n", to_text(diagnostic));
     }
     if (options.json) {
         auto all = nlohmann::ordered_json::array();
-        for (const machine::JobStory& story : folder.jobs) {
+        for (const jobs::JobStory& story : folder.jobs) {
             all.push_back(job_json(story));
         }
         fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
         std::set<std::string> told;
-        for (const machine::JobStory& story : folder.jobs) {
+        for (const jobs::JobStory& story : folder.jobs) {
             show(story, told);
         }
         if (folder.jobs.empty()) {

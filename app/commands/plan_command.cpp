@@ -7,13 +7,13 @@
 #include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/project/cut_remarks.h"
-#include "core/project/cut_study.h"
-#include "core/project/grids.h"
-#include "core/project/left_out.h"
-#include "core/project/report.h"
+#include "core/plan/cut_remarks.h"
+#include "core/plan/cut_study.h"
+#include "core/plan/grids.h"
+#include "core/plan/left_out.h"
+#include "core/plan/report.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
 #include "core/toolpath/shortest_sequence.h"
@@ -50,7 +50,7 @@ struct PlanOptions {
     bool allow_gouges = false;
 };
 
-void print_figures(std::string_view name, const project::Evaluation& evaluation) {
+void print_figures(std::string_view name, const plan::Evaluation& evaluation) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                name,
                fixed(evaluation.closest.max, 4),
@@ -61,7 +61,7 @@ void print_figures(std::string_view name, const project::Evaluation& evaluation)
 }
 
 /// What is wrong with a grid, also where it is only compared with the program's.
-void print_warnings(const project::Plan& plan) {
+void print_warnings(const plan::Plan& plan) {
     for (const project::GridMethod method : project::every_grid_method) {
         const std::string_view id = project::row_of(project::grid_methods(), method).id;
         if (const auto& failure = plan.failure(method)) {
@@ -75,10 +75,10 @@ void print_warnings(const project::Plan& plan) {
 }
 
 /// Why the uniform grid is kept, whose figures stand there then, and whose grid the whole chain took.
-void print_plan_notes(const project::Plan& plan) {
+void print_plan_notes(const plan::Plan& plan) {
     for (const project::GridMethod method : project::every_grid_method) {
         const auto& evaluation = plan.evaluation(method);
-        const bool kept = evaluation && project::keeps_grid(*evaluation, *plan.uniform);
+        const bool kept = evaluation && plan::keeps_grid(*evaluation, *plan.uniform);
         if (method == project::GridMethod::uniform || !(kept || method == project::GridMethod::chain) ||
             !evaluation || evaluation->outcome.note.empty()) {
             continue;
@@ -91,7 +91,7 @@ void print_plan_notes(const project::Plan& plan) {
 }
 
 /// What each link of the whole chain brought, by the distance from the surface curve.
-void print_links(const project::Plan& plan) {
+void print_links(const plan::Plan& plan) {
     if (!plan.chain) {
         return;
     }
@@ -123,7 +123,7 @@ void print_links(const project::Plan& plan) {
     }
 }
 
-void print_plan_summary(const project::Plan& plan, const project::Project& project) {
+void print_plan_summary(const plan::Plan& plan, const project::Project& project) {
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
                "grid",
                "max mm",
@@ -137,21 +137,21 @@ void print_plan_summary(const project::Plan& plan, const project::Project& proje
             print_figures(id, *evaluation);
         } else if (plan.failure(method)) {
             fmt::print("{:<10} failed\n", id);
-        } else if (project::is_left_out(project, method)) {
+        } else if (plan::is_left_out(project, method)) {
             fmt::print("{:<10} left out\n", id);
         }
     }
-    if (project::has_own_path(project)) {
+    if (plan::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
     print_plan_notes(plan);
-    if (const std::string left_out = project::left_out_sentence(project); !left_out.empty()) {
+    if (const std::string left_out = plan::left_out_sentence(project); !left_out.empty()) {
         fmt::print("{}\n", left_out);
     }
     print_links(plan);
-    const project::Evaluation& chosen = *plan.program_path(project);
+    const plan::Evaluation& chosen = *plan.program_path(project);
     if (project.toolpath.strategy != project::StrategyInput::zigzag) {
-        fmt::print("strategy: {}\n", project::strategy_text(project));
+        fmt::print("strategy: {}\n", plan::strategy_text(project));
     }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
     fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
@@ -178,8 +178,8 @@ project::Project changed(project::Project project, const PlanOptions& options) {
 }
 
 void print_path(std::string_view name,
-                const project::Workpiece& workpiece,
-                const project::Evaluation& of,
+                const plan::Workpiece& workpiece,
+                const plan::Evaluation& of,
                 const std::optional<double>& time) {
     const double step =
         toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, toolpath::MoveKind::track);
@@ -195,7 +195,7 @@ void print_path(std::string_view name,
 }
 
 /// The path of the chosen grid beside the one of the nearest angles with no point added.
-void print_sequencing(const project::Plan& plan, const project::Project& project) {
+void print_sequencing(const plan::Plan& plan, const project::Project& project) {
     if (!plan.unsequenced) {
         return;
     }
@@ -215,13 +215,13 @@ void print_sequencing(const project::Plan& plan, const project::Project& project
                plan.trajectory->duration());
 }
 
-void print_cut(const project::Project& project, const project::Plan& plan) {
-    const project::CutStudy& cut = *plan.cut;
+void print_cut(const project::Project& project, const plan::Plan& plan) {
+    const plan::CutStudy& cut = *plan.cut;
     fmt::print("left on the surface: {}; deepest cut below it: {} mm ({})\n",
-               project::left_text(project, plan),
+               plan::left_text(project, plan),
                fixed(cut.deepest, 4),
-               project::checked_text(project));
-    if (const std::string why = project::why_higher(project, plan); !why.empty()) {
+               plan::checked_text(project));
+    if (const std::string why = plan::why_higher(project, plan); !why.empty()) {
         fmt::print(stderr, "warning: {}\n", why);
     }
     if (!cut.local_gouges.empty()) {
@@ -232,7 +232,7 @@ void print_cut(const project::Project& project, const project::Plan& plan) {
 }
 
 /// Nullopt, with a warning, on a computer without OpenGL: the program is worth having without its picture.
-std::optional<render::Picture> preview_of_plan(const project::Project& project, const project::Plan& plan) {
+std::optional<render::Picture> preview_of_plan(const project::Project& project, const plan::Plan& plan) {
     constexpr render::PixelSize preview_size{1280, 800};
     try {
         return viewport::render_view(
@@ -248,13 +248,13 @@ int plan(const PlanOptions& options) {
     OpenedProject opened = open_project(options.project);
     opened.project = changed(std::move(opened.project), options);
     const OutputFolder folder(options.out);
-    const project::Plan plan = planned(opened, project::Scope::everything, interrupt.token());
+    const plan::Plan plan = planned(opened, plan::Scope::everything, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
-    OutputSet set{{{"report.json", project::report_text(opened.project, plan)}}};
+    OutputSet set{{{"report.json", plan::report_text(opened.project, plan)}}};
     const auto add = [&set](const std::string& name, std::optional<std::string> bytes) {
         if (bytes) {
             set.files.push_back({name, std::move(*bytes)});
@@ -270,7 +270,7 @@ int plan(const PlanOptions& options) {
     print_warnings(plan);
     print_plan_summary(plan, opened.project);
     print_sequencing(plan, opened.project);
-    for (const std::string& remark : project::path_remarks(opened.project, plan)) {
+    for (const std::string& remark : plan::path_remarks(opened.project, plan)) {
         fmt::print(stderr, "warning: {}\n", remark);
     }
     if (plan.cut) {

@@ -11,10 +11,10 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/drivers/points/points_driver.h"
+#include "core/jobs/dispatcher.h"
+#include "core/jobs/point_job.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/points/points_driver.h"
-#include "core/machine/point_job.h"
 #include "core/plot/point_file.h"
 #include "core/project/assets.h"
 #include "core/project/recent_files.h"
@@ -38,9 +38,9 @@ namespace millwright::app {
 
 namespace {
 
-using machine::Jitter;
-using machine::PlayState;
-using machine::PlayStatus;
+using drivers::Jitter;
+using drivers::PlayState;
+using drivers::PlayStatus;
 
 struct PlotPlayOptions {
     std::string file;
@@ -49,7 +49,7 @@ struct PlotPlayOptions {
     double period = 0.01;       ///< s
     double speed = 1.0;         ///< times real time
     std::vector<double> origin; ///< as add_drawing_origin() has it
-    RecordChoice record = {.pattern = machine::RecordFormat().pattern, .format = {}};
+    RecordChoice record = {.pattern = drivers::RecordFormat().pattern, .format = {}};
     std::string log = project::job_logs_place().string();
     std::string options; ///< of the command, for its log
     bool json = false;
@@ -95,7 +95,7 @@ void print_jitter(const Jitter& jitter) {
     }
 }
 
-void print_play_json(const PlayStatus& status, const machine::JobOutcome& outcome) {
+void print_play_json(const PlayStatus& status, const jobs::JobOutcome& outcome) {
     const Jitter& jitter = status.jitter;
     const nlohmann::ordered_json answer = {
         {"done", status.state == PlayState::done},
@@ -116,7 +116,7 @@ void print_play_json(const PlayStatus& status, const machine::JobOutcome& outcom
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-machine::Job job_to_play(const PlotPlayOptions& options) {
+jobs::Job job_to_play(const PlotPlayOptions& options) {
     const std::string text = read_file(options.file);
     plot::PointFile read = points_to_play(text, options.file);
     for (Vec3& point : read.points) {
@@ -126,8 +126,8 @@ machine::Job job_to_play(const PlotPlayOptions& options) {
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
     // Shown faster, a table that is not there moves no faster.
     const double period = options.port.empty() ? options.period : options.period / options.speed;
-    machine::Job job = machine::point_file_job(text, read, options.file, std::move(model), period);
-    expect_none(machine::preflight(job));
+    jobs::Job job = jobs::point_file_job(text, read, options.file, std::move(model), period);
+    expect_none(jobs::preflight(job));
     job.started_at = now_for_people();
     job.options = options.options;
     return job;
@@ -142,7 +142,7 @@ void say_where_it_starts(const Vec3& first) {
                first.z());
 }
 
-void print_played(const PlayStatus& end, std::size_t points, const machine::JobOutcome& outcome) {
+void print_played(const PlayStatus& end, std::size_t points, const jobs::JobOutcome& outcome) {
     fmt::print("{} of {} in {:.3f} s, at X {:.3f} Y {:.3f} Z {:.3f}\n",
                end.points,
                counted(points, "point"),
@@ -156,22 +156,22 @@ void print_played(const PlayStatus& end, std::size_t points, const machine::JobO
 
 int play(const PlotPlayOptions& options) {
     const Interrupt interrupt(Suspending::refused);
-    const machine::Job job = job_to_play(options);
+    const jobs::Job job = job_to_play(options);
     const std::vector<Vec3>& points = job.points->points;
-    const machine::RecordFormat format = record_of(options.record).value();
+    const drivers::RecordFormat format = record_of(options.record).value();
     if (format.relative && !options.port.empty()) {
         say_where_it_starts(points.front());
     }
-    machine::SteadyClock clock;
-    machine::PointsDriver table(options.port.empty() ? nullptr : machine::make_link(options.port),
+    SteadyClock clock;
+    drivers::PointsDriver table(options.port.empty() ? nullptr : links::make_link(options.port),
                                 clock,
                                 job.machine,
                                 points.front(),
                                 {.speed = options.port.empty() ? options.speed : 1.0, .format = format});
-    machine::Dispatcher dispatcher(table, clock, options.log);
+    jobs::Dispatcher dispatcher(table, clock, options.log);
     ProgressPrinter printer;
-    const machine::JobOutcome outcome =
-        dispatcher.run(job, Progress(nullptr, interrupt.token()), [&](const machine::JobReport&) {
+    const jobs::JobOutcome outcome =
+        dispatcher.run(job, Progress(nullptr, interrupt.token()), [&](const jobs::JobReport&) {
             const PlayStatus now = table.played();
             printer.show({static_cast<double>(now.points) / static_cast<double>(points.size()),
                           fmt::format("X {:.2f} Y {:.2f} Z {:.2f}, late by {:.0f} us at the most",
@@ -193,7 +193,7 @@ int play(const PlotPlayOptions& options) {
                    "records as \"{}\"\n",
                    format.pattern);
     }
-    if (outcome.end != machine::JobEnd::done) {
+    if (outcome.end != jobs::JobEnd::done) {
         throw Error(fmt::format("{}: nothing was sent after point {}", end.sentence, end.sent));
     }
     return 0;

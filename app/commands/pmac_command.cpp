@@ -4,12 +4,12 @@
 #include "app/interrupt.h"
 #include "app/pmac_care.h"
 #include "app/pmac_talk.h"
+#include "core/base/clock.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/machine/clock.h"
-#include "core/machine/drivers/pmac/placed_refusals.h"
-#include "core/machine/drivers/pmac/pmac_driver.h"
-#include "core/machine/drivers/pmac/pmac_file.h"
+#include "core/pmac/driver/placed_refusals.h"
+#include "core/pmac/driver/pmac_driver.h"
+#include "core/pmac/driver/pmac_file.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -40,7 +40,7 @@ struct PmacOptions {
 /// bits.
 void look_through(const std::string& command) {
     try {
-        for (const Diagnostic& warning : machine::read_pmac_file(command, {}).warnings) {
+        for (const Diagnostic& warning : pmac::read_pmac_file(command, {}).warnings) {
             fmt::print(stderr, "warning: {}\n", to_text(Diagnostic{{}, warning.message, warning.hint}));
         }
     } catch (const Error& error) {
@@ -49,7 +49,7 @@ void look_through(const std::string& command) {
 }
 
 /// Throws Error, which of a port that nobody named tells how to name one.
-std::unique_ptr<machine::PmacDriver> connected_card(const PmacOptions& options, machine::SteadyClock& clock) {
+std::unique_ptr<pmac::PmacDriver> connected_card(const PmacOptions& options, SteadyClock& clock) {
     if (!options.port.empty()) {
         return connected_pmac(options.port, options.arm, clock);
     }
@@ -70,7 +70,7 @@ public:
             driver_->let_lines_give_power();
         }
         if (options.keep_power) {
-            driver_->set_parting(machine::Parting::keeps_power);
+            driver_->set_parting(pmac::Parting::keeps_power);
         }
     }
     Conversation(const Conversation&) = delete;
@@ -83,21 +83,21 @@ public:
 
     /// Whether the card took all of it.
     bool load(const std::string& path) {
-        const machine::PmacFile file = machine::read_pmac_file(read_file(path), path);
+        const pmac::PmacFile file = pmac::read_pmac_file(read_file(path), path);
         for (const auto& found : {file.omissions, file.warnings}) {
             for (const Diagnostic& warning : found) {
                 fmt::print(stderr, "warning: {}\n", to_text(warning));
             }
         }
         std::vector<std::string> lines;
-        for (const machine::PmacFile::Line& line : file.lines) {
+        for (const pmac::PmacFile::Line& line : file.lines) {
             lines.push_back(line.text);
         }
         if (lines.empty()) {
             throw Error("there is no command in it", path);
         }
-        const machine::CommandAnswer answer = answer_to(driver_->load(lines));
-        print(answer, machine::with_places(answer.text, file, path + ":"));
+        const drivers::CommandAnswer answer = answer_to(driver_->load(lines));
+        print(answer, pmac::with_places(answer.text, file, path + ":"));
         wait_for_rest();
         warn_of_protections(*driver_, clock_);
         return is_done(answer) && file.left_out == 0;
@@ -117,7 +117,7 @@ public:
     }
 
     bool say(const std::string& command) {
-        const machine::CommandAnswer answer = answer_to(driver_->command(command));
+        const drivers::CommandAnswer answer = answer_to(driver_->command(command));
         const bool is_kept = is_done(answer) && !driver_->kept_lines().empty();
         if (!is_kept && answer.text != driver_->status().message) { // which is told as the error
             print(answer, answer.text);
@@ -127,20 +127,20 @@ public:
     }
 
 private:
-    static bool is_done(const machine::CommandAnswer& answer) {
-        return answer.state == machine::CommandAnswer::State::done;
+    static bool is_done(const drivers::CommandAnswer& answer) {
+        return answer.state == drivers::CommandAnswer::State::done;
     }
 
-    static void print(const machine::CommandAnswer& answer, const std::string& text) {
+    static void print(const drivers::CommandAnswer& answer, const std::string& text) {
         if (!text.empty()) {
             fmt::print(is_done(answer) ? stdout : stderr, "{}\n", text);
         }
     }
 
-    [[nodiscard]] machine::CommandAnswer answer_to(int number) {
+    [[nodiscard]] drivers::CommandAnswer answer_to(int number) {
         constexpr double glance = 0.005;
-        machine::DriverStatus now = driver_->status();
-        while (now.answer.number == number && now.answer.state == machine::CommandAnswer::State::pending) {
+        drivers::DriverStatus now = driver_->status();
+        while (now.answer.number == number && now.answer.state == drivers::CommandAnswer::State::pending) {
             if (interrupt_.token().stop_requested()) {
                 driver_->emergency_stop();
             }
@@ -154,7 +154,7 @@ private:
     void wait_for_rest() {
         constexpr double glance = 0.005, patience = 0.5; // s
         double waited = 0.0;
-        while (driver_->status().activity == machine::Activity::command) {
+        while (driver_->status().activity == drivers::Activity::command) {
             if (interrupt_.token().stop_requested()) {
                 driver_->stop();
                 throw Cancelled();
@@ -165,16 +165,16 @@ private:
                 fmt::print(stderr, "motors move; Ctrl+C stops them\n");
             }
         }
-        if (const machine::DriverStatus now = driver_->status();
-            now.state == machine::DriverState::alarm ||
-            (now.state == machine::DriverState::stopped && !now.message.empty())) {
+        if (const drivers::DriverStatus now = driver_->status();
+            now.state == drivers::DriverState::alarm ||
+            (now.state == drivers::DriverState::stopped && !now.message.empty())) {
             throw Error(now.message);
         }
     }
 
     Interrupt interrupt_{Suspending::refused};
-    machine::SteadyClock clock_;
-    std::unique_ptr<machine::PmacDriver> driver_;
+    SteadyClock clock_;
+    std::unique_ptr<pmac::PmacDriver> driver_;
 };
 
 int talk(const PmacOptions& options) {

@@ -1,6 +1,6 @@
 #include "app/commands/ports_command.h"
 
-#include "core/machine/links/serial_ports.h"
+#include "core/links/serial_ports.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@ namespace millwright::app {
 namespace {
 
 int show_ports() {
-    const std::vector<machine::SerialPort> ports = machine::serial_ports();
-    for (const machine::SerialPort& port : ports) {
+    const std::vector<links::SerialPort> ports = links::serial_ports();
+    for (const links::SerialPort& port : ports) {
         fmt::print("{}{}{}\n", port.path.string(), port.label.empty() ? "" : "  ", port.label);
     }
     if (ports.empty()) {

@@ -100,7 +100,7 @@ std::vector<std::string> view_names() {
 }
 
 /// The bodies of its file, as in the window: where that file is gone the simple ones are drawn.
-viewport::MachineSolids solids_of(const OpenedProject& opened, const project::Plan& plan) {
+viewport::MachineSolids solids_of(const OpenedProject& opened, const plan::Plan& plan) {
     const auto file = project::machine_path(opened.project, opened.folders.project, opened.folders.assets);
     try {
         return kinematics::read_machine_solids(file, plan.workpiece->machine);
@@ -123,7 +123,7 @@ viewport::MachineSolids solids_of(const OpenedProject& opened, const project::Pl
 int render_project(const RenderOptions& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
-    const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
+    const plan::Plan plan = planned(opened, plan::Scope::program, interrupt.token());
     const render::Picture picture = viewport::render_view(opened.project,
                                                           plan,
                                                           *viewport::view_kind(options.view),

@@ -9,8 +9,8 @@
 #include "app/progress_printer.h"
 #include "app/series.h"
 #include "core/base/error.h"
-#include "core/machine/run_from_line.h"
-#include "core/project/cut_study.h"
+#include "core/jobs/run_from_line.h"
+#include "core/plan/cut_study.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -40,43 +40,43 @@ std::string post_of_driver(const std::string& driver, const kinematics::MachineM
 }
 
 /// In the words of the driver's control, or of the one that was chosen.
-machine::Job job_of(const OpenedProject& opened, const project::Plan& plan, const RunOptions& options) {
+jobs::Job job_of(const OpenedProject& opened, const plan::Plan& plan, const RunOptions& options) {
     PostChoice choice = options.post;
     if (choice.post.empty()) {
         choice.post = post_of_driver(options.machine.driver, plan.workpiece->machine);
     }
-    machine::Job job;
+    jobs::Job job;
     job.name = opened.file.stem().string();
     job.project = opened.file.string();
     job.started_at = now_for_people();
     job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
-    gcode::Program program = *plan.program;
+    program::Program program = *plan.program;
     if (options.machine.driver == "cordic") { // which waits for nobody to change a tool
         program.tool.reset();
     }
     PostedText text = posted(program, *job.machine, choice, job.name);
     print_notes(text);
-    job.program = std::make_shared<const gcode::Program>(std::move(text.text.program));
-    job.listing = std::make_shared<const gcode::Listing>(std::move(text.text.listing));
+    job.program = std::make_shared<const program::Program>(std::move(text.text.program));
+    job.listing = std::make_shared<const program::Listing>(std::move(text.text.listing));
     return job;
 }
 
-machine::Job begun_at(machine::Job job, int line, const RunOptions& options) {
-    machine::RunFromSettings settings;
+jobs::Job begun_at(jobs::Job job, int line, const RunOptions& options) {
+    jobs::RunFromSettings settings;
     settings.clearance = options.clearance;
     if (options.machine.driver == "grbl") { // which executes the text
         settings.dialect = gcode::Dialect::grbl;
         job.program = nullptr;
     }
-    return machine::job_from_line(job, line, settings);
+    return jobs::job_from_line(job, line, settings);
 }
 
 /// With what its tool cuts. Throws GougeError.
-project::Plan fit_plan(const OpenedProject& opened, const RunOptions& options, const std::stop_token& stop) {
-    project::Plan plan = planned(opened, project::Scope::program, stop);
+plan::Plan fit_plan(const OpenedProject& opened, const RunOptions& options, const std::stop_token& stop) {
+    plan::Plan plan = planned(opened, plan::Scope::program, stop);
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
-    project::add_cut_study(plan, opened.project, progress);
+    plan::add_cut_study(plan, opened.project, progress);
     printer.finish();
     answer_for_gouges(opened, gouges_of(opened, plan), options.allow_gouges, "nothing was run");
     return plan;
@@ -93,7 +93,7 @@ int run_plan(const RunOptions& options) {
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         const OpenedProject opened = open_project(file);
-        machine::Job job = job_of(opened, fit_plan(opened, options, interrupt.token()), options);
+        jobs::Job job = job_of(opened, fit_plan(opened, options, interrupt.token()), options);
         check_from_line(options.machine, from_line);
         if (from_line > 1) {
             job = begun_at(job, from_line, options);
@@ -108,12 +108,12 @@ int run_plan(const RunOptions& options) {
             controller->connect(options.series.from_line > 1, interrupt.token());
         }
     };
-    steps.run = [&](const machine::Job& job) {
+    steps.run = [&](const jobs::Job& job) {
         return controller ? controller->run(job, interrupt)
                           : planned_machine.run(job, options.series.log, interrupt);
     };
     if (controller && options.machine.controller.check_only) {
-        steps.instead = [&](const machine::Job& job) { controller->check_there(job, interrupt.token()); };
+        steps.instead = [&](const jobs::Job& job) { controller->check_there(job, interrupt.token()); };
     }
     return run_series(options.series, steps, interrupt.token());
 }

@@ -11,13 +11,13 @@
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/gcode/reader/machine_program.h"
+#include "core/gcode/machine_program.h"
+#include "core/jobs/feed_check.h"
+#include "core/jobs/file_job.h"
+#include "core/jobs/run_from_line.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/emulators/pmac/motion_program.h"
-#include "core/machine/feed_check.h"
-#include "core/machine/file_job.h"
-#include "core/machine/run_from_line.h"
 #include "core/plot/path_file.h"
+#include "core/pmac/emulator/motion_program.h"
 #include "core/project/assets.h"
 
 #include <CLI/Config.hpp>
@@ -105,10 +105,10 @@ std::optional<kinematics::AxisPositions> place_of(const kinematics::MachineModel
 }
 
 /// Where something is to be done by hand: these machines have no words for it.
-void say_what_is_by_hand(const machine::Job& job) {
+void say_what_is_by_hand(const jobs::Job& job) {
     for (std::size_t n = 0; n < job.program->blocks.size(); ++n) {
-        const gcode::Block& block = job.program->blocks[n];
-        if (block.kind == gcode::BlockKind::spindle_on) {
+        const program::Block& block = job.program->blocks[n];
+        if (block.kind == program::BlockKind::spindle_on) {
             fmt::print(stderr,
                        "millwright: {}:{}: the spindle shall turn at {:.0f} 1/min: switch it on by hand\n",
                        job.project,
@@ -120,25 +120,25 @@ void say_what_is_by_hand(const machine::Job& job) {
 }
 
 /// `job` from the line that was asked for, with the time.
-machine::Job ready(machine::Job job, const SendOptions& options, int from_line) {
+jobs::Job ready(jobs::Job job, const SendOptions& options, int from_line) {
     if (from_line > 1 && options.machine.driver == "pmac") {
         throw Error("a motion program begins with its first line: what a line does depends on those above");
     }
     check_from_line(options.machine, from_line);
     if (from_line > 1) {
-        machine::RunFromSettings settings;
+        jobs::RunFromSettings settings;
         settings.dialect = options.machine.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
         settings.clearance = options.clearance;
-        job = machine::job_from_line(job, from_line, settings);
+        job = jobs::job_from_line(job, from_line, settings);
     }
     job.started_at = now_for_people();
     return job;
 }
 
 /// Of a PMAC in its own language, else G-code.
-machine::Job job_from_file(const SendOptions& options, const std::string& file) {
-    return options.machine.driver == "pmac" ? machine::motion_program_job(read_file(file), file)
-                                            : machine::text_job(read_file(file), file);
+jobs::Job job_from_file(const SendOptions& options, const std::string& file) {
+    return options.machine.driver == "pmac" ? pmac::motion_program_job(read_file(file), file)
+                                            : jobs::text_job(read_file(file), file);
 }
 
 /// To a controller that plans for itself.
@@ -147,15 +147,15 @@ int send_text(const SendOptions& options) {
     Controller controller(options.machine.controller, options.series.log);
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
-        machine::Job job = ready(job_from_file(options, file), options, from_line);
+        jobs::Job job = ready(job_from_file(options, file), options, from_line);
         controller.check(job);
         return job;
     };
     steps.ready = [&] { controller.connect(options.series.from_line > 1, interrupt.token()); };
-    steps.look = [&](const machine::Job& job) { controller.look_at(job); };
-    steps.run = [&](const machine::Job& job) { return controller.run(job, interrupt); };
+    steps.look = [&](const jobs::Job& job) { controller.look_at(job); };
+    steps.run = [&](const jobs::Job& job) { return controller.run(job, interrupt); };
     if (options.machine.controller.check_only) {
-        steps.instead = [&](const machine::Job& job) { controller.check_there(job, interrupt.token()); };
+        steps.instead = [&](const jobs::Job& job) { controller.check_there(job, interrupt.token()); };
     }
     return run_series(options.series, steps, interrupt.token());
 }
@@ -169,16 +169,16 @@ int send_motion(const SendOptions& options) {
         if (options.machine.driver == "cordic" && plot::is_path_file(read_file(file))) {
             throw Error(Diagnostic{{file, 1, 1, -1}, "the CORDIC processor takes G-code, no path file", {}});
         }
-        machine::Job job =
-            ready(machine::file_job(
+        jobs::Job job =
+            ready(jobs::file_job(
                       file, model, {.start = place_of(*model, options), .origin = options.machine.origin}),
                   options,
                   from_line);
         app::print_warnings(job.notices);
-        if (const auto faults = machine::preflight(job); !faults.empty()) {
+        if (const auto faults = jobs::preflight(job); !faults.empty()) {
             throw Error(faults.front());
         }
-        if (const auto slowed = machine::feeds_not_reached(job)) {
+        if (const auto slowed = jobs::feeds_not_reached(job)) {
             fmt::print(stderr, "millwright: {}\n", to_text(*slowed));
         }
         if (options.machine.driver == "stream" || options.machine.driver == "records") {
@@ -187,7 +187,7 @@ int send_motion(const SendOptions& options) {
         return job;
     };
     steps.ready = [] {};
-    steps.run = [&](const machine::Job& job) { return machine.run(job, options.series.log, interrupt); };
+    steps.run = [&](const jobs::Job& job) { return machine.run(job, options.series.log, interrupt); };
     return run_series(options.series, steps, interrupt.token());
 }
 

@@ -3,10 +3,10 @@
 #include "app/interrupt.h"
 #include "app/series.h"
 #include "core/base/error.h"
-#include "core/machine/driver.h"
-#include "core/machine/drivers/grbl/grbl_driver.h"
-#include "core/machine/drivers/make_driver.h"
-#include "core/machine/position_memory.h"
+#include "core/drivers/driver.h"
+#include "core/drivers/grbl/grbl_driver.h"
+#include "core/jobs/position_memory.h"
+#include "core/machine/make_driver.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -27,19 +27,18 @@ struct StopOptions {
     bool emergency = false;
 };
 
-std::string sentence(const machine::DriverStatus& now) {
-    std::string text(machine::to_text(now.state));
+std::string sentence(const drivers::DriverStatus& now) {
+    std::string text(to_text(now.state));
     return now.message.empty() ? text : text + ": " + now.message;
 }
 
 /// When it stands and was asked what it is, which looks like a link that is yet to be made. It brakes also
 /// where nobody waits for that.
-machine::DriverStatus
-at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_token& stop) {
+drivers::DriverStatus at_rest(const drivers::Driver& driver, Clock& clock, const std::stop_token& stop) {
     constexpr double glance = 0.02; // s
-    machine::DriverStatus now = driver.status();
-    while (machine::is_at_work(now.state) ||
-           (now.state == machine::DriverState::disconnected && !now.link_lost)) {
+    drivers::DriverStatus now = driver.status();
+    while (drivers::is_at_work(now.state) ||
+           (now.state == drivers::DriverState::disconnected && !now.link_lost)) {
         if (stop.stop_requested()) {
             throw Cancelled();
         }
@@ -50,8 +49,8 @@ at_rest(const machine::Driver& driver, machine::Clock& clock, const std::stop_to
 }
 
 /// Boards that reset when their port is opened stop dead, and know no longer where they are.
-void refuse_reset_by_opening(machine::Driver& driver, machine::PositionMemory& memory) {
-    const auto* const grbl = dynamic_cast<const machine::GrblDriver*>(&driver);
+void refuse_reset_by_opening(drivers::Driver& driver, jobs::PositionMemory& memory) {
+    const auto* const grbl = dynamic_cast<const drivers::GrblDriver*>(&driver);
     if (grbl == nullptr || !grbl->readout().began_anew) {
         return;
     }
@@ -68,14 +67,14 @@ void refuse_reset_by_opening(machine::Driver& driver, machine::PositionMemory& m
 
 int stop_machine(const StopOptions& options) {
     const Interrupt interrupt(Suspending::refused);
-    machine::SteadyClock clock;
-    machine::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
+    SteadyClock clock;
+    jobs::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
     const auto driver = machine::make_driver(options.machine, {}, clock);
     driver->connect();
     memory.remind(*driver);
     refuse_reset_by_opening(*driver, memory);
-    if (const machine::DriverStatus found = driver->status();
-        !machine::is_at_work(found.state) && !options.emergency) {
+    if (const drivers::DriverStatus found = driver->status();
+        !drivers::is_at_work(found.state) && !options.emergency) {
         fmt::print("The machine stands ({}).\n", sentence(found));
         return 0;
     }
@@ -84,14 +83,14 @@ int stop_machine(const StopOptions& options) {
     } else {
         driver->stop();
     }
-    const machine::DriverStatus now = at_rest(*driver, clock, interrupt.token());
+    const drivers::DriverStatus now = at_rest(*driver, clock, interrupt.token());
     memory.keep(now);
     if (now.link_lost) {
         throw Error(now.message, {}, "use the switch at the machine");
     }
     fmt::print("The machine was stopped ({}).\n", sentence(now));
     if (!now.position_doubt.empty()) {
-        fmt::print("{}\n", machine::doubt_sentence(now.position_doubt));
+        fmt::print("{}\n", drivers::doubt_sentence(now.position_doubt));
     }
     return 0;
 }

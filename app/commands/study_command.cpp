@@ -14,7 +14,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
-#include "core/project/kinematic_study.h"
+#include "core/studies/kinematic_study.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -35,8 +35,8 @@ namespace millwright::app {
 
 namespace {
 
-using project::StudyCase;
-using project::StudyRow;
+using studies::StudyCase;
+using studies::StudyRow;
 
 struct StudyOptions {
     std::string out;
@@ -73,7 +73,7 @@ void expect_known(const std::vector<Value>& named,
 
 /// The cases of the study that were asked for. Throws UsageError for a name or number that it has not.
 std::vector<StudyCase> cases_of(const StudyOptions& options) {
-    const std::vector<StudyCase> study = options.quick ? project::quick_study() : project::full_study();
+    const std::vector<StudyCase> study = options.quick ? studies::quick_study() : studies::full_study();
     expect_known(options.surfaces, study, &StudyCase::surface, "--surface");
     expect_known(options.machines, study, &StudyCase::machine, "--machine");
     expect_known(options.points, study, &StudyCase::points, options.quick ? "--quick --points" : "--points");
@@ -266,9 +266,9 @@ int helped(const StudyOptions& options,
 int kinematic_error(const StudyOptions& options) {
     const Interrupt interrupt;
     const Ranks ranks;
-    const StudyOne study = [folders = project::Folders{{}, project::assets_folder()}](
-                               const StudyCase& of, const Progress& progress) {
-        return project::studied(of, folders, progress);
+    const StudyOne study = [folders = plan::Folders{{}, project::assets_folder()}](const StudyCase& of,
+                                                                                   const Progress& progress) {
+        return studies::studied(of, folders, progress);
     };
     return ranks.rank() > 0 ? helped(options, ranks, study, interrupt)
                             : gathered(options, ranks, study, interrupt);

@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/assets.h"
-#include "core/project/fewest_points_study.h"
+#include "core/studies/fewest_points_study.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -23,7 +23,7 @@ namespace millwright::app {
 namespace {
 
 struct StudyFewestOptions {
-    project::FewestPointsCase of;
+    studies::FewestPointsCase of;
     std::vector<double> tolerances{0.5, 0.2, 0.1, 0.05};
     std::string out; ///< empty: no file
 };
@@ -32,7 +32,7 @@ std::string point_count_text(const std::optional<int>& count) {
     return count ? fmt::format("{}", *count) : std::string("-");
 }
 
-void print_fewest_points(const project::FewestPointsRow& row) {
+void print_fewest_points(const studies::FewestPointsRow& row) {
     const std::string ratio =
         row.uniform && row.fewest
             ? fixed(static_cast<double>(*row.uniform) / static_cast<double>(*row.fewest), 2)
@@ -48,14 +48,14 @@ void print_fewest_points(const project::FewestPointsRow& row) {
 
 int fewest_points(const StudyFewestOptions& options) {
     const Interrupt interrupt;
-    const project::Folders folders{{}, project::assets_folder()};
+    const plan::Folders folders{{}, project::assets_folder()};
     std::optional<OutputFolder> folder;
     if (!options.out.empty()) {
         folder.emplace(options.out);
     }
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
-    const auto rows = project::fewest_points(options.of, options.tolerances, folders, progress);
+    const auto rows = studies::fewest_points(options.of, options.tolerances, folders, progress);
     printer.finish();
     fmt::print("{} on {}, {}\n", options.of.surface, options.of.machine, counted(options.of.tracks, "track"));
     fmt::print("{:>12} {:>10} {:>10} {:>8} {:>12} {:>9}\n",
@@ -65,11 +65,11 @@ int fewest_points(const StudyFewestOptions& options) {
                "ratio",
                "largest mm",
                "axis deg");
-    for (const project::FewestPointsRow& row : rows) {
+    for (const studies::FewestPointsRow& row : rows) {
         print_fewest_points(row);
     }
     if (!options.out.empty()) {
-        write_outputs(options.out, {{{"fewest-points.csv", project::fewest_points_csv(options.of, rows)}}});
+        write_outputs(options.out, {{{"fewest-points.csv", studies::fewest_points_csv(options.of, rows)}}});
     }
     return 0;
 }

@@ -10,10 +10,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/plan/set_up_edge.h"
+#include "core/plan/set_up_reach.h"
+#include "core/plan/set_up_study.h"
 #include "core/project/project_file.h"
-#include "core/project/set_up_edge.h"
-#include "core/project/set_up_reach.h"
-#include "core/project/set_up_study.h"
 #include "ui/viewport/map_picture.h"
 #include "ui/viewport/set_up_map.h"
 
@@ -33,14 +33,14 @@ namespace millwright::app {
 
 namespace {
 
-using project::SetUpStudy;
+using plan::SetUpStudy;
 using toolpath::SetUpGoal;
 using toolpath::SetUpParameter;
 
 struct StudySetUpOptions {
     std::string project;
     std::string out;
-    project::SetUpStudySettings settings;
+    plan::SetUpStudySettings settings;
     double turn_reach_deg = 0.0;
     std::string accepted; ///< file of the project with the part there; empty: none
 };
@@ -70,11 +70,11 @@ void print_set_up(std::string_view name, const toolpath::SetUp& at) {
 
 /// Where the part stands, and in the map, whose best place is in reach.
 void print_out_of_reach(const SetUpStudy& study,
-                        const project::Workpiece& workpiece,
-                        const project::SetUpStudySettings& settings) {
+                        const plan::Workpiece& workpiece,
+                        const plan::SetUpStudySettings& settings) {
     if (!std::isfinite(study.search.start.cost)) {
         fmt::print("the start is out of reach: {}\n",
-                   project::why_out_of_reach(workpiece, settings, study.search.start.place).value_or(""));
+                   plan::why_out_of_reach(workpiece, settings, study.search.start.place).value_or(""));
     }
     const auto holes =
         std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
@@ -85,13 +85,13 @@ void print_out_of_reach(const SetUpStudy& study,
 
 /// At rank 0 of one or several.
 SetUpStudy found_on(const Ranks& ranks,
-                    const project::Workpiece& workpiece,
-                    const project::SetUpStudySettings& settings,
+                    const plan::Workpiece& workpiece,
+                    const plan::SetUpStudySettings& settings,
                     const std::string& folder,
                     const Interrupt& interrupt) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
-    const toolpath::SetUpCost cost = project::set_up_cost(workpiece, settings);
+    const toolpath::SetUpCost cost = plan::set_up_cost(workpiece, settings);
     SpreadCosts spread(ranks, cost, [&](const std::string& line) { printer.say(line); });
     const OutputFolder until_written(folder);
     toolpath::SetUpCosts measure;
@@ -100,7 +100,7 @@ SetUpStudy found_on(const Ranks& ranks,
             return spread.at(places, part);
         };
     }
-    SetUpStudy study = project::set_up_study(workpiece, settings, progress, measure);
+    SetUpStudy study = plan::set_up_study(workpiece, settings, progress, measure);
     printer.finish();
     return study;
 }
@@ -111,21 +111,21 @@ int set_up(const StudySetUpOptions& options) {
     if (options.settings.across == options.settings.up) {
         throw Error("--across and --up are the same", {}, "a map is over two of a, b, c, turn");
     }
-    project::SetUpStudySettings settings = options.settings;
+    plan::SetUpStudySettings settings = options.settings;
     settings.turn_reach = from_degrees(options.turn_reach_deg);
-    const project::Workpiece workpiece = project::workpiece_of(opened.project, opened.folders);
+    const plan::Workpiece workpiece = plan::workpiece_of(opened.project, opened.folders);
     const Ranks ranks;
     if (ranks.rank() > 0) {
         const auto deserted = [&](const std::string& lost) {
             fmt::print(stderr, "{}{}\n", lost, ranks.rank() == 1 ? "; nothing is written" : "");
         };
-        help_with_costs(ranks, project::set_up_cost(workpiece, settings), deserted, interrupt.token());
+        help_with_costs(ranks, plan::set_up_cost(workpiece, settings), deserted, interrupt.token());
         return 0;
     }
     const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
     ranks.let_go(); // nothing that is left to do can be lost with a rank
     write_outputs(options.out,
-                  {{{"set-up.csv", project::set_up_csv(study.map)},
+                  {{{"set-up.csv", plan::set_up_csv(study.map)},
                     {"set-up.png", render::to_png(picture_of(study, settings.goal))}}},
                   opened.file);
     fmt::print("{:<6} {:>10} {:>10} {:>10} {:>9} {:>12} {:>9}\n",
@@ -147,14 +147,14 @@ int set_up(const StudySetUpOptions& options) {
         fmt::print("no gain: no better place than the start was found\n");
     }
     print_out_of_reach(study, workpiece, settings);
-    const std::string edge = project::edge_sentence(study.search,
-                                                    project::set_up_box(workpiece, settings),
-                                                    {"--reach", "--reach", "--height-reach", "--turn-reach"});
+    const std::string edge = plan::edge_sentence(study.search,
+                                                 plan::set_up_box(workpiece, settings),
+                                                 {"--reach", "--reach", "--height-reach", "--turn-reach"});
     if (!edge.empty()) {
         fmt::print("{}\n", edge);
     }
     if (!options.accepted.empty()) {
-        project::write_project(gains ? project::with_set_up(opened.project, study.search.best.place)
+        project::write_project(gains ? plan::with_set_up(opened.project, study.search.best.place)
                                      : opened.project,
                                options.accepted);
     }
@@ -165,7 +165,7 @@ int set_up(const StudySetUpOptions& options) {
 
 void add_study_set_up_command(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<StudySetUpOptions>();
-    project::SetUpStudySettings& settings = options->settings;
+    plan::SetUpStudySettings& settings = options->settings;
     CLI::App& command =
         *group.add_subcommand("set-up", "Where on the table the part of a project is cut best");
     command.add_option("PROJECT", options->project, "Project file")->required();

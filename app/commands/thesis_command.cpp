@@ -53,7 +53,7 @@ std::vector<Vec3> mid_points(const PictureOptions& options,
     if (options.constants) {
         return toolpath::listing_mid_points(patch, *options.constants, grid, faults);
     }
-    const kinematics::MachineModel machine = project::workpiece_of(opened.project, opened.folders).machine;
+    const kinematics::MachineModel machine = plan::workpiece_of(opened.project, opened.folders).machine;
     if (const auto constants = kinematics::rotary_tilt_of(machine)) {
         return toolpath::listing_mid_points(patch, *constants, grid, faults);
     }

@@ -11,9 +11,9 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/error_weight.h"
-#include "core/project/grids.h"
+#include "core/plan/grids.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -67,8 +67,8 @@ void write_nodes(const GridOptions& options, const grid::NodeArray& in_square) {
 int write_program_grid(const GridOptions& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
-    const project::Plan plan = planned(opened, project::Scope::program, interrupt.token());
-    write_nodes(options, plan.evaluation(project::program_grid(opened.project))->outcome.grid.array());
+    const plan::Plan plan = planned(opened, plan::Scope::program, interrupt.token());
+    write_nodes(options, plan.evaluation(plan::program_grid(opened.project))->outcome.grid.array());
     return 0;
 }
 
@@ -157,7 +157,7 @@ void expect_files_of(const GridOptions& options, GridMethod method) {
 grid::ImproverState adapted(grid::GridImprover& improver, GridMethod method, const std::stop_token& stop) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
-    progress.report(0.0, std::string(project::title_of_making(method)));
+    progress.report(0.0, std::string(plan::title_of_making(method)));
     return grid::run(improver, progress);
 }
 
@@ -173,9 +173,8 @@ int write_adapted_grid(const GridOptions& options, GridMethod method) {
         write_nodes(options, start ? start->array() : grid::Grid::uniform(input.nu, input.nv).array());
         return 0;
     }
-    const toolpath::KinematicError error =
-        project::workpiece_of(opened.project, opened.folders).error_model();
-    const auto improver = project::make_improver(method, input, error, project::Effort::full, start);
+    const toolpath::KinematicError error = plan::workpiece_of(opened.project, opened.folders).error_model();
+    const auto improver = plan::make_improver(method, input, error, plan::Effort::full, start);
     const grid::ImproverState state = adapted(*improver, method, interrupt.token());
     if (!options.residuals.empty()) {
         const std::optional<grid::NodeArray> residuals = improver->residuals();

@@ -7,25 +7,25 @@
 
 namespace millwright::motion {
 
-using gcode::BlockKind;
-using kinematics::ArmJoint;
-using kinematics::ArmPathPoint;
-using kinematics::ArmTrouble;
-using kinematics::ArmWay;
-using kinematics::JointPositions;
+using arm::ArmJoint;
+using arm::ArmPathPoint;
+using arm::ArmTrouble;
+using arm::ArmWay;
+using arm::JointPositions;
+using program::BlockKind;
 
 namespace {
 
 constexpr double rounding = 1e-9; // rad: joints that are the same
 
-void expect_inside(const kinematics::ArmModel& arm, const JointPositions& joints) {
+void expect_inside(const arm::ArmModel& arm, const JointPositions& joints) {
     expects(joints.size() == arm.joint_count() && joints.allFinite(), "a finite position for every joint");
     const int n = arm.joint_outside(joints);
     if (n < 0) {
         return;
     }
     const ArmJoint& joint = arm.joint(n);
-    const bool turns = joint.kind == kinematics::JointKind::revolute;
+    const bool turns = joint.kind == arm::JointKind::revolute;
     const auto shown = [&](double value) { return turns ? to_degrees(value) : value; };
     throw Error(fmt::format("joint {} would have to go to {:.3f} {}, its limits are {:.3f} and {:.3f}",
                             joint.name,
@@ -36,20 +36,20 @@ void expect_inside(const kinematics::ArmModel& arm, const JointPositions& joints
 }
 
 [[noreturn]] void
-refuse(const std::vector<ArmWay>& ways, const kinematics::ArmPath& path, const std::filesystem::path& file) {
-    const kinematics::ArmFinding& finding = path.findings.front();
+refuse(const std::vector<ArmWay>& ways, const arm::ArmPath& path, const std::filesystem::path& file) {
+    const arm::ArmFinding& finding = path.findings.front();
     const int line = ways[static_cast<std::size_t>(path.points[finding.first].way)].line;
     throw Error(Diagnostic{.place = {.file = file, .line = line}, .message = finding.why, .hint = {}});
 }
 
 } // namespace
 
-ArmMotion::ArmMotion(const kinematics::ArmModel& arm, const JointPositions& start) : arm_(arm) {
+ArmMotion::ArmMotion(const arm::ArmModel& arm, const JointPositions& start) : arm_(arm) {
     expect_inside(arm, start);
     program_.machine = arm.name();
     program_.start = start;
     for (const ArmJoint& joint : arm.description().joints) {
-        const bool turns = joint.kind == kinematics::JointKind::revolute;
+        const bool turns = joint.kind == arm::JointKind::revolute;
         program_.axes.push_back({static_cast<char>('1' + program_.axes.size()),
                                  turns ? kinematics::AxisKind::rotary : kinematics::AxisKind::linear});
     }
@@ -60,13 +60,13 @@ const JointPositions& ArmMotion::joints() const {
 }
 
 void ArmMotion::add(BlockKind kind, const JointPositions& target, double seconds, int line) {
-    gcode::Block block;
+    program::Block block;
     block.kind = kind;
     block.target = target;
-    block.named = gcode::AxisSet::all(arm_.joint_count());
+    block.named = program::AxisSet::all(arm_.joint_count());
     block.duration = seconds;
     block.source_line = line;
-    block.path = gcode::PathControl{gcode::PathMode::continuous, 0.0};
+    block.path = program::PathControl{program::PathMode::continuous, 0.0};
     program_.blocks.push_back(std::move(block));
 }
 
@@ -76,7 +76,7 @@ void ArmMotion::go_to(const JointPositions& target, double seconds) {
 }
 
 void ArmMotion::follow(const std::vector<ArmWay>& ways,
-                       const kinematics::ArmPath& path,
+                       const arm::ArmPath& path,
                        const std::filesystem::path& file) {
     if (!path.whole()) {
         refuse(ways, path, file);
@@ -86,7 +86,7 @@ void ArmMotion::follow(const std::vector<ArmWay>& ways,
         const ArmWay& way = ways[static_cast<std::size_t>(point.way)];
         const bool first = n == 0 || path.points[n - 1].way != point.way;
         if (first) {
-            if (kinematics::joint_step(arm_, point.joints, joints()) > rounding) {
+            if (arm::joint_step(arm_, point.joints, joints()) > rounding) {
                 go_to(point.joints);
             }
             continue;

@@ -1,8 +1,8 @@
 #include "core/motion/arm_tour.h"
 
+#include "core/arm/arm_forward.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 
 #include <fmt/format.h>
 
@@ -11,19 +11,18 @@
 
 namespace millwright::motion {
 
-using kinematics::ArmModel;
-using kinematics::JointPositions;
+using arm::ArmModel;
+using arm::JointPositions;
 
 namespace {
 
 void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
     constexpr double quarter_turn = 0.5 * pi;
-    const std::vector<kinematics::ArmWay> ways{straight_way(kinematics::base_T_tool(arm, motion.joints()),
-                                                            kinematics::base_T_tool(arm, stop.joints),
-                                                            stop.share * tour_speed)};
-    kinematics::ArmPathSettings settings;
-    settings.aim = kinematics::aim_of(arm, quarter_turn);
-    motion.follow(ways, kinematics::follow_path(arm, ways, motion.joints(), settings, {}), {});
+    const std::vector<arm::ArmWay> ways{straight_way(
+        arm::base_T_tool(arm, motion.joints()), arm::base_T_tool(arm, stop.joints), stop.share * tour_speed)};
+    arm::ArmPathSettings settings;
+    settings.aim = arm::aim_of(arm, quarter_turn);
+    motion.follow(ways, arm::follow_path(arm, ways, motion.joints(), settings, {}), {});
     const double turn = (motion.joints() - stop.joints).cwiseAbs().maxCoeff();
     constexpr double same_branch = 0.01; // rad or mm
     if (turn > same_branch) {
@@ -42,7 +41,7 @@ double joint_time(const ArmModel& arm, const JointPositions& way, double share) 
     return longest;
 }
 
-kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed) {
+arm::ArmWay straight_way(const Frame& from, const Frame& to, double speed) {
     const Eigen::Quaterniond first(from.linear()), last(to.linear());
     const Vec3 begin = from.translation(), end = to.translation();
     const double length = (end - begin).norm();
@@ -55,7 +54,7 @@ kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed
     return {at, length, speed > 0.0 ? length / speed : 0.0, 0};
 }
 
-gcode::Program tour(const ArmModel& arm, const JointPositions& start, const std::vector<ArmStop>& stops) {
+program::Program tour(const ArmModel& arm, const JointPositions& start, const std::vector<ArmStop>& stops) {
     ArmMotion motion(arm, start);
     for (const ArmStop& stop : stops) {
         expects(stop.share > 0.0 && stop.share <= 1.0, "a stop has a share of the speed");

@@ -14,24 +14,21 @@ inline constexpr double tour_speed = 250.0;
 
 struct ArmStop {
     std::string name; ///< for diagnostics
-    kinematics::JointPositions joints;
+    arm::JointPositions joints;
     bool straight = false; ///< the tip along a line, the tool turning evenly; else joint by joint
     double share = 1.0;    ///< of tour_speed, or of the joints' greatest speeds; 0 < share <= 1
 };
 
 /// From `start` through all stops. Throws Error with the name of the stop that the arm cannot go to.
-[[nodiscard]] gcode::Program tour(const kinematics::ArmModel& arm,
-                                  const kinematics::JointPositions& start,
-                                  const std::vector<ArmStop>& stops);
-gcode::Program
-tour(kinematics::ArmModel&&, const kinematics::JointPositions&, const std::vector<ArmStop>&) = delete;
+[[nodiscard]] program::Program
+tour(const arm::ArmModel& arm, const arm::JointPositions& start, const std::vector<ArmStop>& stops);
+program::Program tour(arm::ArmModel&&, const arm::JointPositions&, const std::vector<ArmStop>&) = delete;
 
 /// As long as the slowest joint takes for `way` at that share of its speed, s; 0 < share <= 1.
-[[nodiscard]] double
-joint_time(const kinematics::ArmModel& arm, const kinematics::JointPositions& way, double share);
+[[nodiscard]] double joint_time(const arm::ArmModel& arm, const arm::JointPositions& way, double share);
 
 /// The tip's straight way between two frames of the tool, which turns evenly. `speed`: mm/s; 0: as fast as
 /// the joints can.
-[[nodiscard]] kinematics::ArmWay straight_way(const Frame& from, const Frame& to, double speed);
+[[nodiscard]] arm::ArmWay straight_way(const Frame& from, const Frame& to, double speed);
 
 } // namespace millwright::motion

@@ -12,7 +12,7 @@ namespace millwright::motion {
 /// (infinity: as the axes can), and in a corner that is not rounded their velocity steps by what the smaller
 /// one of both blocks reaches in the corner time. Throws what plan() throws, Defect for accelerations that
 /// are not one a block.
-[[nodiscard]] Trajectory plan_within(const gcode::Program& program,
+[[nodiscard]] Trajectory plan_within(const program::Program& program,
                                      std::span<const double> accelerations,
                                      const kinematics::MachineModel& machine,
                                      const PlannerSettings& settings,

@@ -15,7 +15,7 @@ namespace millwright::motion {
 namespace {
 
 Trajectory plan_for(const internal::Mechanism& mechanism,
-                    const gcode::Program& program,
+                    const program::Program& program,
                     const PlannerSettings& settings,
                     const Progress& progress,
                     const kinematics::AxisPositions& start,
@@ -33,7 +33,7 @@ Trajectory plan_for(const internal::Mechanism& mechanism,
 
 } // namespace
 
-Trajectory plan(const gcode::Program& program,
+Trajectory plan(const program::Program& program,
                 const kinematics::MachineModel& machine,
                 const PlannerSettings& settings,
                 const Progress& progress,
@@ -42,7 +42,7 @@ Trajectory plan(const gcode::Program& program,
     return plan_for(mechanism, program, settings, progress, start.value_or(program.start));
 }
 
-Trajectory plan_within(const gcode::Program& program,
+Trajectory plan_within(const program::Program& program,
                        std::span<const double> accelerations,
                        const kinematics::MachineModel& machine,
                        const PlannerSettings& settings,
@@ -55,8 +55,8 @@ Trajectory plan_within(const gcode::Program& program,
     return plan_for(mechanism, program, settings, progress, start.value_or(program.start), accelerations);
 }
 
-Trajectory plan(const gcode::Program& program,
-                const kinematics::ArmModel& arm,
+Trajectory plan(const program::Program& program,
+                const arm::ArmModel& arm,
                 const PlannerSettings& settings,
                 const Progress& progress) {
     const internal::ArmMechanism mechanism(arm);

@@ -7,10 +7,10 @@
 // from the steps no axis ever exceeds its velocity, acceleration or jerk.
 #pragma once
 
+#include "core/arm/arm_model.h"
 #include "core/base/progress.h"
-#include "core/gcode/program.h"
-#include "core/kinematics/arm_model.h"
 #include "core/motion/trajectory.h"
+#include "core/program/program.h"
 
 #include <optional>
 
@@ -30,7 +30,7 @@ enum class FeedRule : std::uint8_t {
 };
 
 struct PlannerSettings {
-    gcode::PathControl path;          ///< of moves that do not say
+    program::PathControl path;        ///< of moves that do not say
     double rounding_tolerance = 0.01; ///< of a continuous path without a tolerance of its own, mm, > 0
     double rounding_angle = 0.001;    ///< by which a rounding may turn a rotary axis off the path, rad, > 0
     CornerRule corner_rule = CornerRule::small_step;
@@ -46,15 +46,15 @@ struct PlannerSettings {
 /// axes (comments do not), moves of no length take no time. The duration of the trajectory is the time
 /// estimate. Throws Error if the program's axes are not the machine's, Defect if a target is not finite or a
 /// setting out of range.
-[[nodiscard]] Trajectory plan(const gcode::Program& program,
+[[nodiscard]] Trajectory plan(const program::Program& program,
                               const kinematics::MachineModel& machine,
                               const PlannerSettings& settings,
                               const Progress& progress,
                               const std::optional<kinematics::AxisPositions>& start = std::nullopt);
 
 /// The same for the joints of an arm, called '1' to '9' in the program; "on the part" is in the base's frame.
-[[nodiscard]] Trajectory plan(const gcode::Program& program,
-                              const kinematics::ArmModel& arm,
+[[nodiscard]] Trajectory plan(const program::Program& program,
+                              const arm::ArmModel& arm,
                               const PlannerSettings& settings,
                               const Progress& progress);
 

@@ -25,7 +25,7 @@ FilterTime::FilterTime(const std::vector<AxisLimits>& limits, AxisPositions star
     }
 }
 
-void FilterTime::add(const gcode::Block& block) {
+void FilterTime::add(const program::Block& block) {
     const AxisPositions after = internal::position_after(block, start_);
     for (std::size_t n = 0; n < of_axis_.size(); ++n) {
         const auto axis = static_cast<Eigen::Index>(n);
@@ -62,7 +62,7 @@ TimeEstimate::TimeEstimate(const MachineModel& machine,
 
 TimeEstimate::~TimeEstimate() = default;
 
-void TimeEstimate::add(const gcode::Block& block) {
+void TimeEstimate::add(const program::Block& block) {
     window_->choice().add(block);
 }
 

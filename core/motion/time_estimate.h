@@ -3,8 +3,8 @@
 // way of braking, and some thousands.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/motion/planner.h"
+#include "core/program/program.h"
 
 #include <memory>
 #include <vector>
@@ -20,7 +20,7 @@ public:
     FilterTime(const std::vector<AxisLimits>& limits, kinematics::AxisPositions start);
 
     /// Throws Defect if the block's target is not finite.
-    void add(const gcode::Block& block);
+    void add(const program::Block& block);
     [[nodiscard]] double seconds() const { return seconds_; } ///< of the blocks so far; 0: no limits of jerk
     [[nodiscard]] bool settled() const { return !(seconds_ < most_); } ///< no block can change it any more
 
@@ -44,7 +44,7 @@ public:
     ~TimeEstimate();
 
     /// Blocks of the machine's axes, in their order. Throws what plan() throws for a block.
-    void add(const gcode::Block& block);
+    void add(const program::Block& block);
     /// Of all blocks, s. Nothing is added after it.
     [[nodiscard]] double finish();
     /// Blocks that are in memory now.

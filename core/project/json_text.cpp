@@ -1,7 +1,11 @@
-#include "core/project/internal/json_text.h"
+#include "core/project/json_text.h"
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace millwright::project {
 
@@ -61,6 +65,15 @@ std::string json_text(const Json& value) {
     } catch (const Json::type_error&) {
         throw Error("a text is not valid UTF-8");
     }
+}
+
+double rounded(double value) {
+    constexpr double steps = 1e6;
+    return std::round(value * steps) / steps;
+}
+
+nlohmann::ordered_json vector(const Vec3& p) {
+    return nlohmann::ordered_json::array({rounded(p.x()), rounded(p.y()), rounded(p.z())});
 }
 
 } // namespace millwright::project

@@ -2,7 +2,7 @@
 
 #include "core/base/files.h"
 #include "core/base/json.h"
-#include "core/project/internal/json_text.h"
+#include "core/project/json_text.h"
 
 #include <nlohmann/json.hpp>
 

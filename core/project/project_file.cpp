@@ -7,12 +7,12 @@
 #include "core/geometry/presets.h"
 #include "core/project/internal/arm_json.h"
 #include "core/project/internal/elliptic_json.h"
-#include "core/project/internal/json_text.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/internal/plot_json.h"
 #include "core/project/internal/setting_json.h"
-#include "core/project/internal/tool_json.h"
+#include "core/project/json_text.h"
 #include "core/project/settings.h"
+#include "core/project/tool_json.h"
 
 #include <fmt/format.h>
 

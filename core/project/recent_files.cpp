@@ -2,8 +2,9 @@
 
 #include "core/base/files.h"
 #include "core/base/json.h"
-#include "core/project/internal/json_text.h"
+#include "core/project/json_text.h"
 
+#include <nlohmann/json.hpp>
 #include <pwd.h>
 #include <unistd.h>
 

@@ -3,7 +3,7 @@
 #include "core/base/files.h"
 #include "core/base/json.h"
 #include "core/project/internal/file_lock.h"
-#include "core/project/internal/json_text.h"
+#include "core/project/json_text.h"
 #include "core/project/project_file.h"
 #include "core/project/recent_files.h"
 

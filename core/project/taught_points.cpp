@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/project/internal/arm_json.h"
-#include "core/project/internal/json_text.h"
 #include "core/project/internal/setting_json.h"
+#include "core/project/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/file_format.h"
-#include "core/project/internal/json_text.h"
 #include "core/project/internal/setting_json.h"
-#include "core/project/internal/tool_json.h"
+#include "core/project/json_text.h"
+#include "core/project/tool_json.h"
 #include "core/project/tool_settings.h"
 
 namespace millwright::project {

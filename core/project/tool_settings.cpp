@@ -226,16 +226,17 @@ kinematics::MachineModel machine_with(const ToolInput& tool, const kinematics::M
     return length ? machine.with_tool_length(*length) : machine;
 }
 
-std::optional<gcode::ProgramTool> program_tool(const ToolInput& input,
-                                               const kinematics::MachineModel& machine) {
+std::optional<program::ProgramTool> program_tool(const ToolInput& input,
+                                                 const kinematics::MachineModel& machine) {
     if (input.number == 0 || !gauge_length_mm(input)) {
         return std::nullopt;
     }
-    return gcode::ProgramTool{input.number, machine.description().tool_length_offset};
+    return program::ProgramTool{input.number, machine.description().tool_length_offset};
 }
 
-std::optional<gcode::ProgramCutter> program_cutter(const ToolInput& input) {
-    gcode::ProgramCutter cutter{.number = input.number, .diameter = input.diameter_mm, .corner_radius = 0.0};
+std::optional<program::ProgramCutter> program_cutter(const ToolInput& input) {
+    program::ProgramCutter cutter{
+        .number = input.number, .diameter = input.diameter_mm, .corner_radius = 0.0};
     switch (input.cutter) {
     case CutterKind::point:
         return std::nullopt;

@@ -1,8 +1,8 @@
 // What the numbers of a tool say about themselves (settings.h), and the tool that they describe.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/kinematics/machine_model.h"
+#include "core/program/program.h"
 #include "core/project/settings.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/tool.h"
@@ -35,11 +35,11 @@ namespace millwright::project {
 
 /// What the program calls on `machine`, which has the tool. Nullopt for number 0, and for a point, which is
 /// no tool, without a gauge length.
-[[nodiscard]] std::optional<gcode::ProgramTool> program_tool(const ToolInput& input,
-                                                             const kinematics::MachineModel& machine);
+[[nodiscard]] std::optional<program::ProgramTool> program_tool(const ToolInput& input,
+                                                               const kinematics::MachineModel& machine);
 
 /// What its comment says of the tool. Nullopt of a point.
-[[nodiscard]] std::optional<gcode::ProgramCutter> program_cutter(const ToolInput& input);
+[[nodiscard]] std::optional<program::ProgramCutter> program_cutter(const ToolInput& input);
 
 /// Which length the program was made for, in one line for people.
 [[nodiscard]] std::string tool_length_text(const ToolInput& input, const kinematics::MachineModel& machine);

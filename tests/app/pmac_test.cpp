@@ -14,6 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
+/// The guard in the card takes the power then, as it should, and what was asked for is not done.
+constexpr const char* computer_was_busy = "it heard nothing from this computer for 50 ms";
+
 struct Pmac : testing::Test {
     ScratchFolder scratch;
     std::string port = (scratch / "port").string();
@@ -280,8 +283,10 @@ TEST_F(Pmac, ChecksThatJogsAndProgramsGoTheSameWay) {
 TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     Emulator emulator(port, {"--arm"}, "pmac");
     ASSERT_EQ(run({"pmac", "I900=1", "--port", port}).exit_code, 0); // as its encoder is wired
-    const Ended found =
-        run({"arm", "offset", "1", "--port", port, "--from", "-980", "--most-way", "1e9", "--apply"});
+    Ended found;
+    for (int n = 0; n < 5 && (n == 0 || found.err.find(computer_was_busy) != std::string::npos); ++n) {
+        found = run({"arm", "offset", "1", "--port", port, "--from", "-980", "--most-way", "1e9", "--apply"});
+    }
     ASSERT_EQ(found.exit_code, 0) << found.err;
     // The amplifier of motor 1 adds 996 bits, as the thesis found; to the bit the core's tests find it, in
     // computed time.

@@ -37,18 +37,12 @@ struct Rank {
     int rank;
 };
 constexpr std::array core_order = {
-    Rank{"base", 0},
-    Rank{"geometry", 1},
-    Rank{"cordic", 1},
-    Rank{"exchange", 2},
-    Rank{"kinematics", 2},
-    Rank{"grid", 3},
-    Rank{"toolpath", 4},
-    Rank{"plot", 5},
-    Rank{"gcode", 6},
-    Rank{"motion", 7},
-    Rank{"machine", 8},
-    Rank{"project", 9},
+    Rank{"base", 0},           Rank{"geometry", 1},   Rank{"cordic", 1},   Rank{"links", 1},
+    Rank{"exchange", 2},       Rank{"kinematics", 2}, Rank{"grid", 2},     Rank{"arm", 3},
+    Rank{"toolpath", 3},       Rank{"program", 4},    Rank{"plot", 5},     Rank{"motion", 5},
+    Rank{"gcode", 6},          Rank{"project", 6},    Rank{"posts", 7},    Rank{"drivers", 7},
+    Rank{"cordic_machine", 8}, Rank{"emulators", 8},  Rank{"jobs", 8},     Rank{"pmac", 9},
+    Rank{"plan", 9},           Rank{"machine", 10},   Rank{"studies", 10},
 };
 
 /// core/grid/adapt.h -> grid; empty outside the core.
@@ -137,10 +131,10 @@ constexpr std::array<std::string_view, 3> screen_home = {"ui", "tests/ui", "benc
 constexpr std::array<std::string_view, 1> xlib = {"X11/"};
 constexpr std::array<std::string_view, 3> xlib_home = {"ui/render", "tests/ui/render", "bench"};
 constexpr std::array<std::string_view, 1> json = {"nlohmann/"};
-constexpr std::array<std::string_view, 5> json_home = {
-    "core/base", "core/machine", "core/project", "app", "tests"};
+constexpr std::array<std::string_view, 7> json_home = {
+    "core/base", "core/jobs", "core/project", "core/plan", "core/studies", "app", "tests"};
 constexpr std::array<std::string_view, 1> asio = {"boost/asio"};
-constexpr std::array<std::string_view, 1> asio_home = {"core/machine/links"};
+constexpr std::array<std::string_view, 1> asio_home = {"core/links"};
 constexpr std::array<std::string_view, 1> voronoi = {"boost/polygon"};
 constexpr std::array<std::string_view, 1> voronoi_home = {"core/plot/carving"};
 constexpr std::array<std::string_view, 1> clipper = {"polyclipping/"};

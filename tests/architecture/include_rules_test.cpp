@@ -29,7 +29,7 @@ TEST(Includes, TellThePlaceOfTheLine) {
 
 TEST(Includes, GoDownInTheOrderOfTheCore) {
     EXPECT_THAT(said_of("core/grid/a.cpp", "\"core/base/error.h\""), IsEmpty());
-    EXPECT_THAT(said_of("core/project/a.h", "\"core/machine/driver.h\""), IsEmpty());
+    EXPECT_THAT(said_of("core/jobs/a.h", "\"core/drivers/driver.h\""), IsEmpty());
     EXPECT_THAT(said_of("core/grid/a.cpp", "\"core/grid/grid.h\""), IsEmpty());
     EXPECT_THAT(said_of("core/grid/a.cpp", "\"core/toolpath/toolpath.h\""),
                 ElementsAre("core/grid includes upward: core/toolpath/toolpath.h"));

@@ -55,9 +55,9 @@ TEST(Lists, DoNotTakeACommentForAnEntry) {
 }
 
 TEST(Lists, NameFilesInDeeperFoldersByTheirPath) {
-    const TextFile list = {"core/machine/CMakeLists.txt", "SOURCES drivers/virtual_machine.cpp"};
-    EXPECT_THAT(check_lists({list, {"core/machine/drivers/virtual_machine.cpp", ""}}), IsEmpty());
-    EXPECT_THAT(check_lists({list, {"core/machine/virtual_machine.cpp", ""}}), SizeIs(1));
+    const TextFile list = {"core/drivers/CMakeLists.txt", "SOURCES grbl/grbl_driver.cpp"};
+    EXPECT_THAT(check_lists({list, {"core/drivers/grbl/grbl_driver.cpp", ""}}), IsEmpty());
+    EXPECT_THAT(check_lists({list, {"core/drivers/grbl_driver.cpp", ""}}), SizeIs(1));
 }
 
 TEST(Lists, LeaveOutHeadersThatNobodyElseMayInclude) {

@@ -1,6 +1,6 @@
 // Any text as a motion file of an arm: blocks with finite numbers, or an Error with its place.
+#include "core/arm/arm_motion_file.h"
 #include "core/base/error.h"
-#include "core/kinematics/arm_motion_file.h"
 
 #include <cmath>
 #include <cstddef>
@@ -12,9 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace millwright;
     try {
-        const auto blocks =
-            kinematics::parse_arm_motion({reinterpret_cast<const char*>(data), size}, "fuzz.txt");
-        for (const kinematics::ArmBlock& block : blocks) {
+        const auto blocks = arm::parse_arm_motion({reinterpret_cast<const char*>(data), size}, "fuzz.txt");
+        for (const arm::ArmBlock& block : blocks) {
             expects(block.way.allFinite() && block.line > 0, "a block goes somewhere");
             expects(!block.radius || std::isfinite(*block.radius), "a radius is finite");
         }

@@ -1,8 +1,8 @@
 // Any bytes are a program: they give operations with finite numbers, arcs that are arcs, and diagnostics with
 // a place; never a crash, a hang or a NaN.
 #include "core/base/error.h"
-#include "core/gcode/reader/canon_printer.h"
-#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/canon_printer.h"
+#include "core/gcode/interpreter.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // Any bytes to an emulated Grbl: it answers in lines, stands at a finite place, and its time ends.
-#include "core/machine/emulators/grbl/grbl_emulator.h"
+#include "core/emulators/grbl/grbl_emulator.h"
 
 #include "core/base/error.h"
 

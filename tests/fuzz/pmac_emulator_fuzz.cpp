@@ -1,6 +1,6 @@
 // Any characters to an emulated PMAC, on-line and as programs: it stands at a finite place, and its time
 // ends.
-#include "core/machine/emulators/pmac/pmac_emulator.h"
+#include "core/pmac/emulator/pmac_emulator.h"
 
 #include "core/base/error.h"
 

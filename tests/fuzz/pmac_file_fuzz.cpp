@@ -1,5 +1,5 @@
 // Any text as a file of PMAC commands: lines and warnings with their places, or an Error.
-#include "core/machine/drivers/pmac/pmac_file.h"
+#include "core/pmac/driver/pmac_file.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,9 +10,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace millwright;
     try {
-        const machine::PmacFile file =
-            machine::read_pmac_file({reinterpret_cast<const char*>(data), size}, "fuzz.ini");
-        for (const machine::PmacFile::Line& line : file.lines) {
+        const pmac::PmacFile file =
+            pmac::read_pmac_file({reinterpret_cast<const char*>(data), size}, "fuzz.ini");
+        for (const pmac::PmacFile::Line& line : file.lines) {
             expects(line.number > 0 && !line.text.empty(), "a line has a place and a text");
         }
         for (const auto& found : {file.warnings, file.omissions}) {

@@ -1,9 +1,9 @@
 // Any bytes are either a post, or an Error about the file. A post that is one writes a program that reads
 // back as it, or says why not.
-#include "core/gcode/posts/post_file.h"
+#include "core/posts/post_file.h"
 
 #include "core/base/error.h"
-#include "core/gcode/posts/release.h"
+#include "core/posts/release.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,29 +30,29 @@ kinematics::MachineModel machine() {
     return kinematics::MachineModel(description);
 }
 
-Block block_of(BlockKind kind, const Vec3& target) {
-    Block block;
+program::Block block_of(program::BlockKind kind, const Vec3& target) {
+    program::Block block;
     block.kind = kind;
     block.target = target;
-    block.named = AxisSet::all(3);
+    block.named = program::AxisSet::all(3);
     block.duration = 2.0;
     block.spindle_rpm = 1000.0;
     return block;
 }
 
-Program program_for(const kinematics::MachineModel& machine) {
-    Program program;
+program::Program program_for(const kinematics::MachineModel& machine) {
+    program::Program program;
     program.machine = machine.name();
     for (const kinematics::MachineAxis& axis : machine.axes()) {
         program.axes.push_back({axis.letter, axis.kind});
     }
     program.start = Vec3::Zero();
-    program.blocks = {block_of(BlockKind::comment, Vec3::Zero()),
-                      block_of(BlockKind::spindle_on, Vec3::Zero()),
-                      block_of(BlockKind::rapid, Vec3(1, 2, 3)),
-                      block_of(BlockKind::feed, Vec3(10, 2, -1.5)),
-                      block_of(BlockKind::dwell, Vec3(10, 2, -1.5)),
-                      block_of(BlockKind::end, Vec3(10, 2, -1.5))};
+    program.blocks = {block_of(program::BlockKind::comment, Vec3::Zero()),
+                      block_of(program::BlockKind::spindle_on, Vec3::Zero()),
+                      block_of(program::BlockKind::rapid, Vec3(1, 2, 3)),
+                      block_of(program::BlockKind::feed, Vec3(10, 2, -1.5)),
+                      block_of(program::BlockKind::dwell, Vec3(10, 2, -1.5)),
+                      block_of(program::BlockKind::end, Vec3(10, 2, -1.5))};
     return program;
 }
 
@@ -60,11 +60,12 @@ Program program_for(const kinematics::MachineModel& machine) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const kinematics::MachineModel xyz = machine();
-    static const Program program = program_for(xyz);
+    static const program::Program program = program_for(xyz);
     try {
-        const PostFormat format = parse_post({reinterpret_cast<const char*>(data), size}, "post.json");
+        const posts::PostFormat format =
+            posts::parse_post({reinterpret_cast<const char*>(data), size}, "post.json");
         try {
-            static_cast<void>(release(program, xyz, format));
+            static_cast<void>(posts::release(program, xyz, format));
         } catch (const Error&) { // a control that cannot do it, or whose words say something else
         }
     } catch (const Error& error) {

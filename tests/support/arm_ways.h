@@ -1,15 +1,15 @@
 // Ways of an arm's tool for tests.
 #pragma once
 
-#include "core/kinematics/arm_path.h"
+#include "core/arm/arm_path.h"
 
 #include <cmath>
 
 namespace millwright::test {
 
 /// From tip to tip, the tool in one direction all the way.
-inline kinematics::ArmWay line_way(const Vec3& from, const Vec3& to, const Vec3& axis, double mm_s = 0.0) {
-    kinematics::ArmWay way;
+inline arm::ArmWay line_way(const Vec3& from, const Vec3& to, const Vec3& axis, double mm_s = 0.0) {
+    arm::ArmWay way;
     way.at = [=](double share) {
         Frame tool = Frame::Identity();
         tool.translation() = from + share * (to - from);
@@ -22,8 +22,8 @@ inline kinematics::ArmWay line_way(const Vec3& from, const Vec3& to, const Vec3&
 }
 
 /// Counter-clockwise about the vertical line through the base, the tool down.
-inline kinematics::ArmWay around_the_base(double radius, double height, double from, double to) {
-    kinematics::ArmWay way;
+inline arm::ArmWay around_the_base(double radius, double height, double from, double to) {
+    arm::ArmWay way;
     way.at = [=](double share) {
         const double angle = from + share * (to - from);
         Frame tool = Frame::Identity();

@@ -1,10 +1,10 @@
 // Jobs, clocks without time and folders for tests of the machine room.
 #pragma once
 
-#include "core/gcode/writer.h"
-#include "core/machine/clock.h"
-#include "core/machine/job.h"
+#include "core/base/clock.h"
+#include "core/jobs/job.h"
 #include "core/motion/planner.h"
+#include "core/posts/writer.h"
 #include "tests/support/programs.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace millwright::test {
 
 /// Time passes only when somebody waits.
-class ManualClock final : public machine::Clock {
+class ManualClock final : public Clock {
 public:
     [[nodiscard]] double now() const override {
         const std::scoped_lock lock(mutex_);
@@ -54,21 +54,21 @@ private:
 };
 
 /// A job on the thesis's machine.
-inline machine::Job job_of(gcode::Program program) {
-    machine::Job job;
+inline jobs::Job job_of(program::Program program) {
+    jobs::Job job;
     job.name = "test";
     job.project = "test project";
     job.machine = std::make_shared<const kinematics::MachineModel>(machine("rotary-tilt-listing"));
-    job.listing = std::make_shared<const gcode::Listing>(gcode::write_gcode(program, {}));
-    job.program = std::make_shared<const gcode::Program>(std::move(program));
+    job.listing = std::make_shared<const program::Listing>(posts::write_gcode(program, {}));
+    job.program = std::make_shared<const program::Program>(std::move(program));
     return job;
 }
 
-inline machine::Job dome_job() {
+inline jobs::Job dome_job() {
     return job_of(post_over("dome", machine("rotary-tilt-listing"), 5, 6).program);
 }
 
-inline machine::Work work_of(const machine::Job& job) {
+inline drivers::Work work_of(const jobs::Job& job) {
     const auto trajectory = motion::plan(*job.program, *job.machine, job.planner, {});
     return {job.program, std::make_shared<const motion::Trajectory>(trajectory), job.listing};
 }

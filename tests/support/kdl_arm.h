@@ -1,7 +1,7 @@
 // An arm as Orocos KDL sees it.
 #pragma once
 
-#include "core/kinematics/arm_forward.h"
+#include "core/arm/arm_forward.h"
 
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -14,28 +14,28 @@ namespace millwright::test {
 
 class KdlArm {
 public:
-    explicit KdlArm(const kinematics::ArmModel& arm)
+    explicit KdlArm(const arm::ArmModel& arm)
         : chain_(chain_of(arm)), forward_(chain_), jacobian_(chain_),
           inverse_(chain_, weights(), 1e-12, 2000) {}
 
-    [[nodiscard]] Frame forward(const kinematics::JointPositions& q) {
+    [[nodiscard]] Frame forward(const arm::JointPositions& q) {
         KDL::Frame frame;
         forward_.JntToCart(array_of(q), frame);
         return frame_of(frame);
     }
-    [[nodiscard]] kinematics::ArmJacobian jacobian(const kinematics::JointPositions& q) {
+    [[nodiscard]] arm::ArmJacobian jacobian(const arm::JointPositions& q) {
         KDL::Jacobian found(static_cast<unsigned>(q.size()));
         jacobian_.JntToJac(array_of(q), found);
         return found.data;
     }
     /// By KDL's Levenberg-Marquardt; nothing if it does not converge.
-    [[nodiscard]] std::optional<kinematics::JointPositions> inverse(const Frame& goal,
-                                                                    const kinematics::JointPositions& start) {
+    [[nodiscard]] std::optional<arm::JointPositions> inverse(const Frame& goal,
+                                                             const arm::JointPositions& start) {
         KDL::JntArray found(static_cast<unsigned>(start.size()));
         if (inverse_.CartToJnt(array_of(start), kdl_of(goal), found) < 0) {
             return std::nullopt;
         }
-        return kinematics::JointPositions(found.data);
+        return arm::JointPositions(found.data);
     }
 
 private:
@@ -45,7 +45,7 @@ private:
         found << 1e-3, 1e-3, 1e-3, 1.0, 1.0, 1.0;
         return found;
     }
-    static KDL::JntArray array_of(const kinematics::JointPositions& q) {
+    static KDL::JntArray array_of(const arm::JointPositions& q) {
         KDL::JntArray array(static_cast<unsigned>(q.size()));
         array.data = q;
         return array;
@@ -68,8 +68,8 @@ private:
             KDL::Vector(p.x(), p.y(), p.z())};
     }
     /// What stands before a joint is the end of the segment before it.
-    static KDL::Chain chain_of(const kinematics::ArmModel& arm) {
-        using kinematics::JointKind;
+    static KDL::Chain chain_of(const arm::ArmModel& arm) {
+        using arm::JointKind;
         const auto before = [&](int n) {
             return KDL::Frame(KDL::Rotation::RotX(arm.joint(n).alpha)) *
                    KDL::Frame(KDL::Vector(arm.joint(n).a, 0.0, 0.0));
@@ -83,7 +83,7 @@ private:
             if (n + 1 < arm.joint_count()) {
                 rest = rest * before(n + 1);
             } else {
-                const kinematics::ArmDescription& of = arm.description();
+                const arm::ArmDescription& of = arm.description();
                 const Vec3& tip = of.tool_tip;
                 rest = rest * KDL::Frame(KDL::Rotation::RotX(of.end_alpha), KDL::Vector(of.end_a, 0.0, 0.0)) *
                        KDL::Frame(KDL::Vector(tip.x(), tip.y(), tip.z()));

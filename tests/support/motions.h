@@ -14,21 +14,21 @@
 namespace millwright::test {
 
 /// Rapids and feeds of all lengths, some of none, with comments, dwells and a spindle between them.
-inline gcode::Program random_program(const kinematics::MachineModel& machine, int blocks, unsigned seed) {
+inline program::Program random_program(const kinematics::MachineModel& machine, int blocks, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     std::uniform_int_distribution<int> kind(0, 19);
-    gcode::Program program = empty_program(machine);
+    program::Program program = empty_program(machine);
     kinematics::AxisPositions q = program.start;
     kinematics::AxisPositions heading = q;
     for (int n = 0; n < blocks; ++n) {
         const int what = kind(random);
         if (what == 0) {
-            add_block(program, gcode::BlockKind::comment);
+            add_block(program, program::BlockKind::comment);
         } else if (what == 1) {
-            add_block(program, gcode::BlockKind::spindle_on);
+            add_block(program, program::BlockKind::spindle_on);
         } else if (what == 2) {
-            add_block(program, gcode::BlockKind::dwell);
+            add_block(program, program::BlockKind::dwell);
             program.blocks.back().duration = 0.1;
         } else if (what == 3) {
             add_move(program, q, 0.2);

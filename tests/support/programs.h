@@ -1,11 +1,11 @@
 // Tool paths and programs for tests, made by hand: zigzag along v over a uniform grid of a preset.
 #pragma once
 
-#include "core/gcode/post.h"
-#include "core/gcode/program.h"
 #include "core/geometry/presets.h"
 #include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
+#include "core/program/post.h"
+#include "core/program/program.h"
 #include "core/toolpath/toolpath.h"
 #include "tests/support/machines.h"
 
@@ -44,34 +44,34 @@ inline toolpath::AxisPath axes_for(const kinematics::MachineModel& machine, cons
 }
 
 /// The program of a preset on a shipped machine.
-inline gcode::PostResult post_over(std::string_view preset,
-                                   const kinematics::MachineModel& machine,
-                                   int nu,
-                                   int nv,
-                                   const gcode::ProgramSettings& settings = {}) {
+inline program::PostResult post_over(std::string_view preset,
+                                     const kinematics::MachineModel& machine,
+                                     int nu,
+                                     int nv,
+                                     const program::ProgramSettings& settings = {}) {
     const toolpath::Toolpath path = zigzag_over(preset, nu, nv);
-    return gcode::post(machine, path, axes_for(machine, path), settings, {{"project", "test"}});
+    return program::post(machine, path, axes_for(machine, path), settings, {{"project", "test"}});
 }
 
 /// Adds a straight move to a program; `duration` is that of a feed, 0 makes it a rapid.
 inline void
-add_move(gcode::Program& program, const kinematics::AxisPositions& target, double duration = 0.0) {
-    gcode::Block& block = program.blocks.emplace_back();
-    block.kind = duration > 0.0 ? gcode::BlockKind::feed : gcode::BlockKind::rapid;
+add_move(program::Program& program, const kinematics::AxisPositions& target, double duration = 0.0) {
+    program::Block& block = program.blocks.emplace_back();
+    block.kind = duration > 0.0 ? program::BlockKind::feed : program::BlockKind::rapid;
     block.target = target;
-    block.named = gcode::AxisSet::all(static_cast<int>(target.size()));
+    block.named = program::AxisSet::all(static_cast<int>(target.size()));
     block.duration = duration;
 }
 
-inline void add_block(gcode::Program& program, gcode::BlockKind kind) {
-    const kinematics::AxisPositions where = gcode::position_before(program, program.block_count());
-    gcode::Block& block = program.blocks.emplace_back();
+inline void add_block(program::Program& program, program::BlockKind kind) {
+    const kinematics::AxisPositions where = program::position_before(program, program.block_count());
+    program::Block& block = program.blocks.emplace_back();
     block.kind = kind;
     block.target = where;
 }
 
-inline gcode::Program empty_program(const kinematics::MachineModel& machine) {
-    gcode::Program program;
+inline program::Program empty_program(const kinematics::MachineModel& machine) {
+    program::Program program;
     program.machine = machine.name();
     for (const kinematics::MachineAxis& axis : machine.axes()) {
         program.axes.push_back({axis.letter, axis.kind});

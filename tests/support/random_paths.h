@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/units.h"
-#include "core/gcode/program.h"
+#include "core/program/program.h"
 #include "tests/support/programs.h"
 
 #include <algorithm>
@@ -26,15 +26,16 @@ inline kinematics::AxisPositions random_positions(const kinematics::MachineModel
 }
 
 /// Spindle, coolant, rapids, feeds, a dwell and a pause, with the axes that move now and then only some.
-inline gcode::Program random_moves(const kinematics::MachineModel& machine, int count, std::mt19937& random) {
-    gcode::Program program = empty_program(machine);
+inline program::Program
+random_moves(const kinematics::MachineModel& machine, int count, std::mt19937& random) {
+    program::Program program = empty_program(machine);
     std::uniform_real_distribution<double> duration(0.2, 5.0);
     std::uniform_int_distribution<int> die(0, 9);
-    add_block(program, gcode::BlockKind::comment);
+    add_block(program, program::BlockKind::comment);
     program.blocks.back().text = "random (moves)";
-    add_block(program, gcode::BlockKind::spindle_on);
+    add_block(program, program::BlockKind::spindle_on);
     program.blocks.back().spindle_rpm = die(random) < 5 ? 9000.0 : -1200.0;
-    add_block(program, gcode::BlockKind::coolant_on);
+    add_block(program, program::BlockKind::coolant_on);
     kinematics::AxisPositions q = program.start;
     for (int n = 0; n < count; ++n) {
         const kinematics::AxisPositions next = random_positions(machine, random);
@@ -46,15 +47,15 @@ inline gcode::Program random_moves(const kinematics::MachineModel& machine, int 
         }
         add_move(program, q, n > 0 && die(random) < 7 ? duration(random) : 0.0);
         if (die(random) == 0) {
-            add_block(program, gcode::BlockKind::dwell);
+            add_block(program, program::BlockKind::dwell);
             program.blocks.back().duration = duration(random);
         }
     }
-    add_block(program, gcode::BlockKind::pause);
+    add_block(program, program::BlockKind::pause);
     program.blocks.back().text = "look";
-    add_block(program, gcode::BlockKind::coolant_off);
-    add_block(program, gcode::BlockKind::spindle_off);
-    add_block(program, gcode::BlockKind::end);
+    add_block(program, program::BlockKind::coolant_off);
+    add_block(program, program::BlockKind::spindle_off);
+    add_block(program, program::BlockKind::end);
     return program;
 }
 

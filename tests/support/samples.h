@@ -1,8 +1,8 @@
 // The shipped G-code samples as programs of a machine.
 #pragma once
 
-#include "core/gcode/reader/interpreter.h"
-#include "core/gcode/reader/machine_program.h"
+#include "core/gcode/interpreter.h"
+#include "core/gcode/machine_program.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace millwright::test {
 
 struct SampleProgram {
     std::string name;
-    gcode::Program program;
+    program::Program program;
 };
 
 /// Those that the machine can run and that move it twice or more, in the order of their names.
@@ -27,7 +27,7 @@ inline std::vector<SampleProgram> sample_programs(const kinematics::MachineModel
         gcode::Interpreter reader(entry.path(), settings, builder);
         reader.run();
         gcode::MachineProgram read = builder.take();
-        const auto moves = std::ranges::count_if(read.program.blocks, &gcode::Block::moves);
+        const auto moves = std::ranges::count_if(read.program.blocks, &program::Block::moves);
         if (reader.errors().empty() && read.faults.empty() && moves >= 2) {
             found.push_back({entry.path().filename().string(), std::move(read.program)});
         }

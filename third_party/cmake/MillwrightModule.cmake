@@ -87,6 +87,17 @@ function(millwright_module name)
         PUBLIC ${ARG_PUBLIC}
         PRIVATE $<BUILD_INTERFACE:millwright_options> ${ARG_PRIVATE})
     millwright_headers_alone(${name} ${ARG_HEADERS})
+    millwright_links_alone(${name})
+endfunction()
+
+# A program of all that a module of the core has and of the modules that it names: a call of a later one does not link.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/nothing.cpp CONTENT "int main() {}\n")
+function(millwright_links_alone name)
+    if(NOT MILLWRIGHT_TESTS OR MILLWRIGHT_SANITIZE OR NOT CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/core/")
+        return()
+    endif()
+    add_executable(millwright_${name}_alone ${PROJECT_BINARY_DIR}/nothing.cpp)
+    target_link_libraries(millwright_${name}_alone PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,millwright_${name}>")
 endfunction()
 
 # The precompiled header hides which standard headers are missing: the architecture test looks for those.
@@ -107,8 +118,8 @@ function(millwright_headers_alone name)
 endfunction()
 
 # millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [LONG pattern])
-#   The test program of one folder. It links that folder's target alone: only so does the linker refuse an
-#   upward call. Tests run from the repository's root; those of the core with floating-point traps in the
+#   The test program of one folder. It links that folder's target, and what it is tried with (tests/architecture knows
+#   which). Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
 #   Those that match LONG are the full size of a test that also exists in small; they have the label `long`, which

@@ -67,26 +67,26 @@ void ActionQueue::processor(std::function<void(ProcessorBench&)> what) {
     requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.processor()); });
 }
 
-void ActionQueue::tell(std::function<void(machine::Driver&)> what) {
+void ActionQueue::tell(std::function<void(drivers::Driver&)> what) {
     requests_.emplace_back(
         [what = std::move(what)](Workshop& workshop) { workshop.controller().tell(what); });
 }
 
-void ActionQueue::queue(std::function<void(machine::JobQueue&)> change) {
+void ActionQueue::queue(std::function<void(jobs::JobQueue&)> change) {
     requests_.emplace_back(
         [change = std::move(change)](Workshop& workshop) { change(workshop.queue().open()); });
 }
 
-void ActionQueue::open_queued(machine::QueuedJobId id) {
+void ActionQueue::open_queued(jobs::QueuedJobId id) {
     requests_.emplace_back([id](Workshop& workshop) { workshop.open_queued(id); });
 }
 
-void ActionQueue::set_overrides(const machine::Overrides& wanted) {
+void ActionQueue::set_overrides(const drivers::Overrides& wanted) {
     requests_.emplace_back([wanted](Workshop& workshop) {
         if (workshop.look().job.running) {
             workshop.jobs().set_overrides(wanted);
         } else {
-            workshop.controller().tell([&](machine::Driver& driver) { driver.set_overrides(wanted); });
+            workshop.controller().tell([&](drivers::Driver& driver) { driver.set_overrides(wanted); });
         }
     });
 }

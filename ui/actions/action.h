@@ -36,7 +36,7 @@ struct Hands {
     project::History& history;
     Session& session;
     Document& document;
-    project::Pipeline& pipeline;
+    plan::Pipeline& pipeline;
     JobRunner& jobs;
     const Workbench& now;
     Workshop& workshop; ///< for whole files
@@ -94,13 +94,13 @@ public:
     /// ... and with the plot.
     void plot(std::function<void(PlotBench&)> what);
     /// What the connected machine is to do, at once.
-    void tell(std::function<void(machine::Driver&)> what);
+    void tell(std::function<void(drivers::Driver&)> what);
     /// A change of the job queue.
-    void queue(std::function<void(machine::JobQueue&)> change);
+    void queue(std::function<void(jobs::JobQueue&)> change);
     /// Reads the program of a queued job again.
-    void open_queued(machine::QueuedJobId id);
+    void open_queued(jobs::QueuedJobId id);
     /// At once, of the running job or of what the machine does next.
-    void set_overrides(const machine::Overrides& wanted);
+    void set_overrides(const drivers::Overrides& wanted);
     /// Wanted in this frame alone: the machine moves while every frame says so.
     void jog(JogWish wish) { jog_ = std::move(wish); }
     [[nodiscard]] std::optional<JogWish> take_jog() { return std::exchange(jog_, std::nullopt); }

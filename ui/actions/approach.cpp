@@ -7,7 +7,7 @@ namespace millwright::actions {
 namespace {
 
 /// What stands above the line, without the empty lines that keep the numbers.
-std::vector<std::string> lines_before(const machine::Job& job) {
+std::vector<std::string> lines_before(const jobs::Job& job) {
     std::vector<std::string> lines;
     const std::string& text = job.listing->text;
     for (std::size_t at = 0; at < text.size() && text[at] != '\n';) {
@@ -23,16 +23,16 @@ std::vector<std::string> lines_before(const machine::Job& job) {
 Approach approach_for(const ApproachWish& wish) {
     Approach answer{wish, std::nullopt, {}, std::nullopt};
     try {
-        const machine::Job whole = make_job(wish.source);
-        if (!wish.begin.hash.empty() && machine::program_hash(whole.listing->text) != wish.begin.hash) {
+        const jobs::Job whole = make_job(wish.source);
+        if (!wish.begin.hash.empty() && jobs::program_hash(whole.listing->text) != wish.begin.hash) {
             throw Error("the program is not the one that was broken off: it was changed since",
                         {},
                         "run it from its beginning, or choose the line by yourself");
         }
-        machine::RunFromSettings settings;
+        jobs::RunFromSettings settings;
         settings.dialect = wish.dialect;
         settings.clearance = wish.begin.clearance;
-        machine::Job job = machine::job_from_line(whole, wish.begin.line, settings);
+        jobs::Job job = jobs::job_from_line(whole, wish.begin.line, settings);
         answer.lines = lines_before(job);
         answer.job = std::move(job);
     } catch (const Error& error) {

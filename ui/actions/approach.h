@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/machine/job.h"
-#include "core/machine/run_from_line.h"
+#include "core/jobs/job.h"
+#include "core/jobs/run_from_line.h"
 #include "ui/actions/job_source.h"
 
 #include <condition_variable>
@@ -22,7 +22,7 @@ namespace millwright::actions {
 struct BeginAt {
     bool on = false;
     int line = 1;                    ///< of the file
-    std::optional<double> clearance; ///< as in machine::RunFromSettings
+    std::optional<double> clearance; ///< as in jobs::RunFromSettings
     std::string hash;                ///< of the program that it is meant for; empty: any
 
     friend bool operator==(const BeginAt&, const BeginAt&) = default;
@@ -39,7 +39,7 @@ struct ApproachWish {
 
 struct Approach {
     ApproachWish wish;
-    std::optional<machine::Job> job;   ///< nothing where it is refused
+    std::optional<jobs::Job> job;      ///< nothing where it is refused
     std::vector<std::string> lines;    ///< that come before the line, in their order
     std::optional<Diagnostic> refusal; ///< why nobody may begin there
 };

@@ -10,7 +10,7 @@ namespace icons = widgets::icons;
 
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using widgets::Permission;
 
 Permission drawn(const Workbench& now) {
@@ -53,7 +53,7 @@ Permission can_enable(const Workbench& now) {
 }
 
 void enable(Hands& hands) {
-    hands.workshop.controller().tell([](machine::Driver& driver) { driver.enable(); });
+    hands.workshop.controller().tell([](drivers::Driver& driver) { driver.enable(); });
 }
 
 template <ArmMove how> void move_arm(Hands& hands) {

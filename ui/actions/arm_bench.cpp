@@ -1,12 +1,12 @@
 #include "ui/actions/arm_bench.h"
 
+#include "core/arm/arm_forward.h"
+#include "core/arm/arm_hold.h"
+#include "core/arm/arm_rates.h"
+#include "core/arm/arm_simulation.h"
+#include "core/arm/arm_zone.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
-#include "core/kinematics/arm_hold.h"
-#include "core/kinematics/arm_rates.h"
-#include "core/kinematics/arm_simulation.h"
-#include "core/kinematics/arm_zone.h"
 #include "core/kinematics/tool_roll.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
@@ -22,8 +22,8 @@ namespace millwright::actions {
 
 namespace {
 
-using kinematics::ArmModel;
-using kinematics::JointPositions;
+using arm::ArmModel;
+using arm::JointPositions;
 
 constexpr std::size_t longest_trace = 10'000;
 constexpr double least_way_mm = 0.5;           // between two points of the trace
@@ -41,7 +41,7 @@ JointPositions home_of(const ArmModel& arm) {
 }
 
 bool turns(const ArmModel& arm, int joint) {
-    return arm.joint(joint).kind == kinematics::JointKind::revolute;
+    return arm.joint(joint).kind == arm::JointKind::revolute;
 }
 
 Frame frame_at(const Vec3& tip, const Mat3& directions) {
@@ -64,14 +64,14 @@ ArmPlay play_of(ArmFileMotion motion) {
     return play;
 }
 
-ArmPlay play_of(std::shared_ptr<machine::SharedMemoryStream> stream, kinematics::JointPositions start) {
+ArmPlay play_of(std::shared_ptr<pmac::SharedMemoryStream> stream, arm::JointPositions start) {
     constexpr double settling = 2.0; // s: the card begins, brakes, and its motors come to rest
     const double duration = stream->count() * stream->move_time() + settling;
     return {[stream = std::move(stream), start = std::move(start)](double time) {
                 while (stream->buffer().time < time && !stream->finished()) {
                     stream->advance(time - stream->buffer().time);
                 }
-                kinematics::JointPositions joints = start;
+                arm::JointPositions joints = start;
                 for (std::size_t n = 0; n < stream->buffer().position.size(); ++n) {
                     joints[static_cast<Eigen::Index>(n)] += from_degrees(stream->buffer().position[n]);
                 }
@@ -92,11 +92,11 @@ void ArmBench::load(const std::string& name) {
 }
 
 Frame ArmBench::tool() const {
-    return kinematics::base_T_tool(arm(), joints_);
+    return arm::base_T_tool(arm(), joints_);
 }
 
 double ArmBench::manipulability() const {
-    return kinematics::manipulability(kinematics::arm_jacobian(arm(), joints_), look_->reach);
+    return arm::manipulability(arm::arm_jacobian(arm(), joints_), look_->reach);
 }
 
 void ArmBench::set_joint(int joint, double position) {
@@ -112,7 +112,7 @@ void ArmBench::set_joints(const JointPositions& joints) {
         refusal_ = "Joint " + arm().joint(outside).name + " stands at its limit.";
     }
     const JointPositions wanted = inside(arm(), joints);
-    if (std::string why = kinematics::leaves_zone(arm(), joints_, wanted); !why.empty()) {
+    if (std::string why = arm::leaves_zone(arm(), joints_, wanted); !why.empty()) {
         refusal_ = std::move(why);
     } else {
         place(wanted);
@@ -129,10 +129,9 @@ JointPositions ArmBench::home() const {
 
 void ArmBench::move_tip(const Vec3& tip) {
     stop();
-    const Frame goal = kinematics::carried_tool(arm(), joints_, tip);
-    const kinematics::ArmHold hold =
-        kinematics::hold_tool(arm(), goal, kinematics::aim_of(arm(), 0.5 * pi), joints_);
-    refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
+    const Frame goal = arm::carried_tool(arm(), joints_, tip);
+    const arm::ArmHold hold = arm::hold_tool(arm(), goal, arm::aim_of(arm(), 0.5 * pi), joints_);
+    refusal_ = hold.trouble == arm::ArmTrouble::none ? std::string() : hold.why;
     if (refusal_.empty()) {
         place(hold.joints);
     }
@@ -140,8 +139,8 @@ void ArmBench::move_tip(const Vec3& tip) {
 
 void ArmBench::move_tip_by(const Vec3& way) {
     stop();
-    const kinematics::ArmHold hold = kinematics::moved_tip(arm(), joints_, way);
-    refusal_ = hold.trouble == kinematics::ArmTrouble::none ? std::string() : hold.why;
+    const arm::ArmHold hold = arm::moved_tip(arm(), joints_, way);
+    refusal_ = hold.trouble == arm::ArmTrouble::none ? std::string() : hold.why;
     if (refusal_.empty()) {
         place(hold.joints);
     }
@@ -150,7 +149,7 @@ void ArmBench::move_tip_by(const Vec3& way) {
 void ArmBench::set_goal(const Vec3& tip, const Vec3& axis) {
     const double length = axis.norm();
     wanted_axis_ = length > 0.0 ? Vec3(axis / length) : Vec3(Vec3::Zero());
-    goal_ = kinematics::PointedGoal{tip, wanted_axis_};
+    goal_ = arm::PointedGoal{tip, wanted_axis_};
     solve();
 }
 
@@ -179,12 +178,12 @@ void ArmBench::set_projects(bool on) {
 }
 
 /// The roll is that about the axis which the arm can hold, as of `millwright arm ik --roll`.
-Frame ArmBench::goal_frame(const kinematics::ArmAim& aim) const {
+Frame ArmBench::goal_frame(const arm::ArmAim& aim) const {
     if (!goal_roll_) {
         return frame_at(goal_->tip, frame_along(goal_->axis));
     }
     Vec3 axis = goal_->axis;
-    const auto in_plane = arm().planar_elbow() ? kinematics::projected_axis(*goal_) : std::nullopt;
+    const auto in_plane = arm().planar_elbow() ? arm::projected_axis(*goal_) : std::nullopt;
     if (in_plane && angle_between(*in_plane, axis) <= aim.most_tilt) {
         axis = *in_plane;
     }
@@ -199,24 +198,24 @@ void ArmBench::solve() {
         reason_ = "the tool axis has no direction";
         return;
     }
-    using kinematics::ArmDemand;
-    const kinematics::ArmAim aim{goal_roll_ ? ArmDemand::frame : ArmDemand::tip_and_axis,
-                                 projects_ ? 0.5 * pi : rounding};
+    using arm::ArmDemand;
+    const arm::ArmAim aim{goal_roll_ ? ArmDemand::frame : ArmDemand::tip_and_axis,
+                          projects_ ? 0.5 * pi : rounding};
     const Frame goal = goal_frame(aim);
-    for (JointPositions& joints : kinematics::all_holds(arm(), goal, aim, joints_)) {
+    for (JointPositions& joints : arm::all_holds(arm(), goal, aim, joints_)) {
         std::string branch = branch_of(joints);
         ArmSolution solution{std::move(joints), std::move(branch)};
         for (int n = 0; n < arm().joint_count(); ++n) {
-            const bool slides = arm().joint(n).kind == kinematics::JointKind::prismatic;
+            const bool slides = arm().joint(n).kind == arm::JointKind::prismatic;
             double& farthest = slides ? solution.farthest_slide : solution.farthest_turn;
             farthest = std::max(farthest, std::abs(solution.joints[n] - joints_[n]));
         }
         solutions_.push_back(std::move(solution));
     }
     if (solutions_.empty()) {
-        reason_ = kinematics::hold_tool(arm(), goal, aim, joints_).why;
+        reason_ = arm::hold_tool(arm(), goal, aim, joints_).why;
     } else {
-        goal_->axis = kinematics::base_T_tool(arm(), solutions_.front().joints).linear().col(2);
+        goal_->axis = arm::base_T_tool(arm(), solutions_.front().joints).linear().col(2);
         chosen_ = 0;
     }
 }
@@ -225,7 +224,7 @@ std::string ArmBench::branch_of(const JointPositions& joints) const {
     if (!arm().planar_elbow()) {
         return {};
     }
-    const std::vector<Frame> frames = kinematics::base_T_joints(arm(), joints);
+    const std::vector<Frame> frames = arm::base_T_joints(arm(), joints);
     const Vec3 elbow = frames[2].translation(), wrist = frames[3].translation();
     const Vec3 forward = frames[0].linear().col(0);
     const double height = forward.dot(wrist) * elbow.z() - wrist.z() * forward.dot(elbow);
@@ -297,7 +296,7 @@ motion::Trajectory ArmBench::planned(const std::vector<motion::ArmStop>& stops) 
     JointPositions before = joints_;
     for (double time = 0.0; arm().zone() != nullptr && time < tour.duration() + glance; time += glance) {
         JointPositions at = tour.at(std::min(time, tour.duration())).position;
-        if (const std::string why = kinematics::leaves_zone(arm(), before, at); !why.empty()) {
+        if (const std::string why = arm::leaves_zone(arm(), before, at); !why.empty()) {
             throw Error(fmt::format("on the way, after {:.1f} s, {}", time, why));
         }
         before = std::move(at);
@@ -381,7 +380,7 @@ void ArmBench::hold_line(const Vec3& velocity) {
     held_line_ = velocity;
 }
 
-void ArmBench::play_stream(std::shared_ptr<machine::SharedMemoryStream> stream) {
+void ArmBench::play_stream(std::shared_ptr<pmac::SharedMemoryStream> stream) {
     stream_ = std::move(stream);
     play(play_of(stream_, home()));
     clear_trace();

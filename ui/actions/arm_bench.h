@@ -3,10 +3,10 @@
 // Lengths mm, angles rad, in the arm's base.
 #pragma once
 
-#include "core/kinematics/arm_inverse.h"
-#include "core/machine/emulators/pmac/shared_memory_stream.h"
+#include "core/arm/arm_inverse.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/trajectory.h"
+#include "core/pmac/emulator/shared_memory_stream.h"
 #include "core/project/arm_input.h"
 #include "ui/actions/arm_path_work.h"
 #include "ui/actions/card_run.h"
@@ -27,7 +27,7 @@ namespace millwright::actions {
 
 /// One way to hold the tool at the goal.
 struct ArmSolution {
-    kinematics::JointPositions joints;
+    arm::JointPositions joints;
     std::string branch;          ///< "front, elbow up"; of other arms than the L-3's kind empty
     double farthest_turn = 0.0;  ///< of a joint from where it stands, rad
     double farthest_slide = 0.0; ///< mm, of a joint that slides
@@ -40,7 +40,7 @@ enum class ArmMove : std::uint8_t {
 
 /// A motion of the drawn arm: its joints at each moment, s. Of fewer joints than the arm has the others stay.
 struct ArmPlay {
-    std::function<kinematics::JointPositions(double)> at;
+    std::function<arm::JointPositions(double)> at;
     double duration = 0.0;
     std::vector<ArmBlockPlayed> blocks{}; ///< of a motion file
 };
@@ -48,11 +48,10 @@ struct ArmPlay {
 [[nodiscard]] ArmPlay play_of(motion::Trajectory trajectory);
 [[nodiscard]] ArmPlay play_of(ArmFileMotion motion);
 /// What the motors of an emulated card did, of its axes alone; there is a record.
-[[nodiscard]] ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation);
+[[nodiscard]] ArmPlay play_of(std::shared_ptr<const pmac::MotionSimulation> simulation);
 /// What the motors do that an emulated card drives by the points of its dual-ported RAM, from the joints
 /// `start` on.
-[[nodiscard]] ArmPlay play_of(std::shared_ptr<machine::SharedMemoryStream> stream,
-                              kinematics::JointPositions start);
+[[nodiscard]] ArmPlay play_of(std::shared_ptr<pmac::SharedMemoryStream> stream, arm::JointPositions start);
 
 class ArmBench {
 public:
@@ -66,20 +65,20 @@ public:
     /// What follows needs an arm.
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const std::shared_ptr<const viewport::ArmLook>& look() const { return look_; }
-    [[nodiscard]] const kinematics::ArmModel& arm() const { return look_->arm(); }
+    [[nodiscard]] const arm::ArmModel& arm() const { return look_->arm(); }
 
-    [[nodiscard]] const kinematics::JointPositions& joints() const { return joints_; }
+    [[nodiscard]] const arm::JointPositions& joints() const { return joints_; }
     [[nodiscard]] Frame tool() const;
     /// 0 where the arm is singular (core/kinematics/arm_forward.h).
     [[nodiscard]] double manipulability() const;
 
     /// Stops what moves. A joint stays inside its limits.
     void set_joint(int joint, double position);
-    void set_joints(const kinematics::JointPositions& joints);
+    void set_joints(const arm::JointPositions& joints);
     /// The upper arm upright, the forearm level; of other arms every joint at 0, or near it.
     void go_home();
     /// The joints of it.
-    [[nodiscard]] kinematics::JointPositions home() const;
+    [[nodiscard]] arm::JointPositions home() const;
     /// The tip there and the tool leaning as it does; where the arm cannot it stays, and refusal() says why.
     void move_tip(const Vec3& tip);
     /// The same by `way` in a straight line, base's frame, mm.
@@ -98,7 +97,7 @@ public:
     /// Turns the goal's axis by the smallest angle into the plane of an arm with five joints.
     void set_projects(bool on);
     [[nodiscard]] bool projects() const { return projects_; }
-    [[nodiscard]] const std::optional<kinematics::PointedGoal>& goal() const { return goal_; }
+    [[nodiscard]] const std::optional<arm::PointedGoal>& goal() const { return goal_; }
     [[nodiscard]] const std::vector<ArmSolution>& solutions() const { return solutions_; }
     [[nodiscard]] const std::string& reason() const { return reason_; } ///< why there is none
     /// Which one is drawn as a ghost and gone to; -1: none.
@@ -118,7 +117,7 @@ public:
     [[nodiscard]] project::TaughtPoint taught(std::string name) const;
     /// Until the next advance() the joints move at these rates, as far as their limits: to be wanted in every
     /// frame, rad/s or mm/s.
-    void hold_jog(const kinematics::JointPositions& rates);
+    void hold_jog(const arm::JointPositions& rates);
     /// The same for the tip in a straight line: base's frame, mm/s.
     void hold_line(const Vec3& velocity);
     [[nodiscard]] bool moving() const { return motion_ || held_ || held_line_; }
@@ -133,7 +132,7 @@ public:
     void clear_trace() { trace_.reset(); }
     /// Where a connected arm stands; joints that it does not tell stay. Draws the trace, if the position is
     /// `known`: a trace begins anew when it becomes so, since homing moves the zero of what was told before.
-    void follow(const kinematics::JointPositions& told, bool known = true);
+    void follow(const arm::JointPositions& told, bool known = true);
 
     /// The program that a connected card was sent.
     [[nodiscard]] CardRun& card_run() { return card_run_; }
@@ -154,9 +153,9 @@ public:
     [[nodiscard]] const MotionFileBench& motion_file() const { return motion_file_; }
 
     /// The dual-ported RAM of an emulated card, while points go through it and after that; null before.
-    [[nodiscard]] const machine::SharedMemoryStream* stream() const { return stream_.get(); }
+    [[nodiscard]] const pmac::SharedMemoryStream* stream() const { return stream_.get(); }
     /// Begins to move by its points, from home on.
-    void play_stream(std::shared_ptr<machine::SharedMemoryStream> stream);
+    void play_stream(std::shared_ptr<pmac::SharedMemoryStream> stream);
 
     /// A program on the part that stands there is looked at, in the background; none: nothing is. The joints
     /// of the wish are those of now.
@@ -178,18 +177,18 @@ public:
 
 private:
     void solve();
-    [[nodiscard]] Frame goal_frame(const kinematics::ArmAim& aim) const;
+    [[nodiscard]] Frame goal_frame(const arm::ArmAim& aim) const;
     [[nodiscard]] motion::Trajectory planned(const std::vector<motion::ArmStop>& stops) const;
-    void place(const kinematics::JointPositions& joints); ///< and the trace
+    void place(const arm::JointPositions& joints); ///< and the trace
     void extend_trace();
-    [[nodiscard]] std::string branch_of(const kinematics::JointPositions& joints) const;
+    [[nodiscard]] std::string branch_of(const arm::JointPositions& joints) const;
 
     std::filesystem::path assets_;
     std::string name_;
     std::shared_ptr<const viewport::ArmLook> look_;
-    kinematics::JointPositions joints_;
+    arm::JointPositions joints_;
     std::string refusal_;
-    std::optional<kinematics::PointedGoal> goal_;
+    std::optional<arm::PointedGoal> goal_;
     Vec3 wanted_axis_ = Vec3::UnitZ(); ///< of the goal, before it was projected
     std::optional<double> goal_roll_;
     bool projects_ = true;
@@ -198,7 +197,7 @@ private:
     int chosen_ = -1;
     std::optional<ArmPlay> motion_;
     double time_ = 0.0;
-    std::optional<kinematics::JointPositions> held_; ///< rates of a jog
+    std::optional<arm::JointPositions> held_; ///< rates of a jog
     std::optional<Vec3> held_line_;
     std::shared_ptr<const std::vector<Vec3>> trace_;
     bool follows_unknown_ = false; ///< a controller whose zero means nothing yet
@@ -207,7 +206,7 @@ private:
     std::optional<int> new_point_;
     MotionProgramBench program_;
     MotionFileBench motion_file_;
-    std::shared_ptr<machine::SharedMemoryStream> stream_;
+    std::shared_ptr<pmac::SharedMemoryStream> stream_;
     std::optional<ArmPathWish> path_wish_;
     bool wants_path_motion_ = false;
     bool of_card_ = false; ///< the motion that is wanted

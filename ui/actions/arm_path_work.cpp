@@ -1,10 +1,10 @@
 #include "ui/actions/arm_path_work.h"
 
 #include "core/base/units.h"
-#include "core/gcode/arm_ways.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
+#include "core/program/arm_ways.h"
 
 namespace millwright::actions {
 
@@ -16,9 +16,9 @@ constexpr double shown_tolerance = 0.2, shown_axis_tolerance = 0.01, shown_step 
 // The way to the beginning is not in the picture: as slow as a taught point is at first.
 constexpr double share_to_beginning = 0.25;
 
-kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
-    kinematics::ArmPathSettings settings;
-    settings.aim = kinematics::aim_of(wish.arm->arm(), wish.most_lean);
+arm::ArmPathSettings settings_of(const ArmPathWish& wish) {
+    arm::ArmPathSettings settings;
+    settings.aim = arm::aim_of(wish.arm->arm(), wish.most_lean);
     if (wish.motion == 0) {
         settings.tip_tolerance = shown_tolerance;
         settings.axis_tolerance = shown_axis_tolerance;
@@ -27,10 +27,10 @@ kinematics::ArmPathSettings settings_of(const ArmPathWish& wish) {
     return settings;
 }
 
-std::shared_ptr<const viewport::ArmTrack> track_of(const kinematics::ArmPath& path,
-                                                   const std::vector<kinematics::ArmWay>& ways) {
+std::shared_ptr<const viewport::ArmTrack> track_of(const arm::ArmPath& path,
+                                                   const std::vector<arm::ArmWay>& ways) {
     auto track = std::make_shared<viewport::ArmTrack>();
-    for (const kinematics::ArmPathPoint& point : path.points) {
+    for (const arm::ArmPathPoint& point : path.points) {
         track->tips.emplace_back(ways[static_cast<std::size_t>(point.way)].at(point.share).translation());
         track->troubles.push_back(point.trouble);
     }
@@ -39,19 +39,18 @@ std::shared_ptr<const viewport::ArmTrack> track_of(const kinematics::ArmPath& pa
 
 void find(ArmPathAnswer& answer, const Progress& progress) {
     const ArmPathWish& wish = answer.wish;
-    const kinematics::ArmModel& arm = wish.arm->arm();
-    const auto ways = gcode::arm_ways(wish.program, wish.machine, wish.base_T_part);
+    const arm::ArmModel& arm = wish.arm->arm();
+    const auto ways = program::arm_ways(wish.program, wish.machine, wish.base_T_part);
     if (ways.empty()) {
         throw Error("the program moves nothing");
     }
-    const kinematics::ArmPath path =
-        kinematics::follow_path_well(arm, ways, wish.joints, settings_of(wish), progress);
+    const arm::ArmPath path = arm::follow_path_well(arm, ways, wish.joints, settings_of(wish), progress);
     answer.track = track_of(path, ways);
-    answer.reach = kinematics::reach_of(path, ways);
+    answer.reach = arm::reach_of(path, ways);
     if (wish.motion > 0) {
         motion::ArmMotion motion(arm, wish.joints);
         if (path.whole()) {
-            const kinematics::JointPositions& first = path.points.front().joints;
+            const arm::JointPositions& first = path.points.front().joints;
             const double seconds = motion::joint_time(arm, first - wish.joints, share_to_beginning);
             if (seconds > 0.0) {
                 motion.go_to(first, seconds);

@@ -2,9 +2,9 @@
 // the arm, how far the arm reaches, and the motion. Lengths mm, angles rad.
 #pragma once
 
-#include "core/gcode/program.h"
-#include "core/kinematics/arm_reach.h"
+#include "core/arm/arm_reach.h"
 #include "core/motion/trajectory.h"
+#include "core/program/program.h"
 #include "ui/actions/latest_work.h"
 #include "ui/viewport/arm_scene.h"
 
@@ -15,19 +15,19 @@
 namespace millwright::actions {
 
 struct ArmPathWish {
-    std::shared_ptr<const gcode::Program> program;
+    std::shared_ptr<const program::Program> program;
     std::shared_ptr<const kinematics::MachineModel> machine; ///< that the program is for
     std::shared_ptr<const viewport::ArmLook> arm;
     Frame base_T_part = Frame::Identity();
-    double most_lean = 0.0;            ///< of the tool from what is programmed
-    kinematics::JointPositions joints; ///< where the arm stands
-    int motion = 0; ///< which time it is, from 1, that its motion is wanted, too; 0: it is not
+    double most_lean = 0.0;     ///< of the tool from what is programmed
+    arm::JointPositions joints; ///< where the arm stands
+    int motion = 0;             ///< which time it is, from 1, that its motion is wanted, too; 0: it is not
 };
 
 struct ArmPathAnswer {
     ArmPathWish wish;
     std::shared_ptr<const viewport::ArmTrack> track;
-    kinematics::ArmReach reach;
+    arm::ArmReach reach;
     std::shared_ptr<const motion::Trajectory> motion; ///< where it was wanted and the arm can go all of it
     std::string why;                                  ///< there is no track, or no motion; else empty
 };

@@ -1,6 +1,6 @@
 // Points that a person teaches the arm, motion programs of its card, and the project's path on it.
 #include "core/base/units.h"
-#include "core/machine/drivers/pmac/arm_axes.h"
+#include "core/pmac/driver/arm_axes.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/internal/simple_action.h"
@@ -12,7 +12,7 @@ namespace icons = widgets::icons;
 
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using widgets::Permission;
 
 Permission in_workspace(const Workbench& now) {
@@ -21,7 +21,7 @@ Permission in_workspace(const Workbench& now) {
                : Permission::refused("In the Arm workspace (Shift+F6) only.");
 }
 
-Permission known_position(const machine::DriverStatus& status) {
+Permission known_position(const drivers::DriverStatus& status) {
     return status.position_known ? Permission{}
                                  : Permission::refused("The position is not known: home the arm first.");
 }
@@ -37,7 +37,7 @@ Permission can_play_arm(const Workbench& now) {
     if (const Permission there = in_workspace(now); !there.allowed || !now.arm_connected()) {
         return there;
     }
-    const machine::DriverStatus& status = now.controller.status;
+    const drivers::DriverStatus& status = now.controller.status;
     if (status.state != DriverState::idle && status.state != DriverState::stopped) {
         return Permission::refused(status.state == DriverState::alarm ? "There is an alarm."
                                                                       : "The arm is moving.");
@@ -153,7 +153,7 @@ void record(Hands& hands) {
     arm.set_new_point(place);
 }
 
-std::vector<double> degrees_of(const kinematics::JointPositions& joints) {
+std::vector<double> degrees_of(const arm::JointPositions& joints) {
     std::vector<double> degrees;
     for (const double joint : joints) {
         degrees.push_back(to_degrees(joint));
@@ -163,24 +163,22 @@ std::vector<double> degrees_of(const kinematics::JointPositions& joints) {
 
 void simulate(Hands& hands) {
     ArmBench& arm = hands.workshop.arm();
-    const machine::PmacSettings card = hands.now.arm_connected()
-                                           ? machine::arm_settings_of(hands.now.controller.choice.axes)
-                                           : machine::five_axis_arm_settings();
+    const pmac::PmacSettings card = hands.now.arm_connected()
+                                        ? pmac::arm_settings_of(hands.now.controller.choice.axes)
+                                        : pmac::five_axis_arm_settings();
     arm.program().follow(hands.now.project.arm.program);
-    arm.program().simulate(machine::within_limits(card, arm.arm()), degrees_of(arm.joints()));
+    arm.program().simulate(pmac::within_limits(card, arm.arm()), degrees_of(arm.joints()));
 }
 
 /// It is refused where a joint would leave its limits, as far as an emulated card tells in a short time.
 void run(Hands& hands) {
     constexpr double longest = 300.0; // s of the card's time; beyond it the driver watches alone
     const ArmBench& arm = hands.workshop.arm();
-    machine::MotionSimulationSettings settings;
-    settings.card =
-        machine::within_limits(machine::arm_settings_of(hands.now.controller.choice.axes), arm.arm());
+    pmac::MotionSimulationSettings settings;
+    settings.card = pmac::within_limits(pmac::arm_settings_of(hands.now.controller.choice.axes), arm.arm());
     settings.start_deg = degrees_of(arm.joints());
     settings.longest = longest;
-    const auto found =
-        machine::simulate_motion_program(hands.now.project.arm.program, "program", settings, {});
+    const auto found = pmac::simulate_motion_program(hands.now.project.arm.program, "program", settings, {});
     if (found.beyond_limits) {
         throw Error(*found.beyond_limits);
     }
@@ -188,7 +186,7 @@ void run(Hands& hands) {
     hands.workshop.run_on_card(arm.program().lines(), known ? found.duration : 0.0, {});
     if (known) {
         hands.workshop.arm().card_run().know_way(
-            play_of(std::make_shared<const machine::MotionSimulation>(found)).at);
+            play_of(std::make_shared<const pmac::MotionSimulation>(found)).at);
     }
 }
 
@@ -199,7 +197,7 @@ void send(Hands& hands) {
         text += line + "\n";
     }
     text += "CLOSE";
-    hands.workshop.controller().tell([&](machine::Driver& driver) { (void)driver.command(text); });
+    hands.workshop.controller().tell([&](drivers::Driver& driver) { (void)driver.command(text); });
 }
 
 template <FileQuestion question> void ask_for_arm_file(Hands& hands) {

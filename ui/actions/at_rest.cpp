@@ -4,7 +4,7 @@
 
 namespace millwright::actions {
 
-using machine::DriverState;
+using drivers::DriverState;
 using widgets::Permission;
 
 Permission at_rest(const ControllerView& machine) {
@@ -41,7 +41,7 @@ bool reaches_arm(const ControllerView& machine) {
 } // namespace
 
 bool arm_moves(const ControllerView& machine) {
-    return reaches_arm(machine) && machine::is_at_work(machine.status.state);
+    return reaches_arm(machine) && drivers::is_at_work(machine.status.state);
 }
 
 bool arm_under_power(const ControllerView& machine) {

@@ -17,10 +17,10 @@ double begin_of(const CardPlan& plan, int line) {
     return line > 0 ? plan.ends[static_cast<std::size_t>(line) - 1] : 0.0;
 }
 
-bool is_under_way(const machine::DriverStatus& status) {
-    using machine::DriverState;
+bool is_under_way(const drivers::DriverStatus& status) {
+    using drivers::DriverState;
     return status.state == DriverState::holding ||
-           (status.state == DriverState::running && status.activity == machine::Activity::program);
+           (status.state == DriverState::running && status.activity == drivers::Activity::program);
 }
 
 } // namespace
@@ -34,13 +34,13 @@ void CardRun::begin(CardPlan plan) {
     broken_off_.reset();
 }
 
-void CardRun::follow(const machine::DriverStatus& status, double seconds) {
+void CardRun::follow(const drivers::DriverStatus& status, double seconds) {
     const bool under_way = is_under_way(status);
     waited_ +=
         under_way || seen_ ? 0.0 : seconds; // what is told of the machine may be older than the program
     seen_ = seen_ || under_way;
     if (plan_ && !under_way && (seen_ || waited_ > longest_wait)) {
-        const bool well = status.state == machine::DriverState::idle;
+        const bool well = status.state == drivers::DriverState::idle;
         broken_off_ = well ? std::nullopt : place_;
         plan_.reset();
         place_.reset();
@@ -51,9 +51,9 @@ void CardRun::follow(const machine::DriverStatus& status, double seconds) {
     }
 }
 
-void CardRun::go_on(const machine::DriverStatus& status, double seconds) {
+void CardRun::go_on(const drivers::DriverStatus& status, double seconds) {
     const bool sending = status.sent_blocks < plan_->lines;
-    const bool moves = status.state == machine::DriverState::running && !sending;
+    const bool moves = status.state == drivers::DriverState::running && !sending;
     const double guess = elapsed_ + (moves ? seconds * 0.01 * status.overrides.feed : 0.0);
     double from = 0.0;
     double to = plan_->duration > 0.0 ? plan_->duration : std::max(guess, 0.0);
@@ -69,7 +69,7 @@ void CardRun::go_on(const machine::DriverStatus& status, double seconds) {
 
 /// From elapsed_ on, and no later than `to`: when the plan is next to where the motors are. Of several such
 /// times, as in a dwell, the one next to `guess`.
-double CardRun::time_by_place(const machine::DriverStatus& status, double to, double guess) const {
+double CardRun::time_by_place(const drivers::DriverStatus& status, double to, double guess) const {
     constexpr double step = 0.02, look = 2.0, tolerance = 1e-3; // s, s, rad
     const auto away = [&](double time) {
         const kinematics::AxisPositions planned = at_(time);
@@ -97,7 +97,7 @@ double CardRun::time_by_place(const machine::DriverStatus& status, double to, do
     return around ? std::min(guess, std::max(last, elapsed_)) : best;
 }
 
-CardPlace CardRun::place_by(const machine::DriverStatus& status) const {
+CardPlace CardRun::place_by(const drivers::DriverStatus& status) const {
     CardPlace place;
     place.lines = plan_->lines;
     place.sending = status.sent_blocks < plan_->lines;

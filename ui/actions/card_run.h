@@ -3,7 +3,7 @@
 // time that went by.
 #pragma once
 
-#include "core/machine/driver_status.h"
+#include "core/drivers/driver_status.h"
 
 #include <functional>
 #include <optional>
@@ -35,16 +35,16 @@ public:
     /// DriverStatus::position.
     void know_way(std::function<kinematics::AxisPositions(double)> at) { at_ = std::move(at); }
     /// `seconds` went by since it was last told.
-    void follow(const machine::DriverStatus& status, double seconds);
+    void follow(const drivers::DriverStatus& status, double seconds);
     /// Nothing while none of these programs is under way.
     [[nodiscard]] const std::optional<CardPlace>& place() const { return place_; }
     /// Where the last one was when it was stopped, or when the link was lost; nothing after a good end.
     [[nodiscard]] const std::optional<CardPlace>& broken_off() const { return broken_off_; }
 
 private:
-    void go_on(const machine::DriverStatus& status, double seconds);
-    [[nodiscard]] double time_by_place(const machine::DriverStatus& status, double to, double guess) const;
-    [[nodiscard]] CardPlace place_by(const machine::DriverStatus& status) const;
+    void go_on(const drivers::DriverStatus& status, double seconds);
+    [[nodiscard]] double time_by_place(const drivers::DriverStatus& status, double to, double guess) const;
+    [[nodiscard]] CardPlace place_by(const drivers::DriverStatus& status) const;
 
     std::optional<CardPlan> plan_;                        ///< of what is under way
     std::function<kinematics::AxisPositions(double)> at_; ///< empty: not known

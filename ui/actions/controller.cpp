@@ -1,6 +1,6 @@
 #include "ui/actions/controller.h"
 
-#include "core/machine/drivers/pmac/pmac_driver.h"
+#include "core/pmac/driver/pmac_driver.h"
 
 #include <algorithm>
 #include <chrono>
@@ -11,8 +11,8 @@ namespace millwright::actions {
 
 namespace {
 
-using machine::DriverState;
-using machine::DriverStatus;
+using drivers::DriverState;
+using drivers::DriverStatus;
 
 constexpr auto between_looks = std::chrono::milliseconds(50);
 
@@ -38,12 +38,12 @@ bool looks_same(const DriverStatus& a, const DriverStatus& b) {
            (a.probe ? a.probe->number : 0) == (b.probe ? b.probe->number : 0);
 }
 
-std::vector<gcode::ProgramAxis> axes_of(const machine::Capabilities& can,
-                                        const kinematics::MachineModel* model) {
+std::vector<program::ProgramAxis> axes_of(const drivers::Capabilities& can,
+                                          const kinematics::MachineModel* model) {
     if (!can.axes.empty() || model == nullptr) {
         return can.axes;
     }
-    std::vector<gcode::ProgramAxis> axes;
+    std::vector<program::ProgramAxis> axes;
     for (const kinematics::MachineAxis& axis : model->axes()) {
         axes.push_back({axis.letter, axis.kind});
     }
@@ -81,7 +81,7 @@ void Controller::enqueue(Task task) {
 
 void Controller::connect(const machine::DriverChoice& choice,
                          std::shared_ptr<const kinematics::MachineModel> model,
-                         std::shared_ptr<const kinematics::ArmModel> arm) {
+                         std::shared_ptr<const arm::ArmModel> arm) {
     {
         const std::scoped_lock lock(mutex_);
         view_.link = LinkState::connecting;
@@ -115,11 +115,11 @@ void Controller::disconnect() {
 }
 
 void Controller::reset() {
-    tell_in_background([](machine::Driver& driver) { driver.reset(); });
+    tell_in_background([](drivers::Driver& driver) { driver.reset(); });
 }
 
 void Controller::reconnect() {
-    tell_in_background([this](machine::Driver& driver) {
+    tell_in_background([this](drivers::Driver& driver) {
         driver.close();
         driver.connect();
         memory_->remind(driver);
@@ -127,7 +127,7 @@ void Controller::reconnect() {
 }
 
 /// A driver that has no link any more afterwards is dropped: it can be connected anew.
-void Controller::tell_in_background(std::function<void(machine::Driver&)> what) {
+void Controller::tell_in_background(std::function<void(drivers::Driver&)> what) {
     enqueue([this, what = std::move(what)] {
         const auto driver = this->driver();
         if (!driver) {
@@ -151,9 +151,8 @@ void Controller::tell_in_background(std::function<void(machine::Driver&)> what) 
 }
 
 void Controller::try_connect(const machine::DriverChoice& choice, const machine::MovedAxes& axes) {
-    std::shared_ptr<machine::Driver> made;
-    machine::PositionMemory memory(folder_,
-                                   std::string(machine::to_text(choice.kind)) + " " + choice.address);
+    std::shared_ptr<drivers::Driver> made;
+    jobs::PositionMemory memory(folder_, std::string(to_text(choice.kind)) + " " + choice.address);
     std::optional<Diagnostic> failure;
     try {
         made = machine::make_driver(choice, axes, clock_);
@@ -177,7 +176,7 @@ void Controller::try_connect(const machine::DriverChoice& choice, const machine:
 
 /// What a person should know of what is left behind is the failure then.
 void Controller::drop() {
-    std::shared_ptr<machine::Driver> old;
+    std::shared_ptr<drivers::Driver> old;
     {
         const std::scoped_lock lock(mutex_);
         old = std::exchange(driver_, nullptr);
@@ -186,7 +185,7 @@ void Controller::drop() {
         remember(old->status()); // a doubt that arose since the last look
         old->close();
     }
-    const auto* const card = dynamic_cast<const machine::PmacDriver*>(old.get());
+    const auto* const card = dynamic_cast<const pmac::PmacDriver*>(old.get());
     const std::string farewell = card == nullptr ? "" : card->farewell();
     const std::scoped_lock lock(mutex_);
     view_.failure =
@@ -241,7 +240,7 @@ void Controller::watch() {
     auto settings = driver->settings();
     auto offsets = driver->stored_offsets();
     auto limits = driver->limits();
-    machine::Capabilities can = driver->capabilities(); // a setting may change them
+    drivers::Capabilities can = driver->capabilities(); // a setting may change them
     std::string firmware = driver->firmware();
     std::vector<std::string> remarks = driver->remarks();
     bool changed = false;
@@ -270,18 +269,18 @@ ControllerView Controller::view() const {
     return view_;
 }
 
-std::shared_ptr<machine::Driver> Controller::driver() const {
+std::shared_ptr<drivers::Driver> Controller::driver() const {
     const std::scoped_lock lock(mutex_);
     return driver_;
 }
 
-std::shared_ptr<machine::Console> Controller::console() const {
+std::shared_ptr<drivers::Console> Controller::console() const {
     auto owner = driver();
-    machine::Console* console = owner ? owner->console() : nullptr;
-    return console == nullptr ? nullptr : std::shared_ptr<machine::Console>(std::move(owner), console);
+    drivers::Console* console = owner ? owner->console() : nullptr;
+    return console == nullptr ? nullptr : std::shared_ptr<drivers::Console>(std::move(owner), console);
 }
 
-void Controller::tell(const std::function<void(machine::Driver&)>& what) {
+void Controller::tell(const std::function<void(drivers::Driver&)>& what) {
     const auto driver = this->driver();
     if (!driver) {
         throw Error("no machine is connected");

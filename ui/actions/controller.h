@@ -2,12 +2,12 @@
 // all the time, told what a person does by hand.
 #pragma once
 
+#include "core/base/clock.h"
 #include "core/base/error.h"
-#include "core/machine/clock.h"
-#include "core/machine/console.h"
-#include "core/machine/driver.h"
-#include "core/machine/drivers/make_driver.h"
-#include "core/machine/position_memory.h"
+#include "core/drivers/console.h"
+#include "core/drivers/driver.h"
+#include "core/jobs/position_memory.h"
+#include "core/machine/make_driver.h"
 
 #include <condition_variable>
 #include <deque>
@@ -30,12 +30,12 @@ struct ControllerView {
     LinkState link = LinkState::none;
     machine::DriverChoice choice;      ///< of the link that is there or was tried last
     std::optional<Diagnostic> failure; ///< why the last attempt came to nothing
-    machine::DriverStatus status;
-    machine::Capabilities can;
-    std::vector<gcode::ProgramAxis> axes; ///< in the order of the positions
-    std::vector<machine::ControllerSetting> settings;
-    std::vector<machine::StoredOffset> offsets;
-    machine::MachineLimits limits;
+    drivers::DriverStatus status;
+    drivers::Capabilities can;
+    std::vector<program::ProgramAxis> axes; ///< in the order of the positions
+    std::vector<drivers::ControllerSetting> settings;
+    std::vector<drivers::StoredOffset> offsets;
+    drivers::MachineLimits limits;
     std::string firmware{};             ///< Driver::firmware()
     std::vector<std::string> remarks{}; ///< Driver::remarks()
 
@@ -62,7 +62,7 @@ public:
     /// `arm`: what a PMAC moves. Nothing moves.
     void connect(const machine::DriverChoice& choice,
                  std::shared_ptr<const kinematics::MachineModel> model,
-                 std::shared_ptr<const kinematics::ArmModel> arm);
+                 std::shared_ptr<const arm::ArmModel> arm);
     /// In the background, makes a lost link again. Nothing moves; a controller that is locked stays so.
     void reconnect();
     /// In the background: stops what moves first.
@@ -72,13 +72,13 @@ public:
 
     [[nodiscard]] ControllerView view() const;
     /// Null unless connected. For jobs; stays alive as long as somebody has it.
-    [[nodiscard]] std::shared_ptr<machine::Driver> driver() const;
+    [[nodiscard]] std::shared_ptr<drivers::Driver> driver() const;
     /// Null where there is none. Lives as long as the driver.
-    [[nodiscard]] std::shared_ptr<machine::Console> console() const;
+    [[nodiscard]] std::shared_ptr<drivers::Console> console() const;
 
     /// Does something with the driver at once. Throws Error if none is connected, MachineError with what the
     /// driver says.
-    void tell(const std::function<void(machine::Driver&)>& what);
+    void tell(const std::function<void(drivers::Driver&)>& what);
     /// The same without any complaint where nothing is connected.
     void emergency_stop();
 
@@ -93,18 +93,18 @@ private:
     void watch();
     void try_connect(const machine::DriverChoice& choice, const machine::MovedAxes& axes);
     void drop();
-    void remember(const machine::DriverStatus& status);
-    void tell_in_background(std::function<void(machine::Driver&)> what);
+    void remember(const drivers::DriverStatus& status);
+    void tell_in_background(std::function<void(drivers::Driver&)> what);
 
     std::filesystem::path folder_;
     std::function<void()> wake_;
-    machine::SteadyClock clock_; ///< outlives every driver
-    mutable std::mutex mutex_;   ///< guards what follows
+    SteadyClock clock_;        ///< outlives every driver
+    mutable std::mutex mutex_; ///< guards what follows
     mutable std::condition_variable_any changed_;
     std::deque<Task> tasks_;
     bool busy_ = false;
-    std::shared_ptr<machine::Driver> driver_;
-    std::optional<machine::PositionMemory> memory_; ///< of `driver_`; for the thread alone
+    std::shared_ptr<drivers::Driver> driver_;
+    std::optional<jobs::PositionMemory> memory_; ///< of `driver_`; for the thread alone
     ControllerView view_;
     std::jthread thread_; // last: it ends before what it uses
 };

@@ -10,7 +10,7 @@ namespace icons = widgets::icons;
 
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using widgets::Permission;
 
 Permission can_connect(const Workbench& now) {
@@ -158,7 +158,7 @@ void add_controller_actions(Actions& actions) {
          icons::check},
         can_trust,
         [](Hands& hands) {
-            hands.workshop.controller().tell([](machine::Driver& driver) { driver.trust_position(); });
+            hands.workshop.controller().tell([](drivers::Driver& driver) { driver.trust_position(); });
         });
     add(actions,
         {"machine.home",
@@ -169,7 +169,7 @@ void add_controller_actions(Actions& actions) {
          icons::home},
         can_home,
         [](Hands& hands) {
-            hands.workshop.controller().tell([](machine::Driver& driver) { driver.home(); });
+            hands.workshop.controller().tell([](drivers::Driver& driver) { driver.home(); });
         });
     add(
         actions,
@@ -186,7 +186,7 @@ void add_controller_actions(Actions& actions) {
                 hands.jobs.set_single_block(on);
             } else {
                 hands.workshop.controller().tell(
-                    [on](machine::Driver& driver) { driver.set_single_block(on); });
+                    [on](drivers::Driver& driver) { driver.set_single_block(on); });
             }
             hands.session.hand.single_block = on;
         },

@@ -52,7 +52,7 @@ Permission can_continue(const Workbench& now) {
     if (const Permission found = has_broken_job(now); !found.allowed) {
         return found;
     }
-    const machine::JobStory& story = now.broken_jobs->front();
+    const jobs::JobStory& story = now.broken_jobs->front();
     if (story.executed_blocks >= story.start.blocks) {
         return Permission::refused("Nothing is left of it.");
     }
@@ -140,7 +140,7 @@ void add_dialog_actions(Actions& actions) {
             hands.session.quit_wanted = false;
             hands.jobs.stop();
             if (arm_moves(hands.now.controller)) {
-                hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
+                hands.workshop.controller().tell([](drivers::Driver& driver) { driver.stop(); });
             }
             hands.workshop.quit();
         });

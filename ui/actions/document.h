@@ -12,7 +12,7 @@ namespace millwright::actions {
 /// A file as this program read or wrote it last.
 struct KnownFile {
     std::filesystem::path file;
-    std::string hash; ///< of its bytes, machine::program_hash; empty: not known
+    std::string hash; ///< of its bytes, jobs::program_hash; empty: not known
 
     friend bool operator==(const KnownFile&, const KnownFile&) = default;
 };

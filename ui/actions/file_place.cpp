@@ -13,8 +13,8 @@ namespace {
 
 using gcode::PathPlace;
 using gcode::Step;
-using project::OpenedProgram;
-using project::PlannedMotion;
+using plan::OpenedProgram;
+using plan::PlannedMotion;
 
 /// First block of `step`, and one past its last.
 std::pair<int, int> blocks_of(const PlannedMotion& motion, Step step) {

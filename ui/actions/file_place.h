@@ -1,7 +1,7 @@
 // Where one stands in an opened G-code file: between its lines, its path and its time.
 #pragma once
 
-#include "core/project/opened_program.h"
+#include "core/plan/opened_program.h"
 #include "ui/viewport/scene.h"
 
 #include <optional>
@@ -18,20 +18,20 @@ struct FilePlace {
 };
 
 /// s: planned, or as fast as programmed where nothing is planned. 0 before the file is read.
-[[nodiscard]] double duration_of(const project::OpenedProgram& opened);
+[[nodiscard]] double duration_of(const plan::OpenedProgram& opened);
 
 /// Where the motion is at `time`. Nothing before the file is read to its end, or if it has no lines.
-[[nodiscard]] std::optional<FilePlace> place_at(const project::OpenedProgram& opened, double time);
+[[nodiscard]] std::optional<FilePlace> place_at(const plan::OpenedProgram& opened, double time);
 
 /// The same, but at `step`, which may be one that moves nothing.
-[[nodiscard]] FilePlace place_in(const project::OpenedProgram& opened, gcode::Step step, double time);
+[[nodiscard]] FilePlace place_in(const plan::OpenedProgram& opened, gcode::Step step, double time);
 
 /// When the motion of `step` begins; of one that moves nothing, the next motion. The file is read.
-[[nodiscard]] double time_of(const project::OpenedProgram& opened, gcode::Step step);
-[[nodiscard]] double time_of(const project::OpenedProgram& opened, const gcode::PathPlace& place);
+[[nodiscard]] double time_of(const plan::OpenedProgram& opened, gcode::Step step);
+[[nodiscard]] double time_of(const plan::OpenedProgram& opened, const gcode::PathPlace& place);
 
 /// The next step after (direction 1) or before (-1) `step` that moves; nothing if there is none.
 [[nodiscard]] std::optional<gcode::Step>
-moving_step(const project::OpenedProgram& opened, gcode::Step step, int direction);
+moving_step(const plan::OpenedProgram& opened, gcode::Step step, int direction);
 
 } // namespace millwright::actions

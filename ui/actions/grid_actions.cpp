@@ -1,6 +1,6 @@
-#include "core/project/grids.h"
+#include "core/plan/grids.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/actions/workshop.h"
@@ -70,7 +70,7 @@ template <SurfaceToolKind kind> void take_in_hand(Hands& hands) {
         session.layers_now().weight = true;
     }
     const project::Project& project = hands.now.project;
-    const bool counts = project::uses_weight(project::program_grid(project));
+    const bool counts = plan::uses_weight(plan::program_grid(project));
     if (kind != SurfaceToolKind::none && !counts && !session.panes.inspector_shown) { // which says it, too
         tell(session,
              widgets::Severity::warning,

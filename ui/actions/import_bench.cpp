@@ -30,7 +30,7 @@ project::SurfaceInput ImportBench::take(const project::SurfaceInput& before) {
     return taken_->surface;
 }
 
-std::shared_ptr<const project::ImportResult> ImportBench::latest() const {
+std::shared_ptr<const plan::ImportResult> ImportBench::latest() const {
     return is_open() ? worker_.latest() : nullptr;
 }
 
@@ -39,8 +39,7 @@ bool ImportBench::is_ready() const {
     return now && now->surface && now->choice == choice_;
 }
 
-std::shared_ptr<const project::ReferenceMesh>
-ImportBench::reference(const project::SurfaceInput& design) const {
+std::shared_ptr<const plan::ReferenceMesh> ImportBench::reference(const project::SurfaceInput& design) const {
     if (is_open()) {
         const auto now = latest();
         return now ? now->reference : nullptr;

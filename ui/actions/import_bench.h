@@ -2,7 +2,7 @@
 // what it was fitted to stays beside it afterwards.
 #pragma once
 
-#include "core/project/import_work.h"
+#include "core/plan/import_work.h"
 
 #include <filesystem>
 #include <functional>
@@ -30,29 +30,29 @@ public:
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] const project::ImportChoice& choice() const { return choice_; }
     /// Of the file on the bench; null while it is read for the first time.
-    [[nodiscard]] std::shared_ptr<const project::ImportResult> latest() const;
+    [[nodiscard]] std::shared_ptr<const plan::ImportResult> latest() const;
     /// What can be taken now is there.
     [[nodiscard]] bool is_ready() const;
     /// What stands beside the design: of the file on the bench, else of what was taken last, unless that was
     /// undone. Null where there is nothing.
-    [[nodiscard]] std::shared_ptr<const project::ReferenceMesh>
+    [[nodiscard]] std::shared_ptr<const plan::ReferenceMesh>
     reference(const project::SurfaceInput& design) const;
     /// Whether the deviations of the reference are those of `design`.
     [[nodiscard]] bool is_measured(const project::SurfaceInput& design) const;
-    [[nodiscard]] project::Activity activity() const { return worker_.activity(); }
+    [[nodiscard]] plan::Activity activity() const { return worker_.activity(); }
     void wait_idle() const { worker_.wait_idle(); }
 
 private:
     /// What was taken into the project, and what it took the place of.
     struct Taken {
-        std::shared_ptr<const project::ReferenceMesh> reference;
+        std::shared_ptr<const plan::ReferenceMesh> reference;
         project::SurfaceInput surface, before;
     };
 
     std::filesystem::path file_; ///< empty: none
     project::ImportChoice choice_;
     std::unique_ptr<const Taken> taken_; ///< null: nothing
-    project::ImportWorker worker_;
+    plan::ImportWorker worker_;
 };
 
 } // namespace millwright::actions

@@ -11,8 +11,8 @@ JobRecovery::JobRecovery(std::filesystem::path folder, std::function<void()> wak
 
 /// A log that cannot be read is nobody's question at the start; `millwright jobs` names it.
 void JobRecovery::look(const std::filesystem::path& folder, const std::function<void()>& wake) {
-    Stories found = machine::read_job_folder(folder).jobs;
-    std::erase_if(found, [](const machine::JobStory& story) { return !story.broken_off() || story.seen; });
+    Stories found = jobs::read_job_folder(folder).jobs;
+    std::erase_if(found, [](const jobs::JobStory& story) { return !story.broken_off() || story.seen; });
     if (found.empty()) {
         return;
     }
@@ -31,7 +31,7 @@ std::shared_ptr<const JobRecovery::Stories> JobRecovery::broken() const {
 void JobRecovery::dismiss() {
     const auto stories = broken();
     expects(!stories->empty(), "a job was broken off");
-    machine::mark_seen(stories->front().log_file);
+    jobs::mark_seen(stories->front().log_file);
     drop_first();
 }
 

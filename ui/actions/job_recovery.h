@@ -2,7 +2,7 @@
 // starts.
 #pragma once
 
-#include "core/machine/recovery.h"
+#include "core/jobs/recovery.h"
 
 #include <filesystem>
 #include <functional>
@@ -15,7 +15,7 @@ namespace millwright::actions {
 
 class JobRecovery {
 public:
-    using Stories = std::vector<machine::JobStory>;
+    using Stories = std::vector<jobs::JobStory>;
 
     /// Looks into `folder`; `wake` is called from its thread if something was found.
     JobRecovery(std::filesystem::path folder, std::function<void()> wake);

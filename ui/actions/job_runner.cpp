@@ -13,16 +13,16 @@ namespace millwright::actions {
 class JobRunner::Run {
 public:
     /// On `driver`, or without one on a virtual machine of its own.
-    Run(machine::Job job,
-        std::shared_ptr<machine::Driver> driver,
+    Run(jobs::Job job,
+        std::shared_ptr<drivers::Driver> driver,
         double speed,
         const std::filesystem::path& log_folder,
         std::function<void()> wake,
         Ended ended)
         : job_(std::move(job)), wake_(std::move(wake)), ended_(std::move(ended)),
           own_(driver ? nullptr
-                      : std::make_shared<machine::VirtualMachine>(
-                            job_.program->start, machine::VirtualSpeed{speed}, clock_)),
+                      : std::make_shared<drivers::VirtualMachine>(
+                            job_.program->start, drivers::VirtualSpeed{speed}, clock_)),
           driver_(driver ? std::move(driver) : own_), dispatcher_(*driver_, clock_, log_folder) {
         view_.running = true;
         view_.name = job_.name;
@@ -44,10 +44,10 @@ public:
     }
     void set_speed(double speed) {
         if (own_) {
-            own_->set_speed(machine::VirtualSpeed{speed});
+            own_->set_speed(drivers::VirtualSpeed{speed});
         }
     }
-    void set_overrides(const machine::Overrides& wanted) { dispatcher_.set_overrides(wanted); }
+    void set_overrides(const drivers::Overrides& wanted) { dispatcher_.set_overrides(wanted); }
     void set_single_block(bool on) { dispatcher_.set_single_block(on); }
     void wait() {
         if (thread_.joinable()) {
@@ -63,7 +63,7 @@ public:
 private:
     /// Where nothing moves yet, the job does not begin: a stop reaches no driver that is not connected.
     void call_off() {
-        if (driver_->status().activity == machine::Activity::none) {
+        if (driver_->status().activity == drivers::Activity::none) {
             thread_.request_stop();
         }
     }
@@ -78,8 +78,8 @@ private:
 
     void work(const std::stop_token& stop) {
         try {
-            const machine::JobOutcome outcome =
-                dispatcher_.run(job_, Progress(nullptr, stop), [this](const machine::JobReport& report) {
+            const jobs::JobOutcome outcome =
+                dispatcher_.run(job_, Progress(nullptr, stop), [this](const jobs::JobReport& report) {
                     publish([&](JobView& view) { view.report = report; });
                 });
             publish([&](JobView& view) { view.outcome = outcome; });
@@ -107,13 +107,13 @@ private:
         }
     }
 
-    machine::Job job_;
+    jobs::Job job_;
     std::function<void()> wake_;
     Ended ended_;
-    machine::SteadyClock clock_;
-    std::shared_ptr<machine::VirtualMachine> own_; ///< null on a connected machine
-    std::shared_ptr<machine::Driver> driver_;
-    machine::Dispatcher dispatcher_;
+    SteadyClock clock_;
+    std::shared_ptr<drivers::VirtualMachine> own_; ///< null on a connected machine
+    std::shared_ptr<drivers::Driver> driver_;
+    jobs::Dispatcher dispatcher_;
     mutable std::mutex mutex_;
     JobView view_;
     std::jthread thread_; // last: it is joined before what it uses goes
@@ -124,15 +124,15 @@ JobRunner::JobRunner(std::filesystem::path log_folder, std::function<void()> wak
 
 JobRunner::~JobRunner() = default;
 
-void JobRunner::start(machine::Job job, double speed, Ended ended) {
+void JobRunner::start(jobs::Job job, double speed, Ended ended) {
     start(std::move(job), nullptr, speed, std::move(ended));
 }
 
-void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver, Ended ended) {
+void JobRunner::start(jobs::Job job, std::shared_ptr<drivers::Driver> driver, Ended ended) {
     start(std::move(job), std::move(driver), 1.0, std::move(ended));
 }
 
-void JobRunner::start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed, Ended ended) {
+void JobRunner::start(jobs::Job job, std::shared_ptr<drivers::Driver> driver, double speed, Ended ended) {
     expects(!view().running, "one job at a time");
     run_.reset();
     run_ =
@@ -169,7 +169,7 @@ void JobRunner::set_speed(double speed) {
     }
 }
 
-void JobRunner::set_overrides(const machine::Overrides& wanted) {
+void JobRunner::set_overrides(const drivers::Overrides& wanted) {
     if (run_) {
         run_->set_overrides(wanted);
     }

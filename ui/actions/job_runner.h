@@ -2,9 +2,9 @@
 // looks. hold, resume and stop act at once.
 #pragma once
 
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/virtual_machine/virtual_machine.h"
-#include "core/machine/job.h"
+#include "core/drivers/virtual_machine/virtual_machine.h"
+#include "core/jobs/dispatcher.h"
+#include "core/jobs/job.h"
 
 #include <filesystem>
 #include <functional>
@@ -16,19 +16,19 @@ namespace millwright::actions {
 
 /// What is known of the job, for one frame.
 struct JobView {
-    bool running = false;                          ///< the dispatcher has it
-    std::string name;                              ///< empty before the first job
-    std::string project;                           ///< file or title it comes from
-    std::optional<machine::JobReport> report;      ///< the last
-    std::shared_ptr<const gcode::Listing> listing; ///< what is sent
-    int from_line = 1;                             ///< of the file, as machine::Job has it
-    std::optional<machine::JobOutcome> outcome;    ///< of the last job that ended
-    std::optional<Diagnostic> failure;             ///< it did not start, or its log could not be written
+    bool running = false;                            ///< the dispatcher has it
+    std::string name;                                ///< empty before the first job
+    std::string project;                             ///< file or title it comes from
+    std::optional<jobs::JobReport> report;           ///< the last
+    std::shared_ptr<const program::Listing> listing; ///< what is sent
+    int from_line = 1;                               ///< of the file, as jobs::Job has it
+    std::optional<jobs::JobOutcome> outcome;         ///< of the last job that ended
+    std::optional<Diagnostic> failure;               ///< it did not start, or its log could not be written
 };
 
 /// What a job leaves behind: how it ended, or else why it came to no end.
 struct JobEnding {
-    std::optional<machine::JobOutcome> outcome;
+    std::optional<jobs::JobOutcome> outcome;
     std::string failure; ///< empty where there is an outcome
 };
 
@@ -46,16 +46,16 @@ public:
 
     /// Starts `job` on a virtual machine at `speed` times real time (0: as fast as can be computed). Throws
     /// Defect if one is running.
-    void start(machine::Job job, double speed, Ended ended = {});
+    void start(jobs::Job job, double speed, Ended ended = {});
     /// Starts `job` on a connected machine, which stays connected.
-    void start(machine::Job job, std::shared_ptr<machine::Driver> driver, Ended ended = {});
+    void start(jobs::Job job, std::shared_ptr<drivers::Driver> driver, Ended ended = {});
     void hold();
     void resume();
     void stop();
     void emergency_stop();
     void set_speed(double speed);
     /// Of the running job, and entered in its log; nothing without one. Throw Error if its machine cannot.
-    void set_overrides(const machine::Overrides& wanted);
+    void set_overrides(const drivers::Overrides& wanted);
     void set_single_block(bool on);
 
     [[nodiscard]] JobView view() const;
@@ -64,7 +64,7 @@ public:
 
 private:
     class Run;
-    void start(machine::Job job, std::shared_ptr<machine::Driver> driver, double speed, Ended ended);
+    void start(jobs::Job job, std::shared_ptr<drivers::Driver> driver, double speed, Ended ended);
 
     std::filesystem::path log_folder_;
     std::function<void()> wake_;

@@ -35,7 +35,7 @@ std::string moved_axes(const Workbench& now) {
     }
     std::string letters;
     if (const auto program = now.program()) {
-        for (const gcode::ProgramAxis& axis : program->axes) {
+        for (const program::ProgramAxis& axis : program->axes) {
             letters += axis.letter;
         }
     }
@@ -52,24 +52,24 @@ std::string listed(std::string_view letters) {
     return text;
 }
 
-machine::Job file_job(const JobSource& source) {
-    const project::OpenedProgram& opened = *source.opened;
+jobs::Job file_job(const JobSource& source) {
+    const plan::OpenedProgram& opened = *source.opened;
     if (source.as_text) {
-        return machine::text_job(std::string(opened.text->bytes.text()), opened.file);
+        return jobs::text_job(std::string(opened.text->bytes.text()), opened.file);
     }
-    machine::Job job;
+    jobs::Job job;
     job.machine = source.machine;
     job.program = opened.motion->program;
     job.listing = opened.motion->listing;
     return job;
 }
 
-machine::Job project_job(const JobSource& source) {
-    const project::Plan& plan = source.plan->plan;
+jobs::Job project_job(const JobSource& source) {
+    const plan::Plan& plan = source.plan->plan;
     if (source.as_text) {
-        return machine::text_job(plan.listing->text, source.name + ".ngc");
+        return jobs::text_job(plan.listing->text, source.name + ".ngc");
     }
-    machine::Job job;
+    jobs::Job job;
     job.machine = source.machine;
     job.program = plan.program;
     job.listing = plan.listing;
@@ -109,11 +109,11 @@ Permission axes_ready(const Workbench& now) {
     }
     std::string missing, there;
     for (const char letter : moved_axes(now)) {
-        if (std::ranges::find(axes, letter, &gcode::ProgramAxis::letter) == axes.end()) {
+        if (std::ranges::find(axes, letter, &program::ProgramAxis::letter) == axes.end()) {
             missing += letter;
         }
     }
-    for (const gcode::ProgramAxis& axis : axes) {
+    for (const program::ProgramAxis& axis : axes) {
         there += axis.letter;
     }
     return missing.empty()
@@ -145,14 +145,14 @@ JobSource job_source(const Workbench& now) {
     return source;
 }
 
-machine::Job make_job(const JobSource& source) {
-    machine::Job job = source.opened ? file_job(source) : project_job(source);
+jobs::Job make_job(const JobSource& source) {
+    jobs::Job job = source.opened ? file_job(source) : project_job(source);
     job.name = source.name;
     job.project = source.file.empty() ? source.name : source.file.string();
     return job;
 }
 
-machine::Job wanted_job(const Workbench& now) {
+jobs::Job wanted_job(const Workbench& now) {
     return now.session.begin.on ? *now.approach->job : make_job(job_source(now));
 }
 

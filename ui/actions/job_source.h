@@ -1,9 +1,9 @@
 // What a job is made of: the opened file or the project's program, as a value that a thread may keep.
 #pragma once
 
-#include "core/machine/job.h"
-#include "core/project/opened_program.h"
-#include "core/project/pipeline.h"
+#include "core/jobs/job.h"
+#include "core/plan/opened_program.h"
+#include "core/plan/pipeline.h"
 #include "ui/widgets/permission.h"
 
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace millwright::actions {
 struct Workbench;
 
 struct JobSource {
-    std::shared_ptr<const project::OpenedProgram> opened;    ///< a G-code file; null: the project's program
-    std::shared_ptr<const project::PublishedPlan> plan;      ///< null with a file
+    std::shared_ptr<const plan::OpenedProgram> opened;       ///< a G-code file; null: the project's program
+    std::shared_ptr<const plan::PublishedPlan> plan;         ///< null with a file
     std::shared_ptr<const kinematics::MachineModel> machine; ///< whose positions are sent; null with a text
     bool as_text = false;                                    ///< the controller plans for itself
     std::filesystem::path file;                              ///< empty: never saved
@@ -39,8 +39,8 @@ struct JobSource {
 [[nodiscard]] JobSource job_source(const Workbench& now);
 
 /// Takes the time to copy the text of a long program. Throws Error for a text without a block.
-[[nodiscard]] machine::Job make_job(const JobSource& source);
+[[nodiscard]] jobs::Job make_job(const JobSource& source);
 /// Of what is shown, from the line where it is to begin. Only where job_ready() says yes.
-[[nodiscard]] machine::Job wanted_job(const Workbench& now);
+[[nodiscard]] jobs::Job wanted_job(const Workbench& now);
 
 } // namespace millwright::actions

@@ -20,12 +20,12 @@ double JogHand::dead_man_for(double frame) {
 }
 
 void JogHand::renew(const JogWish& wish) {
-    machine::Jog jog;
+    drivers::Jog jog;
     jog.way = wish.direction * (wish.speed * seconds_ahead);
     jog.speed = wish.speed;
     jog.dead_man = dead_man_for(frame_);
     moving_ = true; // also if the driver refuses: it is told to stop then
-    controller_.tell([&](machine::Driver& driver) { driver.jog(jog); });
+    controller_.tell([&](drivers::Driver& driver) { driver.jog(jog); });
 }
 
 void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
@@ -42,7 +42,7 @@ void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
     if (!allowed) {
         must_let_go_ = must_let_go_ || wish.has_value();
         const auto driver = controller_.driver();
-        if (driver && driver->status().activity == machine::Activity::jog) {
+        if (driver && driver->status().activity == drivers::Activity::jog) {
             moving_ = true; // a step that was asked for earlier ends here, too
         }
     }
@@ -55,12 +55,12 @@ void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
         asks_again_ = false;
     } catch (const Error&) {
         const auto driver = controller_.driver();
-        const machine::DriverStatus now_is = driver ? driver->status() : machine::DriverStatus{};
-        if (now_is.activity == machine::Activity::jog) {
+        const drivers::DriverStatus now_is = driver ? driver->status() : drivers::DriverStatus{};
+        if (now_is.activity == drivers::Activity::jog) {
             return; // it still brakes, as its dead man wanted: the next frame asks again
         }
         // It may have come to rest between its answer and this look.
-        if (went_on && now_is.state == machine::DriverState::idle && !std::exchange(asks_again_, true)) {
+        if (went_on && now_is.state == drivers::DriverState::idle && !std::exchange(asks_again_, true)) {
             return;
         }
         must_let_go_ = true; // said once, not in every frame

@@ -2,7 +2,7 @@
 // one frame goes by without that. A window that hangs wants nothing, and the driver's dead man stops it.
 #pragma once
 
-#include "core/machine/driver.h"
+#include "core/drivers/driver.h"
 #include "ui/actions/controller.h"
 
 #include <chrono>

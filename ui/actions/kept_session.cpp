@@ -134,7 +134,7 @@ void add_window(std::vector<KeptValue>& values) {
 KeptValue kept_address(int n) {
     const auto kind = static_cast<DriverKind>(n);
     const auto index = static_cast<std::size_t>(n);
-    return {fmt::format("address.{}", machine::to_text(kind)),
+    return {fmt::format("address.{}", to_text(kind)),
             [kind, index](const Session& session) {
                 return session.hand.choice.kind == kind ? session.hand.choice.address
                                                         : session.hand.addresses[index];
@@ -149,10 +149,10 @@ KeptValue kept_address(int n) {
 }
 
 /// A text of a person's own records; where there are none (record.own), it has nowhere to go.
-KeptValue kept_record(std::string_view name, std::string machine::RecordFormat::*member) {
+KeptValue kept_record(std::string_view name, std::string drivers::RecordFormat::*member) {
     return {fmt::format("record.{}", name),
             [member](const Session& session) {
-                return session.hand.choice.record.value_or(machine::RecordFormat()).*member;
+                return session.hand.choice.record.value_or(drivers::RecordFormat()).*member;
             },
             [member](Session& session, const std::string& text) {
                 if (auto& record = session.hand.choice.record) {
@@ -163,7 +163,7 @@ KeptValue kept_record(std::string_view name, std::string machine::RecordFormat::
 }
 
 void add_records(std::vector<KeptValue>& values) {
-    using machine::RecordFormat;
+    using drivers::RecordFormat;
     values.push_back(
         {"record.own",
          [](const Session& session) { return flag_text(session.hand.choice.record.has_value()); },
@@ -188,17 +188,16 @@ void add_records(std::vector<KeptValue>& values) {
 }
 
 void add_machine(std::vector<KeptValue>& values) {
-    values.push_back(
-        {"driver",
-         [](const Session& session) { return std::string(machine::to_text(session.hand.choice.kind)); },
-         [](Session& session, const std::string& text) {
-             try {
-                 session.hand.choice.kind = machine::driver_kind(text);
-                 return true;
-             } catch (const Error&) {
-                 return false;
-             }
-         }});
+    values.push_back({"driver",
+                      [](const Session& session) { return std::string(to_text(session.hand.choice.kind)); },
+                      [](Session& session, const std::string& text) {
+                          try {
+                              session.hand.choice.kind = machine::driver_kind(text);
+                              return true;
+                          } catch (const Error&) {
+                              return false;
+                          }
+                      }});
     for (int n = 0; n < std::ssize(HandSettings().addresses); ++n) {
         values.push_back(kept_address(n));
     }

@@ -1,7 +1,7 @@
 #include "core/base/error.h"
-#include "core/machine/box_trace.h"
-#include "core/machine/driver.h"
-#include "core/machine/job_queue.h"
+#include "core/drivers/driver.h"
+#include "core/jobs/box_trace.h"
+#include "core/jobs/job_queue.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
@@ -22,7 +22,7 @@ namespace icons = widgets::icons;
 
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using widgets::Permission;
 
 Permission machine_ready(const Workbench& now) {
@@ -55,8 +55,8 @@ Permission position_ready(const Workbench& now, int from_line) {
     const bool wrong =
         now.controller.connected() &&
         (from_line > 1 ? !doubt.empty()
-                       : machine::needs_confirmation(now.controller.status, now.controller.offsets));
-    return wrong ? Permission::refused(machine::doubt_sentence(doubt) +
+                       : drivers::needs_confirmation(now.controller.status, now.controller.offsets));
+    return wrong ? Permission::refused(drivers::doubt_sentence(doubt) +
                                        " Or say that it stands where the controller says.")
                  : Permission{};
 }
@@ -98,7 +98,7 @@ template <DriverState state> Permission driver_is(const Workbench& now) {
 /// A program that runs without a job, as an arm's.
 bool plays(const Workbench& now, DriverState state) {
     return now.controller.connected() && !now.job.running && now.controller.status.state == state &&
-           now.controller.status.activity == machine::Activity::program;
+           now.controller.status.activity == drivers::Activity::program;
 }
 
 /// Points of a plot that are played to a table, while no other machine moves.
@@ -107,8 +107,8 @@ bool table_plays(const Workbench& now) {
 }
 
 bool table_plays(const Workbench& now, DriverState state) {
-    const machine::PlayState wanted =
-        state == DriverState::holding ? machine::PlayState::holding : machine::PlayState::playing;
+    const drivers::PlayState wanted =
+        state == DriverState::holding ? drivers::PlayState::holding : drivers::PlayState::playing;
     return table_plays(now) && now.plot.table().view().status.state == wanted;
 }
 
@@ -122,7 +122,7 @@ void hold(Hands& hands) {
     } else if (table_plays(hands.now)) {
         hands.workshop.plot().table().hold();
     } else {
-        hands.workshop.controller().tell([](machine::Driver& driver) { driver.hold(); });
+        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.hold(); });
     }
 }
 
@@ -132,7 +132,7 @@ void resume(Hands& hands) {
     } else if (table_plays(hands.now)) {
         hands.workshop.plot().table().resume();
     } else {
-        hands.workshop.controller().tell([](machine::Driver& driver) { driver.resume(); });
+        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.resume(); });
     }
 }
 
@@ -156,12 +156,12 @@ void stop(Hands& hands) {
     if (hands.now.job.running) {
         hands.jobs.stop();
     } else if (hands.now.controller.connected()) {
-        hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
+        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.stop(); });
     }
 }
 
 /// On what is connected, else on a virtual machine.
-void start_job(Hands& hands, machine::Job job, const JobRunner::Ended& ended = {}) {
+void start_job(Hands& hands, jobs::Job job, const JobRunner::Ended& ended = {}) {
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
     hands.session.playback.playing = false;
     hands.session.file.step.reset();
@@ -188,7 +188,7 @@ void add_to_queue(Hands& hands) {
 }
 
 /// A job is made for a controller that plans for itself, or for a machine that is moved here.
-Permission suits_machine(const Workbench& now, const machine::QueuedJob& job) {
+Permission suits_machine(const Workbench& now, const jobs::QueuedJob& job) {
     if (!job.has_program) {
         return Permission::refused(job.name +
                                    " was added before Millwright was started: \u201cOpen program\u201d "
@@ -203,13 +203,13 @@ Permission suits_machine(const Workbench& now, const machine::QueuedJob& job) {
 }
 
 /// Of the project's program; nothing is known of any other.
-std::string gouges_of(const Workbench& now, const machine::Job& job) {
+std::string gouges_of(const Workbench& now, const jobs::Job& job) {
     const auto own = now.listing();
     const bool is_own = own && job.listing && own->text == job.listing->text;
     return is_own ? now.gouge_warning() : std::string();
 }
 
-void ask_to_start(Hands& hands, machine::Job job, std::optional<machine::QueuedJobId> queued) {
+void ask_to_start(Hands& hands, jobs::Job job, std::optional<jobs::QueuedJobId> queued) {
     const std::string gouges =
         !queued && !hands.now.in_file() ? hands.now.gouge_warning() : gouges_of(hands.now, job);
     StartWish wish = start_wish(std::move(job), queued, hands.now.controller);
@@ -236,11 +236,11 @@ Permission can_run_next(const Workbench& now) {
         return free;
     }
     const auto next = std::ranges::find_if(
-        now.queue, [](const machine::QueuedJob& job) { return job.state != machine::QueueState::done; });
+        now.queue, [](const jobs::QueuedJob& job) { return job.state != jobs::QueueState::done; });
     if (next == now.queue.end()) {
         return Permission::refused("No job waits.");
     }
-    if (next->state == machine::QueueState::held) {
+    if (next->state == jobs::QueueState::held) {
         return Permission::refused(next->name + " did not end well and holds the queue: look at the machine, "
                                                 "then release or remove it.");
     }
@@ -250,10 +250,10 @@ Permission can_run_next(const Workbench& now) {
 }
 
 /// The queue hears how it ends; what keeps it from starting holds the queue, too.
-void begin_queued(Hands& hands, machine::QueuedJobId id) {
+void begin_queued(Hands& hands, jobs::QueuedJobId id) {
     StoredQueue& stored = hands.workshop.queue();
-    machine::JobQueue& queue = stored.open();
-    machine::Job job = queue.begin(id);
+    jobs::JobQueue& queue = stored.open();
+    jobs::Job job = queue.begin(id);
     try {
         start_job(hands, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
     } catch (const Error& error) {
@@ -268,8 +268,8 @@ void run_next(Hands& hands) {
         hands.session.lower_tab_now() = LowerTab::queue;
         return;
     }
-    machine::JobQueue& queue = hands.workshop.queue().open();
-    const machine::QueuedJobId id = queue.next().value().id;
+    jobs::JobQueue& queue = hands.workshop.queue().open();
+    const jobs::QueuedJobId id = queue.next().value().id;
     if (!moves_a_machine(hands.now)) {
         begin_queued(hands, id);
     } else if (const auto job = queue.program_of(id)) {
@@ -313,7 +313,7 @@ Permission can_check_there(const Workbench& now) {
 }
 
 void check_there(Hands& hands) {
-    hands.workshop.controller().tell([&hands](machine::Driver& driver) {
+    hands.workshop.controller().tell([&hands](drivers::Driver& driver) {
         hands.session.start_answer = driver.check_there(*hands.session.start->job->listing);
     });
 }
@@ -326,16 +326,16 @@ Permission can_trace(const Workbench& now) {
 
 /// The job stays as it is: it is asked for again afterwards.
 void trace_box(Hands& hands) {
-    machine::Job trace = machine::box_trace_job(*hands.session.start->job, hands.now.start_check->survey);
+    jobs::Job trace = jobs::box_trace_job(*hands.session.start->job, hands.now.start_check->survey);
     hands.session.start.reset();
     start_job(hands, std::move(trace));
 }
 
 void leave_start(Hands& hands) {
-    const machine::CommandAnswer& answer = hands.now.controller.status.answer;
+    const drivers::CommandAnswer& answer = hands.now.controller.status.answer;
     if (answer.number == hands.session.start_answer &&
-        answer.state == machine::CommandAnswer::State::pending) {
-        hands.workshop.controller().tell([](machine::Driver& driver) { driver.stop(); });
+        answer.state == drivers::CommandAnswer::State::pending) {
+        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.stop(); });
     }
     hands.session.start.reset();
 }
@@ -382,9 +382,8 @@ void add_queue_actions(Actions& actions) {
          "",
          icons::cancel},
         [](const Workbench& now) {
-            const bool any = std::ranges::any_of(now.queue, [](const machine::QueuedJob& job) {
-                return job.state == machine::QueueState::done;
-            });
+            const bool any = std::ranges::any_of(
+                now.queue, [](const jobs::QueuedJob& job) { return job.state == jobs::QueueState::done; });
             return any ? Permission{} : Permission::refused("No job is done.");
         },
         [](Hands& hands) { hands.workshop.queue().open().remove_done(); });

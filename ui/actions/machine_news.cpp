@@ -1,23 +1,23 @@
 #include "ui/actions/machine_news.h"
 
 #include "core/base/sentences.h"
-#include "core/machine/drivers/pmac/placed_refusals.h"
-#include "core/machine/drivers/pmac/pmac_driver.h"
-#include "core/machine/drivers/pmac/protections.h"
+#include "core/pmac/driver/placed_refusals.h"
+#include "core/pmac/driver/pmac_driver.h"
+#include "core/pmac/driver/protections.h"
 
 #include <utility>
 
 namespace millwright::actions {
 
 void MachineNews::follow(const ControllerView& machine,
-                         const std::shared_ptr<machine::Driver>& driver,
+                         const std::shared_ptr<drivers::Driver>& driver,
                          Session& session) {
     log_messages(machine, session);
     tell_protections(driver, session);
     tell_answer(machine, session);
 }
 
-void MachineNews::sent(int answer, machine::PmacFile file) {
+void MachineNews::sent(int answer, pmac::PmacFile file) {
     sent_ = SentFile{answer, std::move(file)};
 }
 
@@ -29,7 +29,7 @@ void MachineNews::log_messages(const ControllerView& machine, Session& session) 
             session.log.push_back(before + as_sentence(now));
         }
     };
-    const bool alarm = machine.connected() && machine.status.state == machine::DriverState::alarm;
+    const bool alarm = machine.connected() && machine.status.state == drivers::DriverState::alarm;
     const std::string& message = machine.status.message;
     log(message_,
         alarm && message.empty() ? "there is an alarm"
@@ -40,8 +40,8 @@ void MachineNews::log_messages(const ControllerView& machine, Session& session) 
 }
 
 /// When it is connected, and again when its motors get power.
-void MachineNews::tell_protections(const std::shared_ptr<machine::Driver>& driver, Session& session) {
-    const auto* const card = dynamic_cast<const machine::PmacDriver*>(driver.get());
+void MachineNews::tell_protections(const std::shared_ptr<drivers::Driver>& driver, Session& session) {
+    const auto* const card = dynamic_cast<const pmac::PmacDriver*>(driver.get());
     if (card == nullptr) {
         protections_off_.clear();
         driver_.reset();
@@ -58,15 +58,15 @@ void MachineNews::tell_protections(const std::shared_ptr<machine::Driver>& drive
     if (auto off = card->protections_off()) {
         protections_off_ = std::move(*off);
         if (!std::exchange(told_, true) && !protections_off_.empty()) {
-            tell(session, widgets::Severity::warning, machine::protections_notice(protections_off_));
+            tell(session, widgets::Severity::warning, pmac::protections_notice(protections_off_));
         }
     }
 }
 
 void MachineNews::tell_answer(const ControllerView& machine, Session& session) {
-    const machine::CommandAnswer& answer = machine.status.answer;
+    const drivers::CommandAnswer& answer = machine.status.answer;
     if (!sent_ || !machine.connected() || answer.number != sent_->answer ||
-        answer.state == machine::CommandAnswer::State::pending) {
+        answer.state == drivers::CommandAnswer::State::pending) {
         return;
     }
     const SentFile sent = *std::exchange(sent_, std::nullopt);
@@ -74,7 +74,7 @@ void MachineNews::tell_answer(const ControllerView& machine, Session& session) {
         ? tell(session, widgets::Severity::info, "The card took all settings.")
         : tell(session,
                widgets::Severity::warning,
-               "The card refused settings: " + machine::with_places(answer.text, sent.file, "line "));
+               "The card refused settings: " + pmac::with_places(answer.text, sent.file, "line "));
 }
 
 } // namespace millwright::actions

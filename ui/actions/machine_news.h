@@ -2,7 +2,7 @@
 // person has to know before anything moves is told.
 #pragma once
 
-#include "core/machine/drivers/pmac/pmac_file.h"
+#include "core/pmac/driver/pmac_file.h"
 #include "ui/actions/controller.h"
 #include "ui/actions/session.h"
 
@@ -17,24 +17,24 @@ class MachineNews {
 public:
     /// Once a frame. `driver`: null unless one is connected.
     void
-    follow(const ControllerView& machine, const std::shared_ptr<machine::Driver>& driver, Session& session);
+    follow(const ControllerView& machine, const std::shared_ptr<drivers::Driver>& driver, Session& session);
     /// A file of settings went to the card, whose answer has the number `answer`.
-    void sent(int answer, machine::PmacFile file);
+    void sent(int answer, pmac::PmacFile file);
     /// Of the connected card, a sentence for each; as it told last.
     [[nodiscard]] const std::vector<std::string>& protections_off() const { return protections_off_; }
 
 private:
     void log_messages(const ControllerView& machine, Session& session);
-    void tell_protections(const std::shared_ptr<machine::Driver>& driver, Session& session);
+    void tell_protections(const std::shared_ptr<drivers::Driver>& driver, Session& session);
     void tell_answer(const ControllerView& machine, Session& session);
 
     struct SentFile {
         int answer = 0;
-        machine::PmacFile file;
+        pmac::PmacFile file;
     };
 
     std::string message_, failure_; ///< that were logged last
-    std::weak_ptr<machine::Driver> driver_;
+    std::weak_ptr<drivers::Driver> driver_;
     bool told_ = false;    ///< its protections
     bool powered_ = false; ///< its motors, when it was last looked at
     std::vector<std::string> protections_off_;

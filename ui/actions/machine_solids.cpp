@@ -12,7 +12,7 @@ namespace millwright::actions {
 namespace {
 
 /// Empty where there is none: the plan tells that.
-std::filesystem::path file_of(const project::Project& project, const project::Folders& folders) {
+std::filesystem::path file_of(const project::Project& project, const plan::Folders& folders) {
     try {
         return project::machine_path(project, folders.project, folders.assets);
     } catch (const Error&) {
@@ -22,7 +22,7 @@ std::filesystem::path file_of(const project::Project& project, const project::Fo
 
 } // namespace
 
-void MachineSolids::follow(const project::Project& project, const project::Folders& folders) {
+void MachineSolids::follow(const project::Project& project, const plan::Folders& folders) {
     const std::filesystem::path file = file_of(project, folders);
     if (file == file_) {
         return;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geometry/solid.h"
-#include "core/project/plan.h"
+#include "core/plan/plan.h"
 
 #include <filesystem>
 #include <memory>
@@ -14,7 +14,7 @@ class MachineSolids {
 public:
     /// Reads them where the machine is another one than before; a machine that is not there has none. Throws
     /// Error once about a file of bodies that cannot be read.
-    void follow(const project::Project& project, const project::Folders& folders);
+    void follow(const project::Project& project, const plan::Folders& folders);
 
     /// Null where the machine's file names none.
     [[nodiscard]] const std::shared_ptr<const std::vector<geometry::SolidBody>>& bodies() const {

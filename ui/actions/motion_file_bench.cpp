@@ -1,9 +1,9 @@
 #include "ui/actions/motion_file_bench.h"
 
+#include "core/arm/arm_forward.h"
+#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_path.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
-#include "core/kinematics/arm_motion_ways.h"
-#include "core/kinematics/arm_path.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
 
@@ -28,14 +28,14 @@ std::vector<std::string> trimmed_lines(const std::string& text) {
 }
 
 /// A block is as many moves of the joints as keep its tip on its way.
-std::vector<ArmBlockPlayed> played_blocks(const kinematics::ArmModel& arm,
-                                          const gcode::Program& program,
+std::vector<ArmBlockPlayed> played_blocks(const arm::ArmModel& arm,
+                                          const program::Program& program,
                                           const motion::Trajectory& trajectory,
                                           const std::string& text) {
     const std::vector<std::string> lines = trimmed_lines(text);
     std::vector<ArmBlockPlayed> played;
     for (int n = 0; n < program.block_count(); ++n) {
-        const gcode::Block& block = program.blocks[static_cast<std::size_t>(n)];
+        const program::Block& block = program.blocks[static_cast<std::size_t>(n)];
         if (block.source_line <= 0 || static_cast<std::size_t>(block.source_line) > lines.size()) {
             continue;
         }
@@ -43,7 +43,7 @@ std::vector<ArmBlockPlayed> played_blocks(const kinematics::ArmModel& arm,
             played.push_back(
                 {.line = block.source_line, .text = lines[static_cast<std::size_t>(block.source_line - 1)]});
         }
-        played.back().goal = kinematics::base_T_tool(arm, block.target).translation();
+        played.back().goal = arm::base_T_tool(arm, block.target).translation();
         played.back().end = trajectory.end_of(n);
     }
     return played;
@@ -51,16 +51,16 @@ std::vector<ArmBlockPlayed> played_blocks(const kinematics::ArmModel& arm,
 
 } // namespace
 
-ArmFileMotion motion_of_file(const kinematics::ArmModel& arm,
+ArmFileMotion motion_of_file(const arm::ArmModel& arm,
                              const std::string& text,
-                             const kinematics::JointPositions& start,
+                             const arm::JointPositions& start,
                              const std::filesystem::path& file) {
     constexpr double quarter_turn = 0.5 * pi;
-    const auto ways = kinematics::ways_of(arm, kinematics::parse_arm_motion(text, file), start, file);
-    kinematics::ArmPathSettings settings;
-    settings.aim = kinematics::aim_of(arm, quarter_turn);
+    const auto ways = arm::ways_of(arm, arm::parse_arm_motion(text, file), start, file);
+    arm::ArmPathSettings settings;
+    settings.aim = arm::aim_of(arm, quarter_turn);
     motion::ArmMotion motion(arm, start);
-    motion.follow(ways, kinematics::follow_path(arm, ways, start, settings, {}), file);
+    motion.follow(ways, arm::follow_path(arm, ways, start, settings, {}), file);
     motion::Trajectory trajectory = motion::plan(motion.program(), arm, {}, {});
     auto blocks = played_blocks(arm, motion.program(), trajectory, text);
     return {std::move(trajectory), std::move(blocks)};
@@ -79,8 +79,8 @@ void MotionFileBench::follow(const std::string& text) {
     faults_.clear();
     blocks_.clear();
     try {
-        auto blocks = kinematics::parse_arm_motion(text_, name());
-        kinematics::expect_arcs(blocks, name());
+        auto blocks = arm::parse_arm_motion(text_, name());
+        arm::expect_arcs(blocks, name());
         blocks_ = std::move(blocks);
     } catch (const Error& error) {
         faults_.push_back(error.diagnostic());

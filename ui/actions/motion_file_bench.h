@@ -2,10 +2,10 @@
 // angles rad.
 #pragma once
 
+#include "core/arm/arm_model.h"
+#include "core/arm/arm_motion_file.h"
 #include "core/base/error.h"
 #include "core/geometry/vectors.h"
-#include "core/kinematics/arm_model.h"
-#include "core/kinematics/arm_motion_file.h"
 #include "core/motion/trajectory.h"
 
 #include <filesystem>
@@ -29,9 +29,9 @@ struct ArmFileMotion {
 
 /// Lines and arcs of a motion file, from the joints `start` on. Throws Error with the line of what is wrong,
 /// and of what the arm cannot do.
-[[nodiscard]] ArmFileMotion motion_of_file(const kinematics::ArmModel& arm,
+[[nodiscard]] ArmFileMotion motion_of_file(const arm::ArmModel& arm,
                                            const std::string& text,
-                                           const kinematics::JointPositions& start,
+                                           const arm::JointPositions& start,
                                            const std::filesystem::path& file);
 
 class MotionFileBench {
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] const std::vector<Diagnostic>& faults() const { return faults_; }
     [[nodiscard]] bool has_blocks() const { return !blocks_.empty(); }
     /// Of a text without faults.
-    [[nodiscard]] const std::vector<kinematics::ArmBlock>& blocks() const { return blocks_; }
+    [[nodiscard]] const std::vector<arm::ArmBlock>& blocks() const { return blocks_; }
 
     /// Stands for a file in messages.
     [[nodiscard]] static const std::filesystem::path& name();
@@ -50,7 +50,7 @@ public:
 private:
     std::string text_;
     std::vector<Diagnostic> faults_;
-    std::vector<kinematics::ArmBlock> blocks_;
+    std::vector<arm::ArmBlock> blocks_;
 };
 
 } // namespace millwright::actions

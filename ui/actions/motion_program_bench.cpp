@@ -11,12 +11,12 @@ const std::filesystem::path motion_program_name = "program";
 MotionProgramBench::MotionProgramBench(std::function<void()> wake) : work_(run, std::move(wake)) {}
 
 MotionProgramBench::Answer MotionProgramBench::run(const Wish& wish, const Progress& progress) {
-    machine::MotionSimulationSettings settings;
+    pmac::MotionSimulationSettings settings;
     settings.card = wish.card;
     settings.start_deg = wish.start_deg;
     return {wish.text,
-            std::make_shared<const machine::MotionSimulation>(
-                machine::simulate_motion_program(wish.text, motion_program_name, settings, progress))};
+            std::make_shared<const pmac::MotionSimulation>(
+                pmac::simulate_motion_program(wish.text, motion_program_name, settings, progress))};
 }
 
 void MotionProgramBench::follow(const std::string& text) {
@@ -24,16 +24,16 @@ void MotionProgramBench::follow(const std::string& text) {
         return;
     }
     text_ = text;
-    text_faults_ = machine::motion_program_faults(text_, motion_program_name);
+    text_faults_ = pmac::motion_program_faults(text_, motion_program_name);
     faults_ = text_faults_;
 }
 
-void MotionProgramBench::simulate(machine::PmacSettings card, std::vector<double> start_deg) {
+void MotionProgramBench::simulate(pmac::PmacSettings card, std::vector<double> start_deg) {
     (void)lines();
     work_.want({text_, std::move(card), std::move(start_deg)});
 }
 
-std::shared_ptr<const machine::MotionSimulation> MotionProgramBench::take() {
+std::shared_ptr<const pmac::MotionSimulation> MotionProgramBench::take() {
     auto answer = work_.answer();
     if (!answer || answer == taken_) {
         return nullptr;
@@ -50,7 +50,7 @@ std::vector<std::string> MotionProgramBench::lines() const {
         throw Error(text_faults_.front());
     }
     std::vector<std::string> lines;
-    for (const machine::MotionLine& line : machine::motion_lines(text_, motion_program_name)) {
+    for (const pmac::MotionLine& line : pmac::motion_lines(text_, motion_program_name)) {
         lines.push_back(line.text);
     }
     if (lines.empty()) {

@@ -2,7 +2,7 @@
 // motors would do, on an emulated card in the background.
 #pragma once
 
-#include "core/machine/emulators/pmac/motion_program.h"
+#include "core/pmac/emulator/motion_program.h"
 #include "ui/actions/latest_work.h"
 
 #include <memory>
@@ -25,10 +25,10 @@ public:
     [[nodiscard]] bool can_be_read() const { return text_faults_.empty(); }
 
     /// Runs the text in the background on `card`, from `start_deg` of each of its axes.
-    void simulate(machine::PmacSettings card, std::vector<double> start_deg);
+    void simulate(pmac::PmacSettings card, std::vector<double> start_deg);
     [[nodiscard]] bool busy() const { return work_.busy(); }
     /// A simulation that has ended since this was last asked; null without one.
-    [[nodiscard]] std::shared_ptr<const machine::MotionSimulation> take();
+    [[nodiscard]] std::shared_ptr<const pmac::MotionSimulation> take();
     void wait_idle() const { work_.wait_idle(); }
 
     /// What the card is sent. Throws Error for a text with faults, and for an empty one.
@@ -37,12 +37,12 @@ public:
 private:
     struct Wish {
         std::string text;
-        machine::PmacSettings card;
+        pmac::PmacSettings card;
         std::vector<double> start_deg;
     };
     struct Answer {
         std::string text;
-        std::shared_ptr<const machine::MotionSimulation> simulation;
+        std::shared_ptr<const pmac::MotionSimulation> simulation;
     };
     static Answer run(const Wish& wish, const Progress& progress);
 

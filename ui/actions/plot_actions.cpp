@@ -38,7 +38,7 @@ Permission can_play_plot(const Workbench& now) {
         return path;
     }
     const TableView table = now.plot.table().view();
-    if (table.playing && table.status.state == machine::PlayState::holding) {
+    if (table.playing && table.status.state == drivers::PlayState::holding) {
         return Permission::refused("The table is held. Press Resume to go on.");
     }
     return table.playing ? Permission::refused("The table is moving.") : Permission{};
@@ -48,11 +48,11 @@ Permission is_table_moving(const Workbench& now) {
     return now.plot.table().playing() ? Permission{} : Permission::refused("The table is not moving.");
 }
 
-template <machine::PlayState state> Permission table_is(const Workbench& now) {
+template <drivers::PlayState state> Permission table_is(const Workbench& now) {
     const TableView table = now.plot.table().view();
     const bool is = table.playing && table.status.state == state;
     return is ? Permission{}
-              : Permission::refused(state == machine::PlayState::playing ? "The table is not moving."
+              : Permission::refused(state == drivers::PlayState::playing ? "The table is not moving."
                                                                          : "The table is not being held.");
 }
 
@@ -157,7 +157,7 @@ void add_plot_actions(Actions& actions) {
          "No further point is sent until you resume.",
          "",
          icons::hold},
-        table_is<machine::PlayState::playing>,
+        table_is<drivers::PlayState::playing>,
         [](Hands& hands) { hands.workshop.plot().table().hold(); });
     add(actions,
         {"plot.resume_table",
@@ -166,7 +166,7 @@ void add_plot_actions(Actions& actions) {
          "Goes on with the next point, as after a tool change.",
          "",
          icons::play},
-        table_is<machine::PlayState::holding>,
+        table_is<drivers::PlayState::holding>,
         [](Hands& hands) { hands.workshop.plot().table().resume(); });
     add(actions,
         {"plot.stop_table", menu, "Stop the table", "No point is sent any more.", "", icons::stop},

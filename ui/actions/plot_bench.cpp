@@ -1,8 +1,8 @@
 #include "ui/actions/plot_bench.h"
 
 #include "core/base/files.h"
+#include "core/jobs/point_job.h"
 #include "core/kinematics/machine_file.h"
-#include "core/machine/point_job.h"
 #include "core/plot/path_file.h"
 #include "core/plot/point_file.h"
 #include "core/project/assets.h"
@@ -53,7 +53,7 @@ void PlotBench::read_again() {
     worker_.request(input_);
 }
 
-std::shared_ptr<const project::PlotResult> PlotBench::latest() const {
+std::shared_ptr<const plan::PlotResult> PlotBench::latest() const {
     auto made = input_.file.empty() ? nullptr : worker_.latest();
     return made && made->input.file == input_.file ? made : nullptr;
 }
@@ -129,8 +129,8 @@ fs::path PlotBench::write_path(const fs::path& folder) const {
 fs::path PlotBench::write_points(const fs::path& folder) const {
     const auto now = latest();
     expects(now != nullptr && now->path != nullptr, "there is a path to be decoded");
-    const machine::Job job =
-        machine::path_points_job(*now->path, file(), model(), {.decoding = table_choice_.decoding});
+    const jobs::Job job =
+        jobs::path_points_job(*now->path, file(), model(), {.decoding = table_choice_.decoding});
     const fs::path target = free_place(folder, file().stem().string(), "csv");
     constexpr int decimals = 4;
     write_file(target, plot::point_file_text(job.points->points, decimals));

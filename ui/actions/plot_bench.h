@@ -2,8 +2,8 @@
 // to.
 #pragma once
 
+#include "core/plan/plot_work.h"
 #include "core/plot/material_table.h"
-#include "core/project/plot_work.h"
 #include "ui/actions/table_player.h"
 
 #include <cstdint>
@@ -38,12 +38,12 @@ public:
     [[nodiscard]] const std::filesystem::path& file() const { return input_.file; } ///< empty: none
     [[nodiscard]] const project::PlotSettings& settings() const { return input_.settings; }
     /// Of the file that is open, perhaps with settings that were before; null while there is nothing of it.
-    [[nodiscard]] std::shared_ptr<const project::PlotResult> latest() const;
+    [[nodiscard]] std::shared_ptr<const plan::PlotResult> latest() const;
     /// Whether `made` is what the file makes now with the settings of now.
-    [[nodiscard]] bool is_current(const project::PlotResult& made) const {
+    [[nodiscard]] bool is_current(const plan::PlotResult& made) const {
         return made.revision > before_ && made.input == input_;
     }
-    [[nodiscard]] project::Activity activity() const { return worker_.activity(); }
+    [[nodiscard]] plan::Activity activity() const { return worker_.activity(); }
     /// What the settings of now ask for was given up: nothing is there of it, and nothing will be.
     [[nodiscard]] bool given_up() const {
         if (input_.file.empty() || activity().busy) {
@@ -89,7 +89,7 @@ private:
     std::vector<plot::Material> materials_;
     std::optional<std::size_t> material_;
     TableChoice table_choice_;
-    project::PlotWorker worker_;
+    plan::PlotWorker worker_;
     std::unique_ptr<TablePlayer> table_;
     std::filesystem::path played_;  ///< file of what the table was last played
     double timeline_at_play_ = 0.0; ///< s

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/cordic/disassembler.h"
 #include "core/cordic/microprogram.h"
-#include "core/gcode/reader/interpreter.h"
+#include "core/gcode/interpreter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ std::string instruction_of(const std::string& row) {
     return row.substr(begin, end - begin + 1);
 }
 
-std::vector<CodeRow> rows_of(const gcode::CordicProgram& program) {
+std::vector<CodeRow> rows_of(const cordic_machine::CordicProgram& program) {
     std::vector<CodeRow> rows;
     for (const std::string& line : lines_of(cordic::disassemble(program.image))) {
         const std::size_t place = line.find(';');
@@ -128,12 +128,12 @@ void ProcessorBench::set(const ProcessorChoice& choice) {
 }
 
 void ProcessorBench::compile_gcode() {
-    gcode::CordicProgramSettings wanted;
+    cordic_machine::CordicProgramSettings wanted;
     wanted.format = choice_.format;
     wanted.processor = settings();
     wanted.chord_tolerance = choice_.chord_tolerance;
     wanted.lets_arcs_drift = true; // how far is what a person comes to see
-    gcode::CordicProgramBuilder builder(name_, wanted);
+    cordic_machine::CordicProgramBuilder builder(name_, wanted);
     gcode::ReaderSettings reading;
     reading.any_tool = true;
     gcode::Interpreter program(std::string_view(source_text_), name_, std::move(reading), builder);

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/cordic/debugger.h"
-#include "core/gcode/reader/cordic_program.h"
+#include "core/cordic_machine/cordic_program.h"
 #include "ui/actions/processor_texts.h"
 #include "ui/actions/whole_run.h"
 
@@ -24,8 +24,8 @@ enum class ProcessorSource : std::uint8_t { thesis_arc, thesis_path, opened_file
 struct ProcessorChoice {
     ProcessorSource source = ProcessorSource::thesis_arc;
     cordic::NumberFormat format = cordic::binary32;
-    int iterations = 0;                                    ///< of the classic sequence; 0: the thesis's 29
-    double chord_tolerance = gcode::usual_chord_tolerance; ///< mm
+    int iterations = 0; ///< of the classic sequence; 0: the thesis's 29
+    double chord_tolerance = cordic_machine::usual_chord_tolerance; ///< mm
     bool thesis_direction = false;  ///< G02 counter-clockwise, as the thesis's model turns
     bool own_microprogram = false;  ///< the project's, in place of the processor's
     bool matlab_zero = false;       ///< no turn where nothing is left to turn, as the thesis's MATLAB model
@@ -129,7 +129,7 @@ private:
     std::vector<std::string> lines_;
     ProcessorTexts texts_;
     std::optional<Diagnostic> failure_;
-    gcode::CordicProgram program_;
+    cordic_machine::CordicProgram program_;
     cordic::Debugger debugger_;
     std::vector<CodeRow> code_;
     std::vector<std::string> micro_lines_;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/geometry/net_symmetry.h"
-#include "core/project/opened_program.h"
+#include "core/plan/opened_program.h"
 #include "core/project/project.h"
 #include "ui/actions/approach.h"
 #include "ui/actions/hand_settings.h"
@@ -77,7 +77,7 @@ struct Playback {
 
 /// An opened G-code file as a person looks at it.
 struct FileView {
-    project::ReadingChoice reading;  ///< for the next file, too
+    plan::ReadingChoice reading;     ///< for the next file, too
     Playback parked;                 ///< where the other motion stands: the file's, or the project's
     bool plays_file = false;         ///< whose motion Session::playback is
     std::optional<gcode::Step> step; ///< chosen by hand; nothing: that of the motion
@@ -127,9 +127,9 @@ struct KeptResult {
     std::string place;        ///< "part at 0, 0, 50 mm"
     project::Project project; ///< that it was made of
     std::shared_ptr<const geometry::Surface> surface;
-    std::shared_ptr<const project::Workpiece> workpiece;
-    std::shared_ptr<const project::Evaluation> evaluation;
-    std::shared_ptr<const project::CutStudy> cut; ///< null where there is none
+    std::shared_ptr<const plan::Workpiece> workpiece;
+    std::shared_ptr<const plan::Evaluation> evaluation;
+    std::shared_ptr<const plan::CutStudy> cut; ///< null where there is none
     std::vector<toolpath::SingularPoint> singular_points;
 };
 
@@ -145,7 +145,7 @@ struct Beside {
 
 /// The search for the part's place on the table: how it is done, and which place of its map is marked.
 struct SetUpView {
-    project::SetUpStudySettings settings;
+    plan::SetUpStudySettings settings;
     std::optional<toolpath::SetUpPlace> place; ///< nothing: the best
 };
 

@@ -34,7 +34,7 @@ Permission can_accept(const Workbench& now) {
     if (!now.set_up || !now.set_up->study) {
         return Permission::refused("No place has been searched for.");
     }
-    if (!project::same_but_for_place(now.set_up->project, now.project)) {
+    if (!plan::same_but_for_place(now.set_up->project, now.project)) {
         return Permission::refused(
             "Part, machine or tracks are others than those that the place was searched for.");
     }

@@ -1,6 +1,6 @@
 #include "ui/actions/shown_grid.h"
 
-#include "core/project/strategy_path.h"
+#include "core/plan/strategy_path.h"
 
 namespace millwright::actions {
 
@@ -9,11 +9,11 @@ project::GridMethod shown_grid(const Workbench& now) {
 }
 
 void show_program_path(Session& session, const project::Project& project) {
-    session.shown = project::program_grid(project);
+    session.shown = plan::program_grid(project);
     session.own_path_shown = true;
 }
 
-bool is_so_far(const project::Evaluation& evaluation) {
+bool is_so_far(const plan::Evaluation& evaluation) {
     return evaluation.outcome.status == grid::ImproverStatus::running;
 }
 

@@ -15,6 +15,6 @@ void show_program_path(Session& session, const project::Project& project);
 
 /// Whether this stands in until the exact one is there, and stays where the work was cancelled: the grid from
 /// before the last change on what is there now, or one that was measured coarsely.
-[[nodiscard]] bool is_so_far(const project::Evaluation& evaluation);
+[[nodiscard]] bool is_so_far(const plan::Evaluation& evaluation);
 
 } // namespace millwright::actions

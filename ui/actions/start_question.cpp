@@ -6,14 +6,12 @@
 
 namespace millwright::actions {
 
-StartWish
-start_wish(machine::Job job, std::optional<machine::QueuedJobId> queued, const ControllerView& machine) {
+StartWish start_wish(jobs::Job job, std::optional<jobs::QueuedJobId> queued, const ControllerView& machine) {
     StartWish wish;
-    wish.job = std::make_shared<const machine::Job>(std::move(job));
+    wish.job = std::make_shared<const jobs::Job>(std::move(job));
     wish.queued = queued;
-    wish.machine =
-        (machine.firmware.empty() ? std::string(machine::to_text(machine.choice.kind)) : machine.firmware) +
-        (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
+    wish.machine = (machine.firmware.empty() ? std::string(to_text(machine.choice.kind)) : machine.firmware) +
+                   (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
     wish.survey.dialect = machine.can.dialect.value_or(gcode::Dialect::linuxcnc);
     wish.survey.axes = machine.axes;
     wish.survey.start = machine.status.position;
@@ -27,16 +25,16 @@ start_wish(machine::Job job, std::optional<machine::QueuedJobId> queued, const C
 
 StartCheck check_start(const std::shared_ptr<const StartWish>& wish, const Progress& progress) {
     progress.check();
-    const machine::Job& job = *wish->job;
+    const jobs::Job& job = *wish->job;
     StartCheck check{wish, {}, {}, {}};
     try {
-        check.survey = machine::survey(job.listing->text, job.project, wish->survey);
-        check.faults = job.program != nullptr ? machine::preflight(job)
-                                              : machine::faults_of(check.survey, wish->limits, job.project);
+        check.survey = jobs::survey(job.listing->text, job.project, wish->survey);
+        check.faults = job.program != nullptr ? jobs::preflight(job)
+                                              : jobs::faults_of(check.survey, wish->limits, job.project);
         if (job.program != nullptr && !check.survey.missing_axes.empty()) {
             check.faults.insert(check.faults.begin(), check.survey.errors.front());
         }
-        check.warnings = machine::warnings_of(check.survey, wish->limits, job.project);
+        check.warnings = jobs::warnings_of(check.survey, wish->limits, job.project);
     } catch (const Error& error) {
         check.faults.push_back(error.diagnostic());
     }

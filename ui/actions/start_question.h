@@ -1,10 +1,10 @@
 // What a job would do on a real machine, for the person who is asked before it moves. Lengths mm, angles rad.
 #pragma once
 
-#include "core/machine/driver.h"
-#include "core/machine/job.h"
-#include "core/machine/job_queue.h"
-#include "core/machine/survey.h"
+#include "core/drivers/driver.h"
+#include "core/jobs/job.h"
+#include "core/jobs/job_queue.h"
+#include "core/jobs/survey.h"
 #include "ui/actions/latest_work.h"
 
 #include <memory>
@@ -18,24 +18,24 @@ struct ControllerView;
 
 /// The job that is to be started, and the machine as it was when that was asked.
 struct StartWish {
-    std::shared_ptr<const machine::Job> job;    ///< never null
-    std::optional<machine::QueuedJobId> queued; ///< nothing: the program that is shown
-    std::string machine;                        ///< "grblHAL 1.1f at /dev/ttyACM0"
-    machine::SurveySettings survey;             ///< from its present position, with its offsets
-    machine::MachineLimits limits;
+    std::shared_ptr<const jobs::Job> job;    ///< never null
+    std::optional<jobs::QueuedJobId> queued; ///< nothing: the program that is shown
+    std::string machine;                     ///< "grblHAL 1.1f at /dev/ttyACM0"
+    jobs::SurveySettings survey;             ///< from its present position, with its offsets
+    drivers::MachineLimits limits;
     std::string gouges; ///< Workbench::gouge_warning() of its program; empty: none
 };
 
 /// What a check of its whole program found.
 struct StartCheck {
     std::shared_ptr<const StartWish> wish;
-    machine::Survey survey;
+    jobs::Survey survey;
     std::vector<Diagnostic> faults; ///< why it cannot be started
     std::vector<Diagnostic> warnings;
 };
 
 [[nodiscard]] StartWish
-start_wish(machine::Job job, std::optional<machine::QueuedJobId> queued, const ControllerView& machine);
+start_wish(jobs::Job job, std::optional<jobs::QueuedJobId> queued, const ControllerView& machine);
 
 /// Reads the whole program. Throws nothing but Cancelled: what is wrong is a fault.
 [[nodiscard]] StartCheck check_start(const std::shared_ptr<const StartWish>& wish, const Progress& progress);

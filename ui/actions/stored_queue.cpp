@@ -19,14 +19,14 @@ StoredQueue::StoredQueue(std::filesystem::path file) : file_(std::move(file)) {
     }
 }
 
-std::vector<machine::QueuedJob> StoredQueue::jobs() const {
-    return queue_ ? queue_->jobs() : std::vector<machine::QueuedJob>{};
+std::vector<jobs::QueuedJob> StoredQueue::jobs() const {
+    return queue_ ? queue_->jobs() : std::vector<jobs::QueuedJob>{};
 }
 
-machine::JobQueue& StoredQueue::open() {
+jobs::JobQueue& StoredQueue::open() {
     if (!queue_) {
         try {
-            queue_ = std::make_unique<machine::JobQueue>(file_);
+            queue_ = std::make_unique<jobs::JobQueue>(file_);
             problem_.reset();
         } catch (const Error& error) {
             problem_ = error.diagnostic();

@@ -2,7 +2,7 @@
 // so that what waits outlives the window, and either can go on with it.
 #pragma once
 
-#include "core/machine/job_queue.h"
+#include "core/jobs/job_queue.h"
 #include "ui/actions/job_runner.h"
 
 #include <filesystem>
@@ -19,12 +19,12 @@ public:
     explicit StoredQueue(std::filesystem::path file);
 
     /// In their order; none while the file is not open.
-    [[nodiscard]] std::vector<machine::QueuedJob> jobs() const;
+    [[nodiscard]] std::vector<jobs::QueuedJob> jobs() const;
     /// Of the file: it is in use by another program, or it is no queue.
     [[nodiscard]] const std::optional<Diagnostic>& problem() const { return problem_; }
 
     /// Opened first where it is not open. Throws Error with place and reason.
-    [[nodiscard]] machine::JobQueue& open();
+    [[nodiscard]] jobs::JobQueue& open();
     /// Lets other programs have the file while nothing is in the queue.
     void rest();
 
@@ -35,7 +35,7 @@ public:
 
 private:
     std::filesystem::path file_;
-    std::unique_ptr<machine::JobQueue> queue_; ///< null: not open
+    std::unique_ptr<jobs::JobQueue> queue_; ///< null: not open
     std::optional<Diagnostic> problem_;
     std::mutex mutex_; ///< guards what follows
     std::optional<Diagnostic> failure_;

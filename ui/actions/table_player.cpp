@@ -1,7 +1,7 @@
 #include "ui/actions/table_player.h"
 
-#include "core/machine/links/link.h"
-#include "core/machine/point_job.h"
+#include "core/jobs/point_job.h"
+#include "core/links/link.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -14,8 +14,8 @@ namespace millwright::actions {
 namespace {
 
 /// In the words of the pane, whose points have no lines.
-void expect_playable(const machine::Job& job) {
-    const auto faults = machine::check_points(*job.points, *job.machine, "the points");
+void expect_playable(const jobs::Job& job) {
+    const auto faults = drivers::check_points(*job.points, *job.machine, "the points");
     if (!faults.empty()) {
         const Diagnostic& first = faults.front();
         throw Error(Diagnostic{.place = {},
@@ -30,20 +30,20 @@ std::string date_and_time() {
     return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
 }
 
-machine::Job table_job(const TableChoice& choice, const TableWork& work, const std::optional<Vec3>& start) {
+jobs::Job table_job(const TableChoice& choice, const TableWork& work, const std::optional<Vec3>& start) {
     const double speed = choice.port.empty() ? 1.0 : choice.speed;
     if (work.points) {
-        machine::Job job = machine::point_file_job(
+        jobs::Job job = jobs::point_file_job(
             work.points->text, work.points->read, work.file, work.model, choice.decoding.period / speed);
         expect_playable(job);
         job.started_at = date_and_time();
         return job;
     }
     constexpr std::int64_t most = 5'000'000;
-    machine::PathPoints settings{
+    jobs::PathPoints settings{
         .decoding = choice.decoding, .start = start, .speed = speed, .spindle_rpm = work.spindle_rpm};
     settings.decoding.most_points = most;
-    machine::Job job = machine::path_points_job(*work.path, work.file, work.model, settings);
+    jobs::Job job = jobs::path_points_job(*work.path, work.file, work.model, settings);
     expect_playable(job);
     job.started_at = date_and_time();
     return job;
@@ -52,7 +52,7 @@ machine::Job table_job(const TableChoice& choice, const TableWork& work, const s
 } // namespace
 
 Vec3 TableWork::usual_start() const {
-    return points && !points->read.points.empty() ? points->read.points.front() : machine::usual_start(*path);
+    return points && !points->read.points.empty() ? points->read.points.front() : jobs::usual_start(*path);
 }
 
 void TablePlayer::play(const TableChoice& choice, TableWork work) {
@@ -63,14 +63,14 @@ void TablePlayer::play(const TableChoice& choice, TableWork work) {
     const std::optional<Vec3> start = place(choice.port);
     auto play = std::make_shared<Play>();
     play->choice = choice;
-    play->driver = std::make_shared<machine::PointsDriver>(
-        choice.port.empty() ? nullptr : machine::make_link(choice.port),
+    play->driver = std::make_shared<drivers::PointsDriver>(
+        choice.port.empty() ? nullptr : links::make_link(choice.port),
         clock_,
         work.model,
         start.value_or(work.usual_start()),
         // Shown faster, a table that is not there moves no faster.
-        machine::PlayerOptions{.speed = choice.port.empty() ? choice.speed : 1.0, .format = choice.record});
-    play->dispatcher = std::make_unique<machine::Dispatcher>(*play->driver, clock_, log_folder_);
+        drivers::PlayerOptions{.speed = choice.port.empty() ? choice.speed : 1.0, .format = choice.record});
+    play->dispatcher = std::make_unique<jobs::Dispatcher>(*play->driver, clock_, log_folder_);
     const std::scoped_lock lock(mutex_);
     place_before_ = last_place();
     play_ = play;
@@ -89,16 +89,16 @@ void TablePlayer::run(const std::shared_ptr<Play>& play,
                       const std::optional<Vec3>& start,
                       const std::stop_token& stop) {
     std::optional<Diagnostic> failure;
-    std::optional<machine::JobOutcome> outcome;
+    std::optional<jobs::JobOutcome> outcome;
     try {
-        const machine::Job job = table_job(play->choice, work, start);
+        const jobs::Job job = table_job(play->choice, work, start);
         {
             const std::scoped_lock lock(mutex_);
             total_ = std::ssize(job.points->points);
             duration_ = job.points->duration();
         }
-        outcome = play->dispatcher->run(
-            job, Progress(nullptr, stop), [this](const machine::JobReport&) { wake_(); });
+        outcome =
+            play->dispatcher->run(job, Progress(nullptr, stop), [this](const jobs::JobReport&) { wake_(); });
     } catch (const Error& error) {
         failure = error.diagnostic();
     } catch (const Cancelled&) {
@@ -124,7 +124,7 @@ std::shared_ptr<TablePlayer::Play> TablePlayer::current() const {
 /// A play that was refused, or that nothing was sent for, moved no table. With the mutex held.
 std::optional<TablePlayer::Place> TablePlayer::last_place() const {
     if (play_ && !play_->choice.port.empty()) {
-        const machine::PlayStatus played = play_->driver->played();
+        const drivers::PlayStatus played = play_->driver->played();
         if (played.sent > 0) {
             return Place{play_->choice.port, played.position};
         }
@@ -153,7 +153,7 @@ void TablePlayer::resume() {
 /// Where nothing moves yet, the job does not begin.
 void TablePlayer::stop() {
     if (const auto play = current()) {
-        if (play->driver->status().activity == machine::Activity::none) {
+        if (play->driver->status().activity == drivers::Activity::none) {
             thread_.request_stop();
         }
         play->dispatcher->stop();
@@ -163,7 +163,7 @@ void TablePlayer::stop() {
 void TablePlayer::emergency_stop() {
     if (const auto play = current()) {
         play->driver->emergency_stop();
-        if (play->driver->status().activity == machine::Activity::none) {
+        if (play->driver->status().activity == drivers::Activity::none) {
             thread_.request_stop();
         }
     }

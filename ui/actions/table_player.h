@@ -2,16 +2,16 @@
 // driver, the dispatcher and a job log like every other job.
 #pragma once
 
+#include "core/base/clock.h"
 #include "core/base/error.h"
+#include "core/drivers/points/points_driver.h"
 #include "core/geometry/vectors.h"
+#include "core/jobs/dispatcher.h"
+#include "core/jobs/job.h"
 #include "core/kinematics/machine_model.h"
-#include "core/machine/clock.h"
-#include "core/machine/dispatcher.h"
-#include "core/machine/drivers/points/points_driver.h"
-#include "core/machine/job.h"
+#include "core/plan/plot_work.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/decode.h"
-#include "core/project/plot_work.h"
 
 #include <filesystem>
 #include <functional>
@@ -28,7 +28,7 @@ struct TableChoice {
     std::string port = {}; ///< empty: for the eyes alone
     plot::DecodeSettings decoding = {.velocity = 8.0, .period = 0.02, .mode = plot::DecodeMode::path};
     double speed = 1.0; ///< times real time
-    machine::RecordFormat record = {.pattern = "{X},{Y},{Z}"};
+    drivers::RecordFormat record = {.pattern = "{X},{Y},{Z}"};
 
     friend bool operator==(const TableChoice&, const TableChoice&) = default;
 };
@@ -40,7 +40,7 @@ struct TableWork {
     std::shared_ptr<const kinematics::MachineModel> model;
     double spindle_rpm = 0.0; ///< of its program
     /// Of a point file: they are played in place of the path, one a period.
-    std::shared_ptr<const project::PlotPoints> points = {};
+    std::shared_ptr<const plan::PlotPoints> points = {};
 
     /// Where it is played from if the place of the table is not known, mm.
     [[nodiscard]] Vec3 usual_start() const;
@@ -52,9 +52,9 @@ struct TableView {
     bool playing = false;   ///< it is being prepared, moves, or rests at a stop
     std::int64_t total = 0; ///< points; 0 while they are computed
     double duration = 0.0;  ///< s, as PlayStatus::time counts
-    machine::PlayStatus status;
-    std::optional<Diagnostic> failure;          ///< it could not begin
-    std::optional<machine::JobOutcome> outcome; ///< of the last, once it ended
+    drivers::PlayStatus status;
+    std::optional<Diagnostic> failure;       ///< it could not begin
+    std::optional<jobs::JobOutcome> outcome; ///< of the last, once it ended
 };
 
 class TablePlayer {
@@ -91,8 +91,8 @@ private:
     /// One job on its table.
     struct Play {
         TableChoice choice;
-        std::shared_ptr<machine::PointsDriver> driver;
-        std::unique_ptr<machine::Dispatcher> dispatcher;
+        std::shared_ptr<drivers::PointsDriver> driver;
+        std::unique_ptr<jobs::Dispatcher> dispatcher;
     };
 
     /// Of a table that was sent points.
@@ -110,7 +110,7 @@ private:
 
     std::filesystem::path log_folder_;
     std::function<void()> wake_;
-    machine::SteadyClock clock_;
+    SteadyClock clock_;
     mutable std::mutex mutex_; ///< guards what follows
     std::shared_ptr<Play> play_;
     std::optional<Place> place_before_; ///< where the plays before that one left a table
@@ -118,7 +118,7 @@ private:
     std::int64_t total_ = 0;
     double duration_ = 0.0;
     std::optional<Diagnostic> failure_;
-    std::optional<machine::JobOutcome> outcome_;
+    std::optional<jobs::JobOutcome> outcome_;
     std::jthread thread_; // last: it ends before what it uses
 };
 

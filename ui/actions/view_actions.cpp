@@ -84,7 +84,7 @@ widgets::Permission has_shown(const Workbench& now) {
 
 void keep_result(Hands& hands) {
     const Workbench& now = hands.now;
-    const project::Plan& plan = now.plan->plan;
+    const plan::Plan& plan = now.plan->plan;
     hands.session.kept =
         std::make_shared<const KeptResult>(KeptResult{now.shown_name() + " on " + now.project.machine.file,
                                                       now.part_place(),

@@ -2,10 +2,10 @@
 
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "core/project/cut_study.h"
-#include "core/project/gouges.h"
+#include "core/plan/cut_study.h"
+#include "core/plan/gouges.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 /// The move of the tool path that a block belongs to, and how far it is; approach and links hold the nearest
 /// end.
-viewport::Moment moment_in(const gcode::Program& program, const motion::Sample& sample) {
+viewport::Moment moment_in(const program::Program& program, const motion::Sample& sample) {
     viewport::Moment moment;
     moment.axes = sample.position;
     const auto& blocks = program.blocks;
@@ -26,7 +26,7 @@ viewport::Moment moment_in(const gcode::Program& program, const motion::Sample& 
     for (std::size_t n = 0; n < block; ++n) {
         point = std::max(point, blocks[n].path_point);
     }
-    const bool inside = blocks[block].path_point > 0 && blocks[block].role == gcode::MoveRole::cut;
+    const bool inside = blocks[block].path_point > 0 && blocks[block].role == program::MoveRole::cut;
     moment.move = point;
     moment.fraction = inside ? sample.fraction : 0.0;
     return moment;
@@ -34,7 +34,7 @@ viewport::Moment moment_in(const gcode::Program& program, const motion::Sample& 
 
 } // namespace
 
-std::shared_ptr<const project::Evaluation> Workbench::evaluation(project::GridMethod method) const {
+std::shared_ptr<const plan::Evaluation> Workbench::evaluation(project::GridMethod method) const {
     return plan ? plan->plan.evaluation(method) : nullptr;
 }
 
@@ -46,7 +46,7 @@ toolpath::SetUpPlace Workbench::set_up_place() const {
                                    : toolpath::SetUpPlace(toolpath::SetUpPlace::Zero());
 }
 
-std::shared_ptr<const project::Evaluation> Workbench::shown() const {
+std::shared_ptr<const plan::Evaluation> Workbench::shown() const {
     if (shows_own_path()) {
         return plan->plan.path;
     }
@@ -54,11 +54,11 @@ std::shared_ptr<const project::Evaluation> Workbench::shown() const {
 }
 
 bool Workbench::shows_own_path() const {
-    return session.own_path_shown && plan && plan->plan.path && project::has_own_path(project);
+    return session.own_path_shown && plan && plan->plan.path && plan::has_own_path(project);
 }
 
 std::string Workbench::shown_name() const {
-    return shows_own_path() ? project::strategy_text(project)
+    return shows_own_path() ? plan::strategy_text(project)
                             : std::string(project::row_of(project::grid_methods(), shown_grid(*this)).label);
 }
 
@@ -72,7 +72,7 @@ std::string Workbench::part_place() const {
            " mm";
 }
 
-std::shared_ptr<const project::Evaluation> Workbench::program_path() const {
+std::shared_ptr<const plan::Evaluation> Workbench::program_path() const {
     return plan ? plan->plan.program_path(project) : nullptr;
 }
 
@@ -113,7 +113,7 @@ std::shared_ptr<const motion::Trajectory> Workbench::trajectory() const {
     return plan ? plan->plan.trajectory : nullptr;
 }
 
-std::shared_ptr<const gcode::Program> Workbench::program() const {
+std::shared_ptr<const program::Program> Workbench::program() const {
     if (in_file()) {
         return opened->motion ? opened->motion->program : nullptr;
     }
@@ -134,7 +134,7 @@ ProgramOfMachine Workbench::arm_program() const {
                : ProgramOfMachine{};
 }
 
-std::shared_ptr<const gcode::Listing> Workbench::listing() const {
+std::shared_ptr<const program::Listing> Workbench::listing() const {
     return plan ? plan->plan.listing : nullptr;
 }
 
@@ -144,7 +144,7 @@ std::string Workbench::gouge_warning() const {
     }
     const auto& cut = plan->plan.cut;
     const std::string text =
-        cut ? project::gouge_text(plan->project, *cut) : "the program has not been checked for gouges yet";
+        cut ? plan::gouge_text(plan->project, *cut) : "the program has not been checked for gouges yet";
     return text.empty() ? text : as_sentence(text);
 }
 
@@ -179,7 +179,7 @@ std::optional<double> Workbench::time_at_line(int line) const {
 /// Where a controller plans for itself, and where the job began at a line and has times of its own, from the
 /// line that is executed.
 double Workbench::job_time() const {
-    const machine::DriverStatus& status = job.report->driver;
+    const drivers::DriverStatus& status = job.report->driver;
     const bool whole = job.from_line <= 1;
     if (whole && (status.planned_time > 0.0 || !in_file())) {
         return status.planned_time;
@@ -225,7 +225,7 @@ bool Workbench::draws_another_machine() const {
            !std::ranges::equal(controller.axes,
                                model->axes(),
                                {},
-                               &gcode::ProgramAxis::letter,
+                               &program::ProgramAxis::letter,
                                &kinematics::MachineAxis::letter);
 }
 
@@ -236,7 +236,7 @@ kinematics::AxisPositions Workbench::connected_axes() const {
         controller.axes.empty() || draws_another_machine()) {
         return {};
     }
-    const machine::DriverStatus& status = controller.status;
+    const drivers::DriverStatus& status = controller.status;
     if (status.position.size() != model->axis_count()) {
         return {};
     }

@@ -1,11 +1,11 @@
 // What a panel may look at in one frame. Panels show it and ask for actions; they change nothing.
 #pragma once
 
-#include "core/machine/job_queue.h"
-#include "core/project/pipeline.h"
+#include "core/jobs/job_queue.h"
+#include "core/plan/pipeline.h"
+#include "core/plan/set_up_work.h"
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
-#include "core/project/set_up_work.h"
 #include "ui/actions/approach.h"
 #include "ui/actions/controller.h"
 #include "ui/actions/document.h"
@@ -28,7 +28,7 @@ class ProcessorBench;
 
 /// Both null where there is none.
 struct ProgramOfMachine {
-    std::shared_ptr<const gcode::Program> program;
+    std::shared_ptr<const program::Program> program;
     std::shared_ptr<const kinematics::MachineModel> machine; ///< that it is for
 };
 
@@ -36,14 +36,14 @@ struct Workbench {
     const project::Project& project;
     const Session& session;
     const Document& document;
-    std::shared_ptr<const project::PublishedPlan> plan;        ///< null before the first
-    std::shared_ptr<const project::WatchedAdaptation> watched; ///< null while none is watched
-    project::Activity activity;                                ///< of whatever works in the background
-    std::shared_ptr<const project::OpenedProgram> opened;      ///< a G-code file; null while none is open
+    std::shared_ptr<const plan::PublishedPlan> plan;        ///< null before the first
+    std::shared_ptr<const plan::WatchedAdaptation> watched; ///< null while none is watched
+    plan::Activity activity;                                ///< of whatever works in the background
+    std::shared_ptr<const plan::OpenedProgram> opened;      ///< a G-code file; null while none is open
     JobView job;
     std::shared_ptr<const Approach> approach; ///< of Session::begin; null while it is not worked out
     ControllerView controller;
-    std::shared_ptr<machine::Console> console; ///< of the connected machine; null without one
+    std::shared_ptr<drivers::Console> console; ///< of the connected machine; null without one
     std::string undo_title, redo_title;        ///< empty if there is nothing
     std::filesystem::path assets;
     const project::RecentFiles& recent;
@@ -57,10 +57,10 @@ struct Workbench {
     const ArmBench& arm;
     const PlotBench& plot;
     const ImportBench& import;
-    std::vector<machine::QueuedJob> queue; ///< in their order
+    std::vector<jobs::QueuedJob> queue; ///< in their order
     /// Bodies of the project's machine; null where its file names none.
     std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids;
-    std::shared_ptr<const project::SetUpResult> set_up; ///< of the last search; null before the first
+    std::shared_ptr<const plan::SetUpResult> set_up; ///< of the last search; null before the first
     const std::optional<Diagnostic>&
         queue_problem; ///< why its file is not open; nothing: it is, or there is none
     std::shared_ptr<const StartCheck> start_check; ///< of Session::start; null before the first
@@ -80,7 +80,7 @@ struct Workbench {
     [[nodiscard]] toolpath::SetUpPlace set_up_place() const;
 
     /// Null-safe access to what is shown.
-    [[nodiscard]] std::shared_ptr<const project::Evaluation> shown() const;
+    [[nodiscard]] std::shared_ptr<const plan::Evaluation> shown() const;
     /// What is shown is the path of a strategy, not a grid's zigzag.
     [[nodiscard]] bool shows_own_path() const;
     /// "Spiral", "Track optimiser".
@@ -88,14 +88,14 @@ struct Workbench {
     /// Where the part is on the table: "part at 0, 0, 50 mm"; empty without a machine.
     [[nodiscard]] std::string part_place() const;
     /// What the program follows; null if not there.
-    [[nodiscard]] std::shared_ptr<const project::Evaluation> program_path() const;
-    [[nodiscard]] std::shared_ptr<const project::Evaluation> evaluation(project::GridMethod method) const;
+    [[nodiscard]] std::shared_ptr<const plan::Evaluation> program_path() const;
+    [[nodiscard]] std::shared_ptr<const plan::Evaluation> evaluation(project::GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const motion::Trajectory> trajectory() const;
-    [[nodiscard]] std::shared_ptr<const gcode::Program> program() const;
+    [[nodiscard]] std::shared_ptr<const program::Program> program() const;
     /// What is shown before the arm, by HandSettings::arm_path_of_file.
     [[nodiscard]] ProgramOfMachine arm_program() const;
     /// Of the project's own program.
-    [[nodiscard]] std::shared_ptr<const gcode::Listing> listing() const;
+    [[nodiscard]] std::shared_ptr<const program::Listing> listing() const;
     /// How the project's program gouges the part, or that this is not known yet, as a sentence; empty if it
     /// does not.
     [[nodiscard]] std::string gouge_warning() const;

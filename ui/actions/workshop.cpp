@@ -53,7 +53,7 @@ bool is_elsewhere(const project::SurfaceInput& before, const project::SurfaceInp
            (a.center() - b.center()).norm() > way * new_size;
 }
 
-project::Activity activity_of(const SurfaceExport& work) {
+plan::Activity activity_of(const SurfaceExport& work) {
     Progress::Report now = work.progress();
     return {true, now.fraction, "Writing the surface" + (now.text.empty() ? "" : ": " + now.text)};
 }
@@ -69,9 +69,9 @@ Workshop::Workshop(WorkshopOptions options)
     guarded([this] { read_window_settings(); });
     guarded([this] { start_autosave(); });
     const auto wake = options_.wake ? options_.wake : [] {};
-    pipeline_ = std::make_unique<project::Pipeline>(project::Folders{{}, options_.assets}, wake);
-    reader_ = std::make_unique<project::ProgramReader>(wake);
-    set_up_ = std::make_unique<project::SetUpWorker>(wake);
+    pipeline_ = std::make_unique<plan::Pipeline>(plan::Folders{{}, options_.assets}, wake);
+    reader_ = std::make_unique<plan::ProgramReader>(wake);
+    set_up_ = std::make_unique<plan::SetUpWorker>(wake);
     plot_ = std::make_unique<PlotBench>(options_.assets, options_.log_folder, wake);
     import_ = std::make_unique<ImportBench>(wake);
     export_ = std::make_unique<SurfaceExport>(wake);
@@ -153,7 +153,7 @@ void Workshop::search_set_up() {
 void Workshop::accept_set_up() {
     const toolpath::SetUpPlace place = look().set_up_place();
     edit("Accept the set-up",
-         [&](project::Project& draft) { draft = project::with_set_up(std::move(draft), place); },
+         [&](project::Project& draft) { draft = plan::with_set_up(std::move(draft), place); },
          {});
 }
 
@@ -222,7 +222,7 @@ void Workshop::connect() {
     if (choice.kind != machine::DriverKind::records) {
         choice.record.reset(); // of the table alone: a coordinate stream has lines of its own here
     }
-    std::shared_ptr<const kinematics::ArmModel> arm;
+    std::shared_ptr<const arm::ArmModel> arm;
     if (choice.kind == machine::DriverKind::pmac) {
         if (!arm_->loaded()) {
             arm_->load("motoman-l3");

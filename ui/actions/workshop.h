@@ -130,7 +130,7 @@ public:
     void ask_to_start(StartWish wish);
     /// Opens the program of a job that waits, and gives it to the job once it is read, made for the machine
     /// that is connected then. Nothing moves. Throws Error if it cannot be opened.
-    void open_queued(machine::QueuedJobId id);
+    void open_queued(jobs::QueuedJobId id);
     [[nodiscard]] JobRecovery& job_recovery() { return *job_recovery_; }
 
     /// The good end: no copy of unsaved work stays, and the next start begins with what the window kept.
@@ -228,7 +228,7 @@ private:
     void put_project(const std::filesystem::path& whole);
     void begin(project::Project other, const std::string& title, Document document);
     void look_at_another();
-    void play_again(const machine::JobStory& story);
+    void play_again(const jobs::JobStory& story);
     void open_gcode(const std::filesystem::path& file);
     void follow_file();
     void follow_received();
@@ -267,9 +267,9 @@ private:
     std::vector<project::LeftBehind> left_behind_;
     std::optional<Document> kept_; ///< what the autosave was last told: the file, the unsaved state
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
-    std::unique_ptr<project::Pipeline> pipeline_;
-    std::unique_ptr<project::ProgramReader> reader_;
-    std::unique_ptr<project::SetUpWorker> set_up_;
+    std::unique_ptr<plan::Pipeline> pipeline_;
+    std::unique_ptr<plan::ProgramReader> reader_;
+    std::unique_ptr<plan::SetUpWorker> set_up_;
     MachineSolids machine_solids_;
     StoredQueue queue_;                      ///< before the jobs that it hears of
     std::unique_ptr<Controller> controller_; ///< before what runs on it
@@ -284,8 +284,8 @@ private:
     std::unique_ptr<StartChecker> start_;
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
-    std::optional<machine::QueuedJobId> loading_; ///< waits for the program that is being read
-    std::optional<bool> writes_plot_;             ///< its program is awaited: and goes to the machine
+    std::optional<jobs::QueuedJobId> loading_; ///< waits for the program that is being read
+    std::optional<bool> writes_plot_;          ///< its program is awaited: and goes to the machine
     /// The view was fitted to it.
     std::weak_ptr<const project::ImportSource> fitted_import_{};
     std::uint64_t followed_import_ = 0; ///< revision whose failure was told

@@ -1,14 +1,14 @@
 // The part of the workshop that deals with the arm: what it shows, plays, and gives to its card.
+#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_motion_ways.h"
-#include "core/kinematics/arm_simulation.h"
-#include "core/machine/drivers/pmac/arm_axes.h"
-#include "core/machine/drivers/pmac/pmac_file.h"
-#include "core/machine/drivers/pmac/pmac_program.h"
 #include "core/motion/arm_tour.h"
+#include "core/pmac/driver/arm_axes.h"
+#include "core/pmac/driver/pmac_file.h"
+#include "core/pmac/driver/pmac_program.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/workshop.h"
@@ -27,16 +27,16 @@ namespace fs = std::filesystem;
 
 } // namespace
 
-ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation) {
+ArmPlay play_of(std::shared_ptr<const pmac::MotionSimulation> simulation) {
     const double duration = simulation->records.back().time;
     const auto at = [records = std::move(simulation)](double time) {
         const auto& all = records->records;
-        const auto next = std::ranges::lower_bound(all, time, {}, &machine::MotionRecord::time);
-        const machine::MotionRecord& after = next == all.end() ? all.back() : *next;
-        const machine::MotionRecord& before = next == all.begin() ? after : *(next - 1);
+        const auto next = std::ranges::lower_bound(all, time, {}, &pmac::MotionRecord::time);
+        const pmac::MotionRecord& after = next == all.end() ? all.back() : *next;
+        const pmac::MotionRecord& before = next == all.begin() ? after : *(next - 1);
         const double span = after.time - before.time;
         const double share = span > 0.0 ? std::clamp((time - before.time) / span, 0.0, 1.0) : 1.0;
-        kinematics::JointPositions joints(std::ssize(after.degrees));
+        arm::JointPositions joints(std::ssize(after.degrees));
         for (Eigen::Index n = 0; n < joints.size(); ++n) {
             const auto axis = static_cast<std::size_t>(n);
             joints[n] = from_degrees(std::lerp(before.degrees[axis], after.degrees[axis], share));
@@ -49,7 +49,7 @@ ArmPlay play_of(std::shared_ptr<const machine::MotionSimulation> simulation) {
 namespace {
 
 /// While a motion was worked out the arm may have been moved.
-void expect_start(const motion::Trajectory& motion, const kinematics::JointPositions& joints) {
+void expect_start(const motion::Trajectory& motion, const arm::JointPositions& joints) {
     constexpr double near_deg = 0.5;
     const double away = (motion.at(0.0).position - joints).cwiseAbs().maxCoeff();
     if (away > from_degrees(near_deg)) {
@@ -59,8 +59,8 @@ void expect_start(const motion::Trajectory& motion, const kinematics::JointPosit
 
 /// Nothing came between while the motion was worked out: no stop, no loss of power, no other arm.
 bool can_go_path(const Workbench& now, bool of_card) {
-    using machine::DriverState;
-    const machine::DriverStatus& status = now.controller.status;
+    using drivers::DriverState;
+    const drivers::DriverStatus& status = now.controller.status;
     const bool rests = status.state == DriverState::idle || status.state == DriverState::stopped;
     return of_card ? now.arm_connected() && rests && status.powered && status.position_known
                    : !now.arm_connected();
@@ -147,10 +147,9 @@ void Workshop::follow_arm_work() {
 void Workshop::play_on_arm(const motion::Trajectory& motion) {
     expect_start(motion, arm_->joints());
     if (look().arm_connected()) {
-        const auto lines =
-            machine::pmac_program(motion, machine::arm_settings_of(look().controller.choice.axes));
+        const auto lines = pmac::pmac_program(motion, pmac::arm_settings_of(look().controller.choice.axes));
         const auto axes = std::ssize(look().controller.axes);
-        run_on_card(lines, motion.duration(), machine::line_ends(lines));
+        run_on_card(lines, motion.duration(), pmac::line_ends(lines));
         arm_->card_run().know_way(
             [motion = std::make_shared<const motion::Trajectory>(motion), axes](double time) {
                 return kinematics::AxisPositions(motion->at(time).position.head(axes));
@@ -197,13 +196,12 @@ void Workshop::simulate_motion_file() {
 
 void Workshop::stream_motion_file() {
     constexpr double deg_per_s = 10.0;
-    const auto blocks =
-        kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
-    const auto records = kinematics::simulate_arm(
+    const auto blocks = arm::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
+    const auto records = arm::simulate_arm(
         arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
-    auto stream = std::make_shared<machine::SharedMemoryStream>(
-        kinematics::first_turns_deg(arm_->arm(), records), deg_per_s);
-    if (kinematics::sets_feed(blocks)) {
+    auto stream =
+        std::make_shared<pmac::SharedMemoryStream>(arm::first_turns_deg(arm_->arm(), records), deg_per_s);
+    if (arm::sets_feed(blocks)) {
         tell(session_,
              widgets::Severity::info,
              fmt::format(
@@ -216,27 +214,27 @@ void Workshop::stream_motion_file() {
 }
 
 void Workshop::run_on_card(const std::vector<std::string>& lines, double duration, std::vector<double> ends) {
-    auto listing = std::make_shared<gcode::Listing>();
+    auto listing = std::make_shared<program::Listing>();
     for (const std::string& line : lines) {
         listing->text += line + "\n";
     }
-    controller_->tell([&](machine::Driver& driver) { driver.start({nullptr, nullptr, std::move(listing)}); });
+    controller_->tell([&](drivers::Driver& driver) { driver.start({nullptr, nullptr, std::move(listing)}); });
     arm_->card_run().begin({static_cast<int>(lines.size()), duration, std::move(ends)});
 }
 
 void Workshop::load_card_settings(const fs::path& file) {
     session_.question = FileQuestion::none;
-    machine::PmacFile found = machine::read_pmac_file(read_file(file), file);
+    pmac::PmacFile found = pmac::read_pmac_file(read_file(file), file);
     for (const auto& [kind, several] :
          {std::pair(&found.omissions, "lines are left out"),
           std::pair(&found.warnings, "protections are off or values too great")}) {
         tell_findings(session_, *kind, several);
     }
     std::vector<std::string> lines;
-    for (const machine::PmacFile::Line& line : found.lines) {
+    for (const pmac::PmacFile::Line& line : found.lines) {
         lines.push_back(line.text);
     }
-    controller_->tell([&](machine::Driver& driver) { settings_sent_ = driver.load(lines); });
+    controller_->tell([&](drivers::Driver& driver) { settings_sent_ = driver.load(lines); });
     tell(session_,
          widgets::Severity::info,
          counted(lines.size(), "line") + " of " + file.filename().string() + " sent, with " +
@@ -285,11 +283,10 @@ void Workshop::save_motion_file(const fs::path& file) {
 
 void Workshop::save_motion_result(const fs::path& file) {
     session_.question = FileQuestion::none;
-    const auto blocks =
-        kinematics::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
-    const auto records = kinematics::simulate_arm(
+    const auto blocks = arm::parse_arm_motion(history_.current().arm.motion_file, MotionFileBench::name());
+    const auto records = arm::simulate_arm(
         arm_->arm(), blocks, arm_->home(), session_.hand.arm_result_step, MotionFileBench::name());
-    write_file(file, kinematics::arm_result_text(arm_->arm(), records));
+    write_file(file, arm::arm_result_text(arm_->arm(), records));
     tell(session_,
          widgets::Severity::info,
          counted(records.size(), "point") + " saved in " + file.filename().string() + ".");

@@ -3,13 +3,13 @@
 #include "core/base/files.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "core/machine/job.h"
-#include "core/machine/way_on.h"
+#include "core/jobs/job.h"
+#include "core/jobs/way_on.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/color_choices.h"
 #include "core/project/gcode_file.h"
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
-#include "core/project/strategy_path.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/import_bench.h"
 #include "ui/actions/kept_session.h"
@@ -80,7 +80,7 @@ void Workshop::open(const fs::path& file) {
     show_program_path(session_, opened);
     begin(opened,
           "Open " + file.filename().string(),
-          {.file = whole, .saved = opened, .hash = machine::program_hash(text), .program = {}});
+          {.file = whole, .saved = opened, .hash = jobs::program_hash(text), .program = {}});
     remember(file);
 }
 
@@ -148,7 +148,7 @@ void Workshop::close_file() {
 }
 
 void Workshop::cancel_work() {
-    if (const project::Activity ended = look().activity; ended.busy) {
+    if (const plan::Activity ended = look().activity; ended.busy) {
         const auto made = pipeline_->latest();
         const bool is_whole = made && made->exact && made->project == history_.current();
         const bool planned = pipeline_->activity().busy && !is_whole; // not a watched adaptation alone
@@ -359,7 +359,7 @@ void Workshop::leave_left_behind() {
 }
 
 /// Points are played from their beginning, by the pane of the table.
-void Workshop::play_again(const machine::JobStory& story) {
+void Workshop::play_again(const jobs::JobStory& story) {
     session_.workspace = Workspace::plot;
     open(story.start.project);
     plot_->set_table_port(story.start.address);
@@ -368,7 +368,7 @@ void Workshop::play_again(const machine::JobStory& story) {
 void Workshop::continue_broken_job() {
     const auto stories = job_recovery_->broken();
     expects(!stories->empty(), "a job was broken off");
-    const machine::JobStory story = stories->front();
+    const jobs::JobStory story = stories->front();
     const fs::path file(story.start.project);
     if (story.start.driver == "points") {
         play_again(story);
@@ -384,7 +384,7 @@ void Workshop::continue_broken_job() {
         session_.hand.choice.kind = machine::driver_kind(story.start.driver);
         session_.hand.choice.address = story.start.address;
     }
-    const bool in_the_middle = machine::why_not_from_line(story).empty();
+    const bool in_the_middle = jobs::why_not_from_line(story).empty();
     session_.begin =
         in_the_middle ? BeginAt{true, story.next_line, std::nullopt, story.start.program_hash} : BeginAt{};
     job_recovery_->dismiss();

@@ -2,7 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
-#include "core/gcode/reader/tool_comments.h"
+#include "core/gcode/tool_comments.h"
 #include "core/project/gcode_file.h"
 #include "core/project/plot_settings.h"
 #include "ui/actions/workshop.h"
@@ -118,7 +118,7 @@ void Workshop::follow_plot() {
         return;
     }
     followed_plot_ = made->revision;
-    project::ReadingChoice reading;
+    plan::ReadingChoice reading;
     reading.machine = made->input.settings.machine;
     guarded([&] { reader_->open(made->program, reading, options_.assets); });
     session_.file.step.reset();

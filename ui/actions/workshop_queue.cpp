@@ -12,8 +12,8 @@ namespace millwright::actions {
 
 namespace {
 
-using machine::QueuedJob;
-using machine::QueuedJobId;
+using jobs::QueuedJob;
+using jobs::QueuedJobId;
 
 bool worked_out(const Workbench& now) {
     const bool reading = now.activity.busy || (now.in_file() && !now.opened->finished);

@@ -2,7 +2,7 @@
 // there meanwhile: saving the project, writing its program, leaving what is unsaved.
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/machine/job.h"
+#include "core/jobs/job.h"
 #include "core/project/project_file.h"
 #include "ui/actions/workshop.h"
 
@@ -33,7 +33,7 @@ bool is_foreign(const KnownFile& known) {
         return false;
     }
     try {
-        return machine::program_hash(read_file(known.file)) != known.hash;
+        return jobs::program_hash(read_file(known.file)) != known.hash;
     } catch (const Error&) {
         return true;
     }
@@ -57,7 +57,7 @@ void Workshop::put_project(const fs::path& whole) {
     Document& now = document();
     now.file = whole;
     now.saved = history_.current();
-    now.hash = machine::program_hash(text);
+    now.hash = jobs::program_hash(text);
     session_.question = FileQuestion::none;
     tell(session_, widgets::Severity::good, "Saved.", whole.string());
     remember(whole);
@@ -92,7 +92,7 @@ void Workshop::write_program(const fs::path& file) {
     }
     const fs::path whole = whole_path(file);
     write_file(whole, listing->text);
-    document().program = KnownFile{whole, machine::program_hash(listing->text)};
+    document().program = KnownFile{whole, jobs::program_hash(listing->text)};
     session_.question = FileQuestion::none;
     tell(session_, widgets::Severity::good, "G-code written.", whole.string());
 }
@@ -159,7 +159,7 @@ Document Workshop::document_of(const project::UnsavedWork& work) {
         made.saved = work.file.empty() ? project::Project{} : project::project_from_text(text, work.file);
         struct stat now {};
         if (::stat(work.file.c_str(), &now) == 0 && now.st_mtime <= work.time_s) {
-            made.hash = machine::program_hash(text);
+            made.hash = jobs::program_hash(text);
         }
     } catch (const Error&) {
         made.saved = {};

@@ -1,9 +1,9 @@
 #include "ui/panels/arm_drives.h"
 
+#include "core/arm/arm_drive_readings.h"
+#include "core/arm/arm_zone.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "core/kinematics/arm_drive_readings.h"
-#include "core/kinematics/arm_zone.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/widgets/table.h"
 
@@ -18,13 +18,13 @@ namespace millwright::panels {
 
 namespace {
 
-using kinematics::DriveReading;
+using arm::DriveReading;
 
 std::string drive_number(double value, int decimals) {
     return std::isfinite(value) ? fixed(value, decimals) : "\u2014";
 }
 
-std::string drive_cell(const kinematics::ArmDriveReadings& found, std::size_t row, int column, bool known) {
+std::string drive_cell(const arm::ArmDriveReadings& found, std::size_t row, int column, bool known) {
     constexpr std::size_t roll = 4;
     const DriveReading& drive = found.drives[row];
     switch (column) {
@@ -62,7 +62,7 @@ void arm_drives(Ui& ui, const Workbench& now) {
                                                       {"Most", "counts", 1.2F, true},
                                                       {"Turns", {}, 0.8F, true}}};
     const bool known = !now.arm_connected() || now.controller.status.position_known;
-    const kinematics::ArmDriveReadings found = kinematics::drive_readings(*drives, now.arm.joints());
+    const arm::ArmDriveReadings found = arm::drive_readings(*drives, now.arm.joints());
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(found.drives);
@@ -75,7 +75,7 @@ void arm_drives(Ui& ui, const Workbench& now) {
     for (const std::string& reason : found.reasons) {
         ui.text(as_sentence(reason));
     }
-    const kinematics::ArmZone* zone = now.arm.arm().zone();
+    const arm::ArmZone* zone = now.arm.arm().zone();
     if (zone == nullptr || !zone->drives) {
         ui.note("These limits are shown, not enforced: \"watched\" is false in the arm's file.");
     }

@@ -1,9 +1,9 @@
 #include "ui/panels/arm_jog_panel.h"
 
+#include "core/arm/arm_rates.h"
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_rates.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/hand_fields.h"
@@ -23,7 +23,7 @@ namespace {
 
 using actions::ArmFrame;
 using actions::JogWish;
-using kinematics::JointPositions;
+using arm::JointPositions;
 using widgets::Permission;
 using widgets::Rank;
 
@@ -53,10 +53,10 @@ Permission can_jog_joint(const Workbench& now, int joint) {
     if (joint >= 0 && !drives(now, joint)) {
         return Permission::refused("The controller does not drive this joint.");
     }
-    if (!now.controller.status.powered && now.controller.status.state != machine::DriverState::alarm) {
+    if (!now.controller.status.powered && now.controller.status.state != drivers::DriverState::alarm) {
         return Permission::refused("The motors have no power.");
     }
-    return now.controller.status.activity == machine::Activity::jog ? Permission{} : at_rest(now.controller);
+    return now.controller.status.activity == drivers::Activity::jog ? Permission{} : at_rest(now.controller);
 }
 
 /// The joint that + and - jog; -1 while no keys do.
@@ -104,7 +104,7 @@ public:
                                                                               : Mat3(Mat3::Identity());
         const Vec3 way = sign * directions.col(axis);
         const Vec3 velocity = way * share() * fastest_mm_per_s;
-        const kinematics::ArmRates found = kinematics::tip_rates(now_.arm.arm(), now_.arm.joints(), velocity);
+        const arm::ArmRates found = arm::tip_rates(now_.arm.arm(), now_.arm.joints(), velocity);
         if (!found.rates) {
             refusal_ = found.why;
             return;
@@ -138,7 +138,7 @@ public:
 
 private:
     [[nodiscard]] bool turns(int joint) const {
-        return now_.arm.arm().joint(joint).kind == kinematics::JointKind::revolute;
+        return now_.arm.arm().joint(joint).kind == arm::JointKind::revolute;
     }
     [[nodiscard]] double share() const { return now_.session.hand.arm_percent / whole_percent; }
 
@@ -154,8 +154,8 @@ private:
             ask_.arm([way](actions::ArmBench& bench) { bench.move_tip_by(way); });
             return;
         }
-        const kinematics::ArmHold there = kinematics::moved_tip(now_.arm.arm(), now_.arm.joints(), way);
-        if (there.trouble == kinematics::ArmTrouble::none) {
+        const arm::ArmHold there = arm::moved_tip(now_.arm.arm(), now_.arm.joints(), way);
+        if (there.trouble == arm::ArmTrouble::none) {
             begin_step(there.joints - now_.arm.joints());
         } else {
             refusal_ = there.why;
@@ -168,10 +168,10 @@ private:
             ask_.arm([way](actions::ArmBench& bench) { bench.set_joints(bench.joints() + way); });
             return;
         }
-        machine::Jog jog;
+        drivers::Jog jog;
         jog.way = way.head(std::ssize(now_.controller.axes));
         jog.speed = share() * from_degrees(fastest_deg_per_s);
-        ask_.tell([jog](machine::Driver& driver) { driver.jog(jog); });
+        ask_.tell([jog](drivers::Driver& driver) { driver.jog(jog); });
     }
 
     const Workbench& now_;
@@ -323,9 +323,9 @@ void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) con
 
 void ArmJogPanel::stop_all(const Workbench& now, ActionQueue& ask) const {
     ask.arm([](actions::ArmBench& bench) { bench.stop(); });
-    const bool is_jog = now.controller.status.activity == machine::Activity::jog;
+    const bool is_jog = now.controller.status.activity == drivers::Activity::jog;
     if (now.arm_connected() && is_jog) {
-        ask.tell([](machine::Driver& driver) { driver.stop_jog(); });
+        ask.tell([](drivers::Driver& driver) { driver.stop_jog(); });
     } else if (now.arm_connected() && catalogue_.find("machine.stop").permission(now).allowed) {
         ask.run("machine.stop"); // a program, homing, or what was typed
     }

@@ -15,8 +15,8 @@ namespace millwright::panels {
 
 namespace {
 
-using kinematics::ArmJoint;
-using machine::MachineLimits;
+using arm::ArmJoint;
+using drivers::MachineLimits;
 
 const std::string nothing = "\u2014";
 
@@ -28,7 +28,7 @@ std::string joint_number(const ArmJoint& joint,
     if (!value || !std::isfinite(*value)) {
         return nothing;
     }
-    const bool slides = joint.kind == kinematics::JointKind::prismatic;
+    const bool slides = joint.kind == arm::JointKind::prismatic;
     return fixed(in_joint_unit(joint, *value), slides ? decimals / 2 : decimals) + (slides ? of_slides : "");
 }
 
@@ -36,7 +36,7 @@ std::string joint_number(const ArmJoint& joint,
 class Row {
 public:
     Row(const Workbench& now, int joint) : joint_(now.arm.arm().joint(joint)), at_(now.arm.joints()[joint]) {
-        const machine::DriverStatus& status = now.controller.status;
+        const drivers::DriverStatus& status = now.controller.status;
         const auto n = static_cast<std::size_t>(joint);
         if (!now.arm_connected() || joint >= status.position.size()) {
             return;
@@ -94,7 +94,7 @@ private:
     double at_;
     bool known_ = true; ///< of the position
     std::optional<double> velocity_;
-    std::optional<machine::MotorReading> motor_;
+    std::optional<drivers::MotorReading> motor_;
     MachineLimits::Axis limits_;
 };
 
@@ -115,7 +115,7 @@ void arm_motors(Ui& ui, const Workbench& now) {
                                                        {"Output", "V", 1.1F, true},
                                                        {"Max", "V", 0.9F, true},
                                                        {"Lag", "\u00b0", 0.9F, true}}};
-    const kinematics::ArmModel& arm = now.arm.arm();
+    const arm::ArmModel& arm = now.arm.arm();
     widgets::TableView view;
     view.columns = columns;
     view.rows = arm.joint_count();

@@ -27,8 +27,8 @@ namespace millwright::panels {
 namespace {
 
 using actions::ArmBench;
-using kinematics::ArmJoint;
-using kinematics::JointKind;
+using arm::ArmJoint;
+using arm::JointKind;
 
 constexpr double least_manipulability = 1e-3; // below: next to singular
 
@@ -76,9 +76,9 @@ std::string broken_off_text(const actions::CardPlace& place) {
                                                                   whole_seconds(std::round(place.duration)));
 }
 
-bool slides(const kinematics::ArmModel& arm) {
+bool slides(const arm::ArmModel& arm) {
     for (int n = 0; n < arm.joint_count(); ++n) {
-        if (arm.joint(n).kind == kinematics::JointKind::prismatic) {
+        if (arm.joint(n).kind == arm::JointKind::prismatic) {
             return true;
         }
     }
@@ -336,8 +336,8 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
                       widgets::Rank::normal,
                       narrow ? "Clear" : "Clear trace");
     }
-    const machine::DriverStatus& status = now.controller.status;
-    const bool alarm = status.state == machine::DriverState::alarm; // which stands above the drawing
+    const drivers::DriverStatus& status = now.controller.status;
+    const bool alarm = status.state == drivers::DriverState::alarm; // which stands above the drawing
     if (real && !status.message.empty() && !alarm) {                // always in sight, and it moves no button
         ui.words(as_sentence(status.message), widgets::Tone::warning);
     } else if (const auto& place = now.arm.card_run().place(); real && place) {

@@ -55,7 +55,7 @@ void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 /// An arm of five joints turns the tool into its own plane, and cuts otherwise than the machine would.
-void lean_text(Ui& ui, const kinematics::ArmReach& reach) {
+void lean_text(Ui& ui, const arm::ArmReach& reach) {
     constexpr double told = 0.1; // degrees
     const double lean = to_degrees(reach.most_tilt);
     if (lean > told) {
@@ -71,7 +71,7 @@ void lean_text(Ui& ui, const kinematics::ArmReach& reach) {
 }
 
 /// Short ones are easily overlooked in the drawing.
-void holes_text(Ui& ui, const kinematics::ArmReach& reach) {
+void holes_text(Ui& ui, const arm::ArmReach& reach) {
     if (reach.holes.empty()) {
         return;
     }
@@ -90,7 +90,7 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
         (void)widgets::banner(ui, "why", {widgets::Severity::warning, with_full_stop(path.why), {}});
         return;
     }
-    const kinematics::ArmReach& reach = path.reach;
+    const arm::ArmReach& reach = path.reach;
     constexpr double nearly = 99.9; // short stretches that are left out are no rounding
     const double share = reach.length > 0.0 ? 100.0 * reach.reached / reach.length : 0.0;
     const double percent = reach.holes.empty() ? share : std::min(share, nearly);
@@ -99,7 +99,7 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     lean_text(ui, reach);
     constexpr std::size_t most_shown = 3;
     for (std::size_t n = 0; n < std::min(most_shown, reach.holes.size()); ++n) {
-        const kinematics::ArmHole& hole = reach.holes[n];
+        const arm::ArmHole& hole = reach.holes[n];
         const std::string place = hole.first().line == 0 ? "" : fmt::format("Line {}: ", hole.first().line);
         const std::string off = to_text(path.wish.arm->arm(), hole.trouble, hole.worst().off);
         ui.note(fmt::format("{}{} mm, {}{}",

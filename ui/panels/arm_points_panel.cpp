@@ -75,8 +75,7 @@ void ArmPointsPanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask
             auto joints = arm.joints();
             for (Eigen::Index n = 0; n < std::min(joints.size(), std::ssize(point.joints_deg)); ++n) {
                 const double told = point.joints_deg[static_cast<std::size_t>(n)];
-                const bool turns =
-                    arm.arm().joint(static_cast<int>(n)).kind == kinematics::JointKind::revolute;
+                const bool turns = arm.arm().joint(static_cast<int>(n)).kind == arm::JointKind::revolute;
                 joints[n] = turns ? from_degrees(told) : told;
             }
             arm.set_joints(joints);

@@ -87,7 +87,7 @@ void draw_doubt(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     (void)widgets::banner(
-        ui, "doubt", {widgets::Severity::warning, machine::doubt_sentence(doubt), std::string()});
+        ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(doubt), std::string()});
     if (ui.toggle("trust",
                   "It stands where it says",
                   false,

@@ -42,12 +42,11 @@ std::string kept_text(const Workbench& now) {
 }
 
 /// The map of the last search, where it is one of the kept part, too.
-std::shared_ptr<const project::SetUpResult> map_for(const actions::KeptResult& kept, const Workbench& now) {
-    return now.set_up && project::same_but_for_place(now.set_up->project, kept.project) ? now.set_up
-                                                                                        : nullptr;
+std::shared_ptr<const plan::SetUpResult> map_for(const actions::KeptResult& kept, const Workbench& now) {
+    return now.set_up && plan::same_but_for_place(now.set_up->project, kept.project) ? now.set_up : nullptr;
 }
 
-toolpath::SetUpPlace kept_place(const actions::KeptResult& kept, const project::SetUpResult& map) {
+toolpath::SetUpPlace kept_place(const actions::KeptResult& kept, const plan::SetUpResult& map) {
     toolpath::SetUpPlace place = map.now;
     place.head<3>() = kept.workpiece->machine.description().workpiece_offset;
     return place;

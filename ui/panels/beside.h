@@ -15,7 +15,7 @@ void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions
 
 /// The path that stands beside the shown one, in the Toolpath workspace alone, with a name in one line.
 struct PathBeside {
-    std::shared_ptr<const project::Evaluation> path; ///< never null
+    std::shared_ptr<const plan::Evaluation> path; ///< never null
     std::string name;
 };
 /// Nothing where there is none, or not yet.

@@ -1,7 +1,7 @@
 #include "ui/panels/connection_panel.h"
 
 #include "core/base/sentences.h"
-#include "core/machine/links/serial_ports.h"
+#include "core/links/serial_ports.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/serial_fields.h"
@@ -20,9 +20,9 @@ namespace {
 
 namespace icons = widgets::icons;
 using actions::LinkState;
+using drivers::DriverState;
 using machine::DriverChoice;
 using machine::DriverKind;
-using machine::DriverState;
 using widgets::Rank;
 
 constexpr std::array<widgets::Option, 7> driver_kind_options{
@@ -66,17 +66,17 @@ std::string advice(const Workbench& now) {
                : "Look at the machine first. Then unlock it.";
 }
 
-std::string_view position_text(const machine::DriverStatus& status) {
+std::string_view position_text(const drivers::DriverStatus& status) {
     return !status.position_known           ? "not known"
            : !status.position_doubt.empty() ? "in doubt"
            : status.link_lost               ? "as last told"
                                             : "known";
 }
 
-std::string driver_state_text(const machine::DriverStatus& status) {
-    std::string text(machine::to_text(status.state));
-    if (status.activity != machine::Activity::none && status.state != DriverState::idle) {
-        text += " (" + std::string(machine::to_text(status.activity)) + ")";
+std::string driver_state_text(const drivers::DriverStatus& status) {
+    std::string text(to_text(status.state));
+    if (status.activity != drivers::Activity::none && status.state != DriverState::idle) {
+        text += " (" + std::string(to_text(status.activity)) + ")";
     }
     return text;
 }
@@ -120,7 +120,7 @@ std::string controller_text(const Workbench& now) {
 }
 
 std::string alarm_text(const Workbench& now) {
-    const machine::DriverStatus& status = now.controller.status;
+    const drivers::DriverStatus& status = now.controller.status;
     if (!now.controller.connected() || status.state != DriverState::alarm) {
         return "";
     }
@@ -130,7 +130,7 @@ std::string alarm_text(const Workbench& now) {
 
 void ConnectionPanel::look_for_ports() {
     ports_.clear();
-    for (const machine::SerialPort& port : machine::serial_ports()) {
+    for (const links::SerialPort& port : links::serial_ports()) {
         const std::string path = port.path.string();
         ports_.push_back(
             {path, port.label.empty() ? path : port.path.filename().string() + ", " + port.label});
@@ -204,10 +204,10 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
 }
 
 void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const machine::RecordFormat format = now.session.hand.choice.record.value_or(machine::RecordFormat());
-    const auto change = [&](const std::function<void(machine::RecordFormat&)>& what) {
+    const drivers::RecordFormat format = now.session.hand.choice.record.value_or(drivers::RecordFormat());
+    const auto change = [&](const std::function<void(drivers::RecordFormat&)>& what) {
         change_hand_settings(ask, [what](actions::HandSettings& hand) {
-            machine::RecordFormat changed = hand.choice.record.value_or(machine::RecordFormat());
+            drivers::RecordFormat changed = hand.choice.record.value_or(drivers::RecordFormat());
             what(changed);
             hand.choice.record = changed;
         });
@@ -217,18 +217,18 @@ void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& as
                           "Record",
                           format.pattern,
                           "Letters of axes in braces, {s} the speed, {a} the acceleration")) {
-        change([text = *pattern](machine::RecordFormat& f) { f.pattern = text; });
+        change([text = *pattern](drivers::RecordFormat& f) { f.pattern = text; });
     }
     if (const auto ending = ending_field(ui, format.ending)) {
-        change([bytes = *ending](machine::RecordFormat& f) { f.ending = bytes; });
+        change([bytes = *ending](drivers::RecordFormat& f) { f.ending = bytes; });
     }
     if (const auto answer = ui.text_field(
             "answer", "Answer", format.answer, "What comes back for each record; empty: nothing")) {
-        change([text = *answer](machine::RecordFormat& f) { f.answer = text; });
+        change([text = *answer](drivers::RecordFormat& f) { f.answer = text; });
     }
     if (const auto on =
             ui.toggle("relative", "Relative", format.relative, "Records say how far, not where")) {
-        change([on = *on](machine::RecordFormat& f) { f.relative = on; });
+        change([on = *on](drivers::RecordFormat& f) { f.relative = on; });
     }
     ui.note("The table has to stand where the program begins, else at zero, when it is connected.");
 }
@@ -258,7 +258,7 @@ namespace {
 /// Another port, with the line that was set.
 std::string at_path(const std::string& address, const std::string& path) {
     const auto now = serial_port_of(address);
-    return machine::address_of({path, now ? now->line : machine::SerialLine{}});
+    return links::address_of({path, now ? now->line : links::SerialLine{}});
 }
 
 } // namespace
@@ -313,7 +313,7 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
             ui, "message", {widgets::Severity::warning, as_sentence(machine.status.message), {}});
     }
     if (!machine.status.position_doubt.empty()) {
-        ui.note(machine::doubt_sentence(machine.status.position_doubt));
+        ui.note(drivers::doubt_sentence(machine.status.position_doubt));
         action_button(ui, now, ask, catalogue_, "machine.trust_position");
     }
     if (asks_where_it_stands(machine)) {

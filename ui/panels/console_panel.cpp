@@ -13,8 +13,8 @@ namespace millwright::panels {
 
 namespace {
 
-using machine::ConsoleKind;
-using machine::ConsoleLine;
+using drivers::ConsoleKind;
+using drivers::ConsoleLine;
 using widgets::Permission;
 
 constexpr std::size_t most_kept = 20'000;
@@ -124,8 +124,8 @@ void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const float whole = ui.rest().w;
-    const machine::CommandAnswer& answer = now.controller.status.answer;
-    const bool refused = answer.state == machine::CommandAnswer::State::refused;
+    const drivers::CommandAnswer& answer = now.controller.status.answer;
+    const bool refused = answer.state == drivers::CommandAnswer::State::refused;
     {
         const auto width = ui.width(0.5F * whole);
         const auto labels = ui.label_share(0.16F);
@@ -137,7 +137,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
                                 refused ? std::string_view() : command_tip, // which would lie over the reason
                                 can_send(now),
                                 now.controller.can.words)) {
-            ask.tell([line = *line](machine::Driver& driver) { (void)driver.command(line); });
+            ask.tell([line = *line](drivers::Driver& driver) { (void)driver.command(line); });
             ask.show([line = *line](actions::Session& session) {
                 auto& commands = session.hand.commands;
                 std::erase(commands, line);
@@ -166,7 +166,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
     if (refused) {
         (void)widgets::banner(
             ui, "refused", {widgets::Severity::danger, "Refused: " + answer.text, {}}); // of any length
-    } else if (answer.state == machine::CommandAnswer::State::pending) {
+    } else if (answer.state == drivers::CommandAnswer::State::pending) {
         ui.words("Being executed \u2026", widgets::Tone::muted);
     }
 }

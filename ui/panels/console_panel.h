@@ -1,7 +1,7 @@
 // What went over the link, and lines that a person sends: MDI and console in one.
 #pragma once
 
-#include "core/machine/console.h"
+#include "core/drivers/console.h"
 #include "ui/panels/panel.h"
 
 #include <memory>
@@ -18,8 +18,8 @@ private:
     void follow(const Workbench& now);
     void draw_command(Ui& ui, const Workbench& now, ActionQueue& ask);
 
-    std::weak_ptr<machine::Console> source_; ///< that `lines_` came from
-    std::vector<machine::ConsoleLine> lines_;
+    std::weak_ptr<drivers::Console> source_; ///< that `lines_` came from
+    std::vector<drivers::ConsoleLine> lines_;
     std::int64_t next_ = 0;
     double start_ = 0.0; ///< time of the first line, s
     bool start_known_ = false;

@@ -2,7 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/machine/hand_lines.h"
+#include "core/drivers/hand_lines.h"
 #include "ui/widgets/table.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace millwright::panels {
 
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using widgets::Permission;
 
 Permission can_change(const Workbench& now) {
@@ -35,7 +35,7 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     ui.note("Machine coordinates of each zero, in mm and degrees. A click on a work system selects it.");
     std::vector<std::string> letters;
-    for (const gcode::ProgramAxis& axis : axes) {
+    for (const program::ProgramAxis& axis : axes) {
         letters.emplace_back(1, axis.letter);
     }
     std::vector<widgets::Column> columns{{"Offset", "", 1.4F, false}};
@@ -46,7 +46,7 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.columns = columns;
     view.rows = std::ssize(offsets);
     view.cell = [&](std::ptrdiff_t row, int column) {
-        const machine::StoredOffset& offset = offsets[static_cast<std::size_t>(row)];
+        const drivers::StoredOffset& offset = offsets[static_cast<std::size_t>(row)];
         if (column == 0) {
             return offset.name;
         }
@@ -60,12 +60,12 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.row_id = [&](std::ptrdiff_t row) { return offsets[static_cast<std::size_t>(row)].name; };
     view.height = ui.rest().h;
     const int system = now.controller.status.work_system;
-    const std::string in_force = system > 0 ? machine::work_system_name(system) : std::string();
-    const auto chosen = std::ranges::find(offsets, in_force, &machine::StoredOffset::name);
+    const std::string in_force = system > 0 ? drivers::work_system_name(system) : std::string();
+    const auto chosen = std::ranges::find(offsets, in_force, &drivers::StoredOffset::name);
     view.chosen = chosen == offsets.end() ? -1 : chosen - offsets.begin();
     const auto row = widgets::table(ui, "offsets", view);
     if (row && can_change(now).allowed && offsets[static_cast<std::size_t>(*row)].name.starts_with("G5")) {
-        ask.tell([line = offsets[static_cast<std::size_t>(*row)].name](machine::Driver& driver) {
+        ask.tell([line = offsets[static_cast<std::size_t>(*row)].name](drivers::Driver& driver) {
             (void)driver.command(line);
         });
     }
@@ -78,7 +78,7 @@ void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                            : "No machine is connected.");
         return;
     }
-    const auto chosen = std::ranges::find(settings, chosen_, &machine::ControllerSetting::name);
+    const auto chosen = std::ranges::find(settings, chosen_, &drivers::ControllerSetting::name);
     if (chosen != settings.end()) {
         const std::string label = chosen->name + "  " + std::string(chosen->title);
         const widgets::FieldInfo info{"value",
@@ -92,7 +92,7 @@ void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const auto width = ui.width(std::min(ui.rest().w, ui.px(560.0F)));
         const auto labels = ui.label_share(0.65F);
         if (const auto value = ui.number(chosen->value, info, can_change(now))) {
-            ask.tell([line = chosen->name + "=" + shortest(*value)](machine::Driver& driver) {
+            ask.tell([line = chosen->name + "=" + shortest(*value)](drivers::Driver& driver) {
                 (void)driver.command(line);
             });
         }
@@ -108,7 +108,7 @@ void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.columns = columns;
     view.rows = std::ssize(settings);
     view.cell = [&](std::ptrdiff_t row, int column) {
-        const machine::ControllerSetting& setting = settings[static_cast<std::size_t>(row)];
+        const drivers::ControllerSetting& setting = settings[static_cast<std::size_t>(row)];
         const std::array<std::string, 5> cells{setting.name,
                                                std::string(setting.title),
                                                shortest(setting.value),

@@ -1,7 +1,7 @@
 #include "ui/panels/controls_panel.h"
 
 #include "core/base/text.h"
-#include "core/machine/hand_lines.h"
+#include "core/drivers/hand_lines.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/hand_fields.h"
 #include "ui/widgets/icons.h"
@@ -19,7 +19,7 @@ using actions::ControllerView;
 using widgets::Permission;
 using widgets::Rank;
 
-Permission can_override(const machine::Capabilities& can, bool feed) {
+Permission can_override(const drivers::Capabilities& can, bool feed) {
     if (!can.overrides) {
         return Permission::refused("This machine has no overrides.");
     }
@@ -29,7 +29,7 @@ Permission can_override(const machine::Capabilities& can, bool feed) {
 
 /// The steps that controllers have: Grbl knows no others.
 void rapid_row(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const machine::Overrides& all = now.controller.status.overrides;
+    const drivers::Overrides& all = now.controller.status.overrides;
     const Permission can = can_override(now.controller.can, false);
     ui.value("rapid", "Rapid", fmt::format("{}", all.rapid), "%");
     const auto row = ui.row(3);
@@ -38,7 +38,7 @@ void rapid_row(Ui& ui, const Workbench& now, ActionQueue& ask) {
                       fmt::format("{} %", percent),
                       can,
                       {{}, Rank::normal, -1.0F, {}})) {
-            machine::Overrides wanted = all;
+            drivers::Overrides wanted = all;
             wanted.rapid = percent;
             ask.set_overrides(wanted);
         }
@@ -51,14 +51,14 @@ void override_row(Ui& ui,
                   ActionQueue& ask,
                   const std::string& id,
                   std::string_view label,
-                  int machine::Overrides::*which) {
+                  int drivers::Overrides::*which) {
     constexpr int step = 10;
     constexpr int least = 10;
     constexpr int most = 200;
-    const machine::Overrides& all = now.controller.status.overrides;
-    const Permission can = can_override(now.controller.can, which == &machine::Overrides::feed);
+    const drivers::Overrides& all = now.controller.status.overrides;
+    const Permission can = can_override(now.controller.can, which == &drivers::Overrides::feed);
     const auto set = [&](int percent) {
-        machine::Overrides wanted = all;
+        drivers::Overrides wanted = all;
         wanted.*which = std::clamp(percent, least, most);
         ask.set_overrides(wanted);
     };
@@ -122,14 +122,14 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
                   can,
                   {icons::chevron_down, Rank::normal, -1.0F, "G38.2 downwards. It moves."})) {
         command(ask,
-                machine::probe_line(machine.axes[*z],
+                drivers::probe_line(machine.axes[*z],
                                     static_cast<int>(*z),
                                     -hand.probe_way_mm,
                                     hand.probe_mm_per_min / seconds_per_minute,
                                     machine.status));
     }
     if (machine.status.probe) {
-        const machine::Probing& last = *machine.status.probe;
+        const drivers::Probing& last = *machine.status.probe;
         const bool known = z && last.position.size() > static_cast<Eigen::Index>(*z);
         ui.value("probed",
                  "Last probing",
@@ -145,9 +145,9 @@ void ControlsPanel::draw_overrides(Ui& ui, const Workbench& now, ActionQueue& as
     if (!section) {
         return;
     }
-    override_row(ui, now, ask, "feed", "Feed", &machine::Overrides::feed);
+    override_row(ui, now, ask, "feed", "Feed", &drivers::Overrides::feed);
     rapid_row(ui, now, ask);
-    override_row(ui, now, ask, "spindle", "Spindle", &machine::Overrides::spindle);
+    override_row(ui, now, ask, "spindle", "Spindle", &drivers::Overrides::spindle);
 }
 
 void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask) const {
@@ -155,7 +155,7 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (!section) {
         return;
     }
-    const machine::DriverStatus& status = now.controller.status;
+    const drivers::DriverStatus& status = now.controller.status;
     const Permission can = can_command(now.controller);
     const bool turning = status.spindle != gcode::SpindleTurning::stopped;
     const bool clockwise = status.spindle == gcode::SpindleTurning::clockwise;
@@ -173,23 +173,23 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
     {
         const auto row = ui.row(3);
         if (ui.button("clockwise", "M3", can, {{}, Rank::normal, -1.0F, "Starts the spindle clockwise"})) {
-            command(ask, machine::start_spindle(rpm, true));
+            command(ask, drivers::start_spindle(rpm, true));
         }
         if (ui.button(
                 "counterclockwise", "M4", can, {{}, Rank::normal, -1.0F, "Starts it counter-clockwise"})) {
-            command(ask, machine::start_spindle(rpm, false));
+            command(ask, drivers::start_spindle(rpm, false));
         }
         if (ui.button("stop", "M5", can, {{}, Rank::normal, -1.0F, "Stops the spindle"})) {
-            command(ask, machine::stop_spindle());
+            command(ask, drivers::stop_spindle());
         }
     }
     const Permission can_mist =
         now.controller.can.mist ? can : Permission::refused("This controller was built without M7.");
     if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can_mist)) {
-        command(ask, machine::set_coolant(*on, status.flood));
+        command(ask, drivers::set_coolant(*on, status.flood));
     }
     if (const auto on = ui.toggle("flood", "Flood", status.flood, "M8", can)) {
-        command(ask, machine::set_coolant(status.mist, *on));
+        command(ask, drivers::set_coolant(status.mist, *on));
     }
 }
 

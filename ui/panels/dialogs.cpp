@@ -1,6 +1,6 @@
 #include "ui/panels/dialogs.h"
 
-#include "core/machine/way_on.h"
+#include "core/jobs/way_on.h"
 #include "ui/actions/at_rest.h"
 #include "ui/panels/color_dialog.h"
 #include "ui/panels/internal/fields.h"
@@ -199,7 +199,7 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
     if (!dialog) {
         return;
     }
-    const machine::JobStory& story = now.broken_jobs->front();
+    const jobs::JobStory& story = now.broken_jobs->front();
     ui.text(story.sentence);
     ui.gap();
     {
@@ -232,9 +232,8 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
                   catalogue_,
                   "broken_job.continue",
                   Rank::primary,
-                  machine::why_not_from_line(story).empty()
-                      ? fmt::format("From line {} \u2026", story.next_line)
-                      : std::string("From its beginning \u2026"));
+                  jobs::why_not_from_line(story).empty() ? fmt::format("From line {} \u2026", story.next_line)
+                                                         : std::string("From its beginning \u2026"));
 }
 
 } // namespace millwright::panels

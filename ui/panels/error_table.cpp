@@ -1,8 +1,8 @@
 #include "ui/panels/error_table.h"
 
 #include "core/base/text.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/table_height.h"
@@ -19,7 +19,7 @@ namespace millwright::panels {
 
 namespace {
 
-using project::Evaluation;
+using plan::Evaluation;
 using project::GridMethod;
 
 constexpr std::array<widgets::Column, 11> error_columns{{{"Grid", "", 1.9F, false},
@@ -83,9 +83,9 @@ std::vector<ErrorRow> error_rows(const Workbench& now) {
                               now.evaluation(method).get(),
                               now.plan ? now.plan->plan.estimated_time(method) : std::nullopt));
     }
-    if (project::has_own_path(now.project)) {
+    if (plan::has_own_path(now.project)) {
         rows.push_back(row_of("path",
-                              project::strategy_text(now.project),
+                              plan::strategy_text(now.project),
                               now.program_path().get(),
                               now.plan ? now.plan->plan.path_time : std::nullopt));
     }

@@ -1,8 +1,8 @@
 #include "ui/panels/gouge_table.h"
 
 #include "core/base/text.h"
-#include "core/project/cut_remarks.h"
-#include "core/project/cut_study.h"
+#include "core/plan/cut_remarks.h"
+#include "core/plan/cut_study.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/table_height.h"
 #include "ui/widgets/table.h"
@@ -15,7 +15,7 @@ namespace millwright::panels {
 
 namespace {
 
-using project::BlockBite;
+using plan::BlockBite;
 
 constexpr std::array<widgets::Column, 6> gouge_columns{{{"Line", "", 0.8F, true},
                                                         {"Body", "", 1.0F, false},
@@ -62,7 +62,7 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::string nothing =
         "No block brings the cutter deeper than the gouge limit, or the holder into the "
         "part: " +
-        project::checked_text(now.plan->project) + ".";
+        plan::checked_text(now.plan->project) + ".";
     view.when_empty = nothing;
     const auto trajectory = now.trajectory();
     view.height = table_height(ui, view.rows);

@@ -4,10 +4,10 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/expression_weight.h"
-#include "core/project/cut_remarks.h"
-#include "core/project/grids.h"
-#include "core/project/left_out.h"
-#include "core/project/strategy_path.h"
+#include "core/plan/cut_remarks.h"
+#include "core/plan/grids.h"
+#include "core/plan/left_out.h"
+#include "core/plan/strategy_path.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/link_text.h"
 #include "ui/panels/no_gain_notes.h"
@@ -55,7 +55,7 @@ void draw_mix(Ui& ui, ActionQueue& ask, const project::EllipticInput& input) {
         ui, ask, project::mix_numbers(), mix, [](Project& p) -> grid::MixSettings& {
             return p.grid.elliptic.mix;
         });
-    if (const std::string remark = project::weight_remark(input); !remark.empty()) {
+    if (const std::string remark = plan::weight_remark(input); !remark.empty()) {
         (void)widgets::banner(ui, "no_share", {widgets::Severity::warning, as_sentence(remark), {}});
     }
 }
@@ -81,8 +81,8 @@ void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links, bool turns
 
 /// What it takes; where that is much, whether it is made all the same.
 void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::GridInput& input) {
-    ui.note(with_full_stop(project::memory_sentence(method, input)));
-    if (input.elliptic.any_memory || project::memory_fault(method, input, free_memory())) {
+    ui.note(with_full_stop(plan::memory_sentence(method, input)));
+    if (input.elliptic.any_memory || plan::memory_fault(method, input, free_memory())) {
         if (const auto on = ui.toggle("any_memory",
                                       "Take the memory",
                                       input.elliptic.any_memory,
@@ -108,7 +108,7 @@ std::string method_label(GridMethod method) {
 }
 
 /// What is watched, and how it stands.
-std::string status_text(const project::WatchedAdaptation& watched) {
+std::string status_text(const plan::WatchedAdaptation& watched) {
     const std::string name = method_label(watched.method);
     if (watched.failure) {
         return name + ": " + watched.failure->message;
@@ -132,17 +132,16 @@ void draw_note(Ui& ui, const Workbench& now) {
         ui.note(note);
     }
     const bool is_there = std::ranges::any_of(project::compared_methods, [&](GridMethod method) {
-        return project::is_left_out(now.project, method) && now.evaluation(method); // of before, and still so
+        return plan::is_left_out(now.project, method) && now.evaluation(method); // of before, and still so
     });
-    if (const std::string left_out = project::left_out_sentence(now.project);
-        !left_out.empty() && !is_there) {
+    if (const std::string left_out = plan::left_out_sentence(now.project); !left_out.empty() && !is_there) {
         ui.note(left_out);
     }
-    if (!project::follows_nodes(now.project.toolpath.strategy)) {
+    if (!plan::follows_nodes(now.project.toolpath.strategy)) {
         return;
     }
     const auto made = now.evaluation(now.project.grid.method);
-    if (now.plan && !project::crossing_remark(now.plan->project, now.plan->plan).empty()) {
+    if (now.plan && !plan::crossing_remark(now.plan->project, now.plan->plan).empty()) {
         ui.note("The program's grid (Uniform): " + grid_note(now));
     } else if (made && !made->outcome.note.empty()) {
         ui.note("The program's grid (" + method_label(now.project.grid.method) + "): " + made->outcome.note +
@@ -187,9 +186,8 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
     if (const auto chosen = ui.choice("method", "Program uses", index, options)) {
         ask.run("grid.use_" + std::string(project::grid_methods()[static_cast<std::size_t>(*chosen)].id));
     }
-    if (!project::follows_nodes(now.project.toolpath.strategy)) {
-        ui.note(
-            fmt::format("The program's path: {}. {}", project::strategy_text(now.project), grid_note(now)));
+    if (!plan::follows_nodes(now.project.toolpath.strategy)) {
+        ui.note(fmt::format("The program's path: {}. {}", plan::strategy_text(now.project), grid_note(now)));
     }
 }
 
@@ -277,7 +275,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         draw_links(ui, state->links, turns_the_tool(now));
     }
     const GridMethod watched = now.watched->method;
-    const bool is_of_use = project::follows_nodes(now.project.toolpath.strategy);
+    const bool is_of_use = plan::follows_nodes(now.project.toolpath.strategy);
     if (is_of_use && watched != now.project.grid.method) {
         const auto& row = project::row_of(project::grid_methods(), watched);
         action_button(ui,

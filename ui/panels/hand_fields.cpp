@@ -14,7 +14,7 @@ Permission can_command(const ControllerView& machine) {
 }
 
 void command(ActionQueue& ask, std::string line) {
-    ask.tell([line = std::move(line)](machine::Driver& driver) { (void)driver.command(line); });
+    ask.tell([line = std::move(line)](drivers::Driver& driver) { (void)driver.command(line); });
 }
 
 void hand_number(Ui& ui,
@@ -28,7 +28,7 @@ void hand_number(Ui& ui,
 }
 
 std::optional<std::size_t> axis_named(const ControllerView& machine, char letter) {
-    const auto found = std::ranges::find(machine.axes, letter, &gcode::ProgramAxis::letter);
+    const auto found = std::ranges::find(machine.axes, letter, &program::ProgramAxis::letter);
     return found == machine.axes.end()
                ? std::nullopt
                : std::optional(static_cast<std::size_t>(found - machine.axes.begin()));

@@ -2,7 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/machine/hand_lines.h"
+#include "core/drivers/hand_lines.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/hand_fields.h"
 #include "ui/panels/internal/pad_axes.h"
@@ -34,11 +34,11 @@ constexpr std::array<widgets::Option, 5> jog_step_options{
      {"1", "1"},
      {"10", "10"}}};
 
-std::string letter_of(const gcode::ProgramAxis& axis) {
+std::string letter_of(const program::ProgramAxis& axis) {
     return std::string(1, axis.letter);
 }
 
-bool is_rotary(const gcode::ProgramAxis& axis) {
+bool is_rotary(const program::ProgramAxis& axis) {
     return axis.kind == AxisKind::rotary;
 }
 
@@ -53,11 +53,11 @@ Permission can_jog_axis(const Workbench& now, char axis) {
     if (!some.empty() && some.find(axis) == std::string_view::npos) {
         return Permission::refused("This machine jogs " + std::string(some) + " alone.");
     }
-    const bool jogging = now.controller.status.activity == machine::Activity::jog;
+    const bool jogging = now.controller.status.activity == drivers::Activity::jog;
     return jogging ? Permission{} : at_rest(now.controller);
 }
 
-widgets::AxisState jog_axis_state(const machine::DriverStatus& machine, const std::string& letter) {
+widgets::AxisState jog_axis_state(const drivers::DriverStatus& machine, const std::string& letter) {
     if (machine.link_lost) {
         return widgets::AxisState::old;
     }
@@ -71,7 +71,7 @@ widgets::AxisState jog_axis_state(const machine::DriverStatus& machine, const st
 /// How far the position can be trusted, and why digits are red.
 std::pair<std::string, widgets::Tone> position_words(const ControllerView& machine) {
     using widgets::Tone;
-    const machine::DriverStatus& status = machine.status;
+    const drivers::DriverStatus& status = machine.status;
     const std::string& pressed = status.inputs.limits;
     const bool doubt = !status.position_doubt.empty();
     if (status.link_lost) {
@@ -127,11 +127,11 @@ private:
 
     void step(std::size_t axis, double sign) const {
         const bool turns = is_rotary(machine_.axes[axis]);
-        machine::Jog jog;
+        drivers::Jog jog;
         jog.way = kinematics::AxisPositions::Zero(direction_.size());
         jog.way[static_cast<Eigen::Index>(axis)] = sign * (turns ? from_degrees(hand_.step) : hand_.step);
         jog.speed = speed(turns);
-        ask_.tell([jog](machine::Driver& driver) { driver.jog(jog); });
+        ask_.tell([jog](drivers::Driver& driver) { driver.jog(jog); });
     }
 
     const ControllerView& machine_;
@@ -217,7 +217,7 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
     }
     const kinematics::AxisPositions work = machine.status.work_position();
     std::vector<std::string> letters;
-    for (const gcode::ProgramAxis& axis : machine.axes) {
+    for (const program::ProgramAxis& axis : machine.axes) {
         letters.push_back(letter_of(axis));
     }
     std::vector<widgets::AxisReading> axes;
@@ -233,7 +233,7 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
         axes.push_back(reading);
     }
     const std::string system = machine.status.work_system > 0
-                                   ? machine::work_system_name(machine.status.work_system) + ", machine"
+                                   ? drivers::work_system_name(machine.status.work_system) + ", machine"
                                    : std::string("work, machine");
     if (now.arm_connected()) { // joints have no work offsets
         for (widgets::AxisReading& reading : axes) {
@@ -249,8 +249,8 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
     std::string all;
     {
         const auto row = ui.row(static_cast<int>(machine.axes.size()) + 1);
-        for (const gcode::ProgramAxis& axis : machine.axes) {
-            const std::string line = machine::set_work_position(axis, 0.0);
+        for (const program::ProgramAxis& axis : machine.axes) {
+            const std::string line = drivers::set_work_position(axis, 0.0);
             all += line + "\n";
             const std::string letter = letter_of(axis);
             if (ui.button("zero_" + letter,

@@ -21,8 +21,8 @@ namespace millwright::panels {
 namespace {
 
 using exchange::CadFace;
+using plan::ImportResult;
 using project::ImportChoice;
-using project::ImportResult;
 using widgets::Option;
 
 void choose_import(ActionQueue& ask, const ImportChoice& choice) {

@@ -10,7 +10,7 @@ namespace {
 
 /// A controller that plans for itself tells lines and no times: then those of our plan, from the line that it
 /// is at as far as is known.
-std::optional<double> left_by_lines(const Workbench& now, const machine::JobReport& report) {
+std::optional<double> left_by_lines(const Workbench& now, const jobs::JobReport& report) {
     if (!now.job_is_shown() || !now.in_file() || !now.opened->motion || !now.job.listing) {
         return std::nullopt;
     }
@@ -20,7 +20,7 @@ std::optional<double> left_by_lines(const Workbench& now, const machine::JobRepo
     if (at >= lines.size()) {
         return 0.0;
     }
-    const project::PlannedMotion& plan = *now.opened->motion;
+    const plan::PlannedMotion& plan = *now.opened->motion;
     const std::vector<int>& planned = plan.listing->line_of_block;
     const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[at]; });
     return next == planned.end() ? 0.0
@@ -30,7 +30,7 @@ std::optional<double> left_by_lines(const Workbench& now, const machine::JobRepo
 
 } // namespace
 
-std::optional<double> job_time_left(const Workbench& now, const machine::JobReport& report) {
+std::optional<double> job_time_left(const Workbench& now, const jobs::JobReport& report) {
     if (now.controller.connected() && now.controller.can.plans) {
         return left_by_lines(now, report);
     }

@@ -1,7 +1,7 @@
 // How long a job still takes. s.
 #pragma once
 
-#include "core/machine/dispatcher.h"
+#include "core/jobs/dispatcher.h"
 #include "ui/panels/panel.h"
 
 #include <optional>
@@ -9,6 +9,6 @@
 namespace millwright::panels {
 
 /// By the plan; nothing where there is none. May be below 0 where the machine is slower than its plan.
-[[nodiscard]] std::optional<double> job_time_left(const Workbench& now, const machine::JobReport& report);
+[[nodiscard]] std::optional<double> job_time_left(const Workbench& now, const jobs::JobReport& report);
 
 } // namespace millwright::panels

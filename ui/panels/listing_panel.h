@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/text_search.h"
-#include "core/gcode/reader/line_index.h"
+#include "core/gcode/line_index.h"
 #include "ui/panels/panel.h"
 
 #include <map>
@@ -27,13 +27,13 @@ private:
     void go_on(int direction, const Workbench& now, ActionQueue& ask);
     [[nodiscard]] std::string count_text() const;
 
-    std::shared_ptr<const void> shown_;                    ///< what `lines_` is an index of
-    gcode::LineIndex own_;                                 ///< of the project's program
-    const gcode::LineIndex* lines_ = nullptr;              ///< null without a text
-    std::uint64_t revision_ = 0;                           ///< of the opened file, that `faults_` was made of
-    std::map<int, const Diagnostic*> faults_;              ///< by line from 1
-    std::shared_ptr<const project::OpenedProgram> faulty_; ///< keeps them alive
-    std::string wanted_;                                   ///< looked for; empty: nothing
+    std::shared_ptr<const void> shown_;                 ///< what `lines_` is an index of
+    gcode::LineIndex own_;                              ///< of the project's program
+    const gcode::LineIndex* lines_ = nullptr;           ///< null without a text
+    std::uint64_t revision_ = 0;                        ///< of the opened file, that `faults_` was made of
+    std::map<int, const Diagnostic*> faults_;           ///< by line from 1
+    std::shared_ptr<const plan::OpenedProgram> faulty_; ///< keeps them alive
+    std::string wanted_;                                ///< looked for; empty: nothing
     std::optional<TextCount> count_;
     std::optional<std::size_t> found_; ///< byte of the hit that is shown
 };

@@ -61,10 +61,7 @@ std::span<const Tab> tabs_of(actions::Workspace workspace) {
 }
 
 /// The time at which the program has done the move that lies at `length` of the path.
-void go_to_length(ActionQueue& ask,
-                  const Workbench& now,
-                  const project::Evaluation& evaluation,
-                  double length) {
+void go_to_length(ActionQueue& ask, const Workbench& now, const plan::Evaluation& evaluation, double length) {
     const auto trajectory = now.trajectory();
     const auto program = now.program();
     if (!trajectory || !program) {
@@ -76,7 +73,7 @@ void go_to_length(ActionQueue& ask,
         end += evaluation.field.moves[move++].length;
     }
     const auto points = static_cast<int>(evaluation.toolpath.points.size());
-    const std::vector<int> blocks = gcode::blocks_of_points(*program, points);
+    const std::vector<int> blocks = program::blocks_of_points(*program, points);
     const std::size_t point = std::min(move + 1, blocks.size() - 1);
     if (blocks[point] >= 0) {
         ask.show([time = trajectory->start_of(blocks[point])](actions::Session& session) {
@@ -161,7 +158,7 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.y_unit = "mm";
     view.series = series;
     view.limit_y = now.session.error.limit;
-    const project::Evaluation& shown = *paths.back().path;
+    const plan::Evaluation& shown = *paths.back().path;
     const bool is_program = paths.back().path == now.program_path();
     const auto moment = now.moment();
     if (moment && is_program) {
@@ -178,13 +175,13 @@ void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
         return;
     }
     if (now.job.report) {
-        const machine::JobReport& report = *now.job.report;
-        ui.value("state", "State", machine::to_text(report.driver.state));
+        const jobs::JobReport& report = *now.job.report;
+        ui.value("state", "State", to_text(report.driver.state));
         ui.value("blocks", "Progress", report.blocks_text());
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
     }
     if (now.job.outcome) {
-        ui.value("end", "Ended", machine::to_text(now.job.outcome->end));
+        ui.value("end", "Ended", to_text(now.job.outcome->end));
         ui.text(now.job.outcome->sentence);
         ui.note("Log: " + now.job.outcome->log_file.string());
     }

@@ -69,7 +69,7 @@ std::optional<double> spindle_by_hand(const Workbench& now) {
     }
     constexpr std::size_t beginning = 1000; // blocks: a spindle turns before the first cut
     const auto blocks = std::span(program->blocks).first(std::min(beginning, program->blocks.size()));
-    const auto on = std::ranges::find(blocks, gcode::BlockKind::spindle_on, &gcode::Block::kind);
+    const auto on = std::ranges::find(blocks, program::BlockKind::spindle_on, &program::Block::kind);
     return on == blocks.end() || !(std::abs(on->spindle_rpm) > 0.0) ? std::nullopt
                                                                     : std::optional(on->spindle_rpm);
 }
@@ -194,8 +194,8 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
                  std::filesystem::path(now.job.project).filename().string());
     }
     if (now.job.running && now.job.report) {
-        const machine::JobReport& report = *now.job.report;
-        ui.value("state", "State", machine::to_text(report.driver.state));
+        const jobs::JobReport& report = *now.job.report;
+        ui.value("state", "State", to_text(report.driver.state));
         const std::optional<double> left = job_time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
         ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
@@ -213,7 +213,7 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
             ask.run("machine.stop");
         }
     } else if (now.job.outcome) {
-        ui.value("end", "Last job", machine::to_text(now.job.outcome->end));
+        ui.value("end", "Last job", to_text(now.job.outcome->end));
         ui.note(now.job.outcome->sentence);
         ui.note("Log: " + now.job.outcome->log_file.string());
     }

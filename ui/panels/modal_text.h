@@ -1,7 +1,7 @@
 // What is in force in a program, as its own words.
 #pragma once
 
-#include "core/gcode/reader/execution.h"
+#include "core/gcode/execution.h"
 
 #include <string>
 

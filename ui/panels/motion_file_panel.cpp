@@ -14,8 +14,8 @@ using widgets::Rank;
 namespace {
 
 /// The words and flags of the dual-ported RAM, and how far the stream has come.
-std::string buffer_text(const machine::SharedMemoryStream& stream) {
-    const machine::SharedMemoryBuffer& now = stream.buffer();
+std::string buffer_text(const pmac::SharedMemoryStream& stream) {
+    const pmac::SharedMemoryBuffer& now = stream.buffer();
     return fmt::format("M151 {} M152 {} M153 {}, M154 {}, M155 {}, EQU1 {} of {}",
                        now.words[0],
                        now.words[1],
@@ -55,7 +55,7 @@ void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
     }
     ui.beside();
-    const machine::SharedMemoryStream* const stream = now.arm.stream();
+    const pmac::SharedMemoryStream* const stream = now.arm.stream();
     fault_line(ui,
                faults,
                stream != nullptr && now.arm.moving()

@@ -54,7 +54,7 @@ std::vector<double> even_times(double duration, int columns) {
 } // namespace
 
 MotionSeries motion_series(const motion::Trajectory& trajectory,
-                           const gcode::Program& program,
+                           const program::Program& program,
                            const kinematics::MachineModel& machine,
                            int columns) {
     MotionSeries series;
@@ -91,7 +91,7 @@ MotionSeries motion_series(const motion::Trajectory& trajectory,
     return series;
 }
 
-MotionSeries programmed_series(const project::OpenedProgram& opened, int columns) {
+MotionSeries programmed_series(const plan::OpenedProgram& opened, int columns) {
     MotionSeries series;
     series.time = even_times(opened.seconds, columns);
     for (std::size_t column = 0; column < series.time.size(); ++column) {

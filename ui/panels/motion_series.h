@@ -1,10 +1,10 @@
 // A planned motion as curves over time: how fast it is, what keeps it from being faster, what each axis does.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/kinematics/machine_model.h"
 #include "core/motion/trajectory.h"
-#include "core/project/opened_program.h"
+#include "core/plan/opened_program.h"
+#include "core/program/program.h"
 
 #include <string>
 #include <vector>
@@ -26,11 +26,11 @@ struct MotionSeries {
 
 /// Throws Defect unless `columns` is 2 or more.
 [[nodiscard]] MotionSeries motion_series(const motion::Trajectory& trajectory,
-                                         const gcode::Program& program,
+                                         const program::Program& program,
                                          const kinematics::MachineModel& machine,
                                          int columns);
 
 /// Of a program without a plan: the feeds that it asks for. The file is read.
-[[nodiscard]] MotionSeries programmed_series(const project::OpenedProgram& opened, int columns);
+[[nodiscard]] MotionSeries programmed_series(const plan::OpenedProgram& opened, int columns);
 
 } // namespace millwright::panels

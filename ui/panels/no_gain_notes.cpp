@@ -1,7 +1,7 @@
 #include "ui/panels/no_gain_notes.h"
 
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ std::vector<std::string> no_gain_notes(const Workbench& now) {
     std::vector<std::string> notes;
     for (const project::GridMethod method : project::every_grid_method) {
         const auto found = now.evaluation(method);
-        if (method != project::program_grid(now.project) && found &&
+        if (method != plan::program_grid(now.project) && found &&
             found->outcome.status == grid::ImproverStatus::no_gain && !found->outcome.note.empty()) {
             notes.push_back(fmt::format("{}, as uniform: {}",
                                         project::row_of(project::grid_methods(), method).label,

@@ -2,9 +2,9 @@
 
 #include "core/base/counted.h"
 #include "core/base/text.h"
-#include "core/project/left_out.h"
+#include "core/plan/left_out.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/numbers_text.h"
 
@@ -23,7 +23,7 @@ using project::GridMethod;
 
 namespace {
 
-std::string mean_text(const project::Evaluation& evaluation) {
+std::string mean_text(const plan::Evaluation& evaluation) {
     return (actions::is_so_far(evaluation) ? "~ " : "") + length_text(evaluation.closest.mean) + " mm";
 }
 
@@ -36,12 +36,12 @@ std::string error_of(const Workbench& now, GridMethod method) {
         return "as uniform";
     }
     if (!evaluation) {
-        return project::is_left_out(now.project, method) ? "left out" : "...";
+        return plan::is_left_out(now.project, method) ? "left out" : "...";
     }
     return mean_text(*evaluation);
 }
 
-bool is_so_far(const project::Evaluation* evaluation) {
+bool is_so_far(const plan::Evaluation* evaluation) {
     return evaluation != nullptr && actions::is_so_far(*evaluation);
 }
 
@@ -54,7 +54,7 @@ std::string short_count(std::ptrdiff_t count, std::string_view one) {
 /// Grids that are always made, or that the program uses.
 bool is_listed(const Workbench& now, GridMethod method) {
     return method == GridMethod::uniform || std::ranges::count(project::compared_methods, method) > 0 ||
-           now.evaluation(method) || project::program_grid(now.project) == method;
+           now.evaluation(method) || plan::program_grid(now.project) == method;
 }
 
 } // namespace
@@ -79,7 +79,7 @@ std::vector<OutlineRow> outline_rows(const Workbench& now) {
     const auto path = now.program_path();
     const bool so_far = is_so_far(path.get()); // then the program made of it, too
     const std::string mark = so_far ? "~ " : "";
-    if (project::has_own_path(now.project)) {
+    if (plan::has_own_path(now.project)) {
         rows.push_back({"path", "  Path", path ? mean_text(*path) : "...", Workspace::toolpath, so_far});
     }
     rows.push_back({"toolpath",

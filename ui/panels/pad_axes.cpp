@@ -23,7 +23,7 @@ double cross(bool plus, bool minus) {
 
 } // namespace
 
-std::vector<double> pad_axes(const render::Gamepad& pad, std::span<const gcode::ProgramAxis> axes) {
+std::vector<double> pad_axes(const render::Gamepad& pad, std::span<const program::ProgramAxis> axes) {
     std::vector<double> amounts(axes.size(), 0.0);
     if (!pad.left_bumper && !pad.right_bumper) {
         return amounts;

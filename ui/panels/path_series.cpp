@@ -14,7 +14,7 @@
 
 namespace millwright::panels {
 
-ErrorOverPath error_over_path(const project::Evaluation& evaluation) {
+ErrorOverPath error_over_path(const plan::Evaluation& evaluation) {
     ErrorOverPath series;
     double length = 0.0;
     for (const toolpath::MoveDeviation& move : evaluation.field.moves) {
@@ -29,7 +29,7 @@ ErrorOverPath error_over_path(const project::Evaluation& evaluation) {
 namespace {
 
 PlottedPath
-named(const actions::Workbench& now, std::shared_ptr<const project::Evaluation> path, std::string name) {
+named(const actions::Workbench& now, std::shared_ptr<const plan::Evaluation> path, std::string name) {
     const bool of_grid = std::ranges::any_of(project::every_grid_method, [&](project::GridMethod method) {
         return now.evaluation(method) == path;
     });
@@ -64,7 +64,7 @@ std::vector<PlottedPath> plotted_paths(const actions::Workbench& now) {
     return paths;
 }
 
-double length_before(const project::Evaluation& evaluation, int move, double fraction) {
+double length_before(const plan::Evaluation& evaluation, int move, double fraction) {
     const auto& moves = evaluation.field.moves;
     double length = 0.0;
     for (int n = 0; n < move && n < static_cast<int>(moves.size()); ++n) {
@@ -75,8 +75,8 @@ double length_before(const project::Evaluation& evaluation, int move, double fra
 }
 
 TrajectorySeries series_over_way(const motion::Trajectory& trajectory,
-                                 const gcode::Program& program,
-                                 const project::Evaluation& evaluation,
+                                 const program::Program& program,
+                                 const plan::Evaluation& evaluation,
                                  int count) {
     expects(count >= 2, "a series has two values or more");
     TrajectorySeries series;
@@ -84,9 +84,9 @@ TrajectorySeries series_over_way(const motion::Trajectory& trajectory,
     double before = trajectory.time_at_part_length(0.0);
     for (int n = 0; n < count; ++n) {
         const double time = trajectory.time_at_part_length(step * n);
-        const gcode::Block& block = program.blocks[static_cast<std::size_t>(trajectory.block_at(time))];
+        const program::Block& block = program.blocks[static_cast<std::size_t>(trajectory.block_at(time))];
         const auto move = static_cast<std::size_t>(std::max(0, block.path_point - 1));
-        const bool cuts = block.role == gcode::MoveRole::cut && move < evaluation.field.moves.size();
+        const bool cuts = block.role == program::MoveRole::cut && move < evaluation.field.moves.size();
         series.error.push_back(cuts ? evaluation.field.moves[move].closest : 0.0);
         const double elapsed = time - before;
         series.feed_mm_per_min.push_back(elapsed > 0.0 ? to_mm_per_min(step / elapsed) : 0.0);

@@ -15,12 +15,12 @@ struct ErrorOverPath {
     std::vector<double>
         error; ///< closest, mm; NaN from track to track, as these moves are no part of the error
 };
-[[nodiscard]] ErrorOverPath error_over_path(const project::Evaluation& evaluation);
+[[nodiscard]] ErrorOverPath error_over_path(const plan::Evaluation& evaluation);
 
 /// A path whose error is plotted, under the name that the key has: which it is, whether the program follows
 /// it, and whether its figures are so far.
 struct PlottedPath {
-    std::shared_ptr<const project::Evaluation> path;
+    std::shared_ptr<const plan::Evaluation> path;
     std::string name;
 };
 /// The path on screen comes last; before it what stands beside it, else that over the uniform grid, where it
@@ -29,7 +29,7 @@ struct PlottedPath {
 [[nodiscard]] std::vector<PlottedPath> plotted_paths(const actions::Workbench& now);
 
 /// Length of the path of `evaluation` up to `fraction` of `move`, mm; 0 before the path.
-[[nodiscard]] double length_before(const project::Evaluation& evaluation, int move, double fraction);
+[[nodiscard]] double length_before(const plan::Evaluation& evaluation, int move, double fraction);
 
 /// Error of the program's moves and the feed on the part at `count` equal steps of the tip's way.
 struct TrajectorySeries {
@@ -37,8 +37,8 @@ struct TrajectorySeries {
     std::vector<double> feed_mm_per_min; ///< actual speed of the tip between two steps
 };
 [[nodiscard]] TrajectorySeries series_over_way(const motion::Trajectory& trajectory,
-                                               const gcode::Program& program,
-                                               const project::Evaluation& evaluation,
+                                               const program::Program& program,
+                                               const plan::Evaluation& evaluation,
                                                int count);
 
 } // namespace millwright::panels

@@ -44,7 +44,7 @@ void change_region(ActionQueue& ask,
 
 } // namespace
 
-void PicturePane::follow(const std::shared_ptr<const project::ShownPicture>& shown) {
+void PicturePane::follow(const std::shared_ptr<const plan::ShownPicture>& shown) {
     if (shown == shown_) {
         return;
     }

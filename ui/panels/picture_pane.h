@@ -2,7 +2,7 @@
 // clicks.
 #pragma once
 
-#include "core/project/plot_work.h"
+#include "core/plan/plot_work.h"
 #include "ui/panels/panel.h"
 
 #include <memory>
@@ -21,15 +21,15 @@ private:
         int column = 0;
     };
 
-    void follow(const std::shared_ptr<const project::ShownPicture>& shown);
+    void follow(const std::shared_ptr<const plan::ShownPicture>& shown);
     [[nodiscard]] Cell cell_at(double x, double y) const;
     void mark(const Cell& corner, ActionQueue& ask);
     /// px
     [[nodiscard]] float map_height(const Ui& ui) const;
 
-    std::shared_ptr<const project::ShownPicture> shown_; ///< of which the rest is
-    std::vector<double> x_, y_, gray_;                   ///< as heat_map() takes them
-    std::optional<Cell> first_;                          ///< corner of a region
+    std::shared_ptr<const plan::ShownPicture> shown_; ///< of which the rest is
+    std::vector<double> x_, y_, gray_;                ///< as heat_map() takes them
+    std::optional<Cell> first_;                       ///< corner of a region
     bool fills_width_ = false;
 };
 

@@ -188,7 +188,7 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     }
 }
 
-void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
+void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const plan::PlotResult* made) {
     numbers(ui, ask, set, {"step_over_mm"});
     if (!set.step_over && made != nullptr && made->step_over > 0.0) {
         ui.note(fmt::format("0 goes by the tool: {:.3f} mm.", made->step_over));
@@ -220,7 +220,7 @@ void dot_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
            [](PlotSettings& s, bool on) { s.join_dots = on; });
 }
 
-void carving_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
+void carving_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const plan::PlotResult* made) {
     tip_fields(ui, ask, set);
     numbers(ui, ask, set, {"largest_depth_mm", "depth_per_pass_mm"});
     toggle(ui,
@@ -252,7 +252,7 @@ double usual_depth(PictureUse use) {
     return use == PictureUse::dots ? of_dots : PlotSettings().depth;
 }
 
-void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const project::PlotResult* made) {
+void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const plan::PlotResult* made) {
     choice<PictureUse>(
         ui, ask, "use", "Becomes", project::picture_uses(), set.use, [](Project& draft, PictureUse use) {
             PlotSettings& settings = draft.plot.settings;
@@ -354,7 +354,7 @@ void drawing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                 });
     unit_fields(ui, ask, set);
     if (set.drawing_use == project::DrawingUse::carving) {
-        const std::shared_ptr<const project::PlotResult> made = now.plot.latest();
+        const std::shared_ptr<const plan::PlotResult> made = now.plot.latest();
         carving_fields(ui, ask, set, made.get());
     }
     reading_fields(ui, ask, set);
@@ -377,7 +377,7 @@ bool cuts_strokes(const Workbench& now) {
 
 void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (project::is_picture_file(now.plot.file())) {
-        const std::shared_ptr<const project::PlotResult> made = now.plot.latest();
+        const std::shared_ptr<const plan::PlotResult> made = now.plot.latest();
         picture_fields(ui, ask, now.plot.settings(), made.get());
     } else if (const auto made = now.plot.latest(); made && made->points) {
         ui.note(

@@ -74,7 +74,7 @@ std::string planned_time(double seconds) {
 
 /// What becomes of the drawing beside what the file has. `planner_s`: of what is cut; 0 while it is not
 /// known. Not `current`: figures of other settings are not shown for these.
-void compare(Ui& ui, const project::PlotResult& made, double planner_s, bool current) {
+void compare(Ui& ui, const plan::PlotResult& made, double planner_s, bool current) {
     const plot::WorkTime& planned = made.as_planned;
     const plot::WorkTime& drawn = made.as_drawn;
     constexpr std::array<widgets::Column, 3> columns{

@@ -114,7 +114,7 @@ constexpr widgets::FieldInfo tolerance_field{"tolerance",
                                              "Farthest that the path may be from its arc",
                                              1e-5,
                                              10.0,
-                                             gcode::usual_chord_tolerance,
+                                             cordic_machine::usual_chord_tolerance,
                                              5};
 constexpr widgets::FieldInfo clock_field{"clock",
                                          "Clock",

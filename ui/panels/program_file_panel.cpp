@@ -24,13 +24,13 @@ constexpr std::array<widgets::Option, 2> dialects{
     {{"linuxcnc", "LinuxCNC", {}, "RS-274/NGC as LinuxCNC 2.9 reads it"},
      {"grbl", "Grbl 1.1", {}, "The subset of Grbl, with its own refusals"}}};
 
-std::string path_mode_text(gcode::PathMode mode) {
+std::string path_mode_text(program::PathMode mode) {
     switch (mode) {
-    case gcode::PathMode::exact_path:
+    case program::PathMode::exact_path:
         return "G61 exact path";
-    case gcode::PathMode::exact_stop:
+    case program::PathMode::exact_stop:
         return "G61.1 exact stop";
-    case gcode::PathMode::continuous:
+    case program::PathMode::continuous:
         break;
     }
     return "G64 blending";
@@ -47,7 +47,7 @@ struct PlannedHere {
     double speed_mm_per_min = 0.0; ///< of the linear axes together
     std::string limit;
 
-    PlannedHere(const project::OpenedProgram& opened, double time) {
+    PlannedHere(const plan::OpenedProgram& opened, double time) {
         const motion::Trajectory& planned = *opened.motion->trajectory;
         const motion::Sample sample = planned.at(time);
         double sum = 0.0;
@@ -61,7 +61,7 @@ struct PlannedHere {
 
 } // namespace
 
-std::string limit_text(const motion::Cause& limit, const gcode::Program& program) {
+std::string limit_text(const motion::Cause& limit, const program::Program& program) {
     switch (limit.limit) {
     case motion::Limit::standing:
         return "stands still";
@@ -98,7 +98,7 @@ void ProgramFilePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask)
     if (!section) {
         return;
     }
-    const project::OpenedProgram& opened = *now.opened;
+    const plan::OpenedProgram& opened = *now.opened;
     ui.value("name", "File", opened.file.filename().string());
     draw_choices(ui, now, ask);
     ui.value("lines", "Lines", opened.text ? fmt::format("{}", opened.text->lines.count()) : "\u2026");
@@ -122,8 +122,8 @@ void ProgramFilePanel::draw_choices(Ui& ui, const Workbench& now, ActionQueue& a
     if (machines_.empty()) {
         machines_ = project::machine_ids(now.assets);
     }
-    const project::ReadingChoice& choice = now.opened->choice;
-    const auto read_with = [&](const project::ReadingChoice& wanted) {
+    const plan::ReadingChoice& choice = now.opened->choice;
+    const auto read_with = [&](const plan::ReadingChoice& wanted) {
         ask.show([wanted](actions::Session& session) { session.file.reading = wanted; });
         ask.run("file.read_again");
     };

@@ -26,6 +26,6 @@ private:
 };
 
 /// Why the motion is not faster at a block, for people: "velocity of X".
-[[nodiscard]] std::string limit_text(const motion::Cause& limit, const gcode::Program& program);
+[[nodiscard]] std::string limit_text(const motion::Cause& limit, const program::Program& program);
 
 } // namespace millwright::panels

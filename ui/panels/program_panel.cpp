@@ -72,12 +72,12 @@ void ProgramPanel::draw_block(Ui& ui, const Workbench& now) const {
         return;
     }
     const int n = now.block();
-    const gcode::Block& block = program->blocks[static_cast<std::size_t>(n)];
+    const program::Block& block = program->blocks[static_cast<std::size_t>(n)];
     if (const auto listing = now.listing()) {
         ui.value("line", "Line", fmt::format("{}", listing->line_of_block[static_cast<std::size_t>(n)]));
     }
     ui.value("limit", "Limited by", limit_text(trajectory->limit_of(n), *program));
-    if (block.kind == gcode::BlockKind::feed) {
+    if (block.kind == program::BlockKind::feed) {
         ui.value("feed", "Feed on the part", fixed(to_mm_per_min(block.feed), 0), "mm/min");
     }
     const auto shown = now.program_path();

@@ -16,10 +16,10 @@ namespace millwright::panels {
 namespace {
 
 namespace icons = widgets::icons;
-using machine::JobQueue;
-using machine::QueuedJob;
-using machine::QueuedJobId;
-using machine::QueueState;
+using jobs::JobQueue;
+using jobs::QueuedJob;
+using jobs::QueuedJobId;
+using jobs::QueueState;
 using widgets::Permission;
 using widgets::Rank;
 

@@ -1,7 +1,7 @@
 // Jobs that wait one behind the other: added, put in order, and begun one by one by a person.
 #pragma once
 
-#include "core/machine/job_queue.h"
+#include "core/jobs/job_queue.h"
 #include "ui/panels/panel.h"
 
 #include <optional>
@@ -16,10 +16,10 @@ public:
 private:
     void draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_table(Ui& ui, const Workbench& now);
-    [[nodiscard]] const machine::QueuedJob* chosen(const Workbench& now) const;
+    [[nodiscard]] const jobs::QueuedJob* chosen(const Workbench& now) const;
 
     const actions::Catalogue& catalogue_;
-    std::optional<machine::QueuedJobId> chosen_;
+    std::optional<jobs::QueuedJobId> chosen_;
 };
 
 } // namespace millwright::panels

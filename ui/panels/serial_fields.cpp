@@ -11,7 +11,7 @@ namespace millwright::panels {
 
 namespace {
 
-using machine::SerialAddress;
+using links::SerialAddress;
 using widgets::Option;
 
 // In the order of their enumerators.
@@ -26,11 +26,11 @@ constexpr std::array<std::string_view, 3> ending_bytes{"\n", "\r\n", "\r"};
 } // namespace
 
 std::optional<SerialAddress> serial_port_of(const std::string& address) {
-    if (!machine::is_serial_address(address)) {
+    if (!links::is_serial_address(address)) {
         return std::nullopt;
     }
     try {
-        return machine::parse_serial_address(address);
+        return links::parse_serial_address(address);
     } catch (const Error&) { // said where it is connected to
         return std::nullopt;
     }
@@ -46,7 +46,7 @@ std::optional<std::string> serial_fields(widgets::Ui& ui, const std::string& add
         return std::nullopt;
     }
     std::vector<std::string> names;
-    for (const unsigned rate : machine::serial_rates) {
+    for (const unsigned rate : links::serial_rates) {
         names.push_back(std::to_string(rate));
     }
     std::vector<Option> rates;
@@ -54,18 +54,18 @@ std::optional<std::string> serial_fields(widgets::Ui& ui, const std::string& add
         rates.push_back({name, name, {}, {}});
     }
     SerialAddress changed = *now;
-    const auto* const rate = std::ranges::find(machine::serial_rates, now->line.baud);
+    const auto* const rate = std::ranges::find(links::serial_rates, now->line.baud);
     if (const auto n =
-            ui.choice("rate", "Baud rate", static_cast<int>(rate - machine::serial_rates.begin()), rates)) {
-        changed.line.baud = machine::serial_rates[static_cast<std::size_t>(*n)];
+            ui.choice("rate", "Baud rate", static_cast<int>(rate - links::serial_rates.begin()), rates)) {
+        changed.line.baud = links::serial_rates[static_cast<std::size_t>(*n)];
     }
     if (const auto n = ui.choice("parity", "Parity", static_cast<int>(now->line.parity), serial_parities)) {
-        changed.line.parity = static_cast<machine::SerialParity>(*n);
+        changed.line.parity = static_cast<links::SerialParity>(*n);
     }
     if (const auto n = ui.choice("stop_bits", "Stop bits", now->line.stop_bits - 1, serial_stops)) {
         changed.line.stop_bits = *n + 1;
     }
-    return changed == *now ? std::nullopt : std::optional(machine::address_of(changed));
+    return changed == *now ? std::nullopt : std::optional(links::address_of(changed));
 }
 
 std::optional<std::string> ending_field(widgets::Ui& ui, const std::string& ending) {

@@ -3,7 +3,7 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/project/set_up_edge.h"
+#include "core/plan/set_up_edge.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/viewport/map_picture.h"
@@ -24,7 +24,7 @@ namespace millwright::panels {
 
 namespace {
 
-using project::SetUpStudySettings;
+using plan::SetUpStudySettings;
 using toolpath::SetUpGoal;
 using toolpath::SetUpParameter;
 
@@ -128,7 +128,7 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                   [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
 }
 
-void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
+void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUpResult& found) {
     const toolpath::SetUpMap& map = found.study->map;
     const viewport::SetUpMapView labelled(
         map, found.settings.goal, found.study->search.best.place, now.set_up_place());
@@ -160,18 +160,18 @@ std::string axis_text(const std::optional<double>& axis_max) {
 }
 
 /// That the best place lies at the edge of what was searched, as long as that can be told.
-std::string edge_text(const Workbench& now, const project::SetUpResult& found) {
-    if (!now.plan || !now.plan->plan.workpiece || !project::same_but_for_place(found.project, now.project)) {
+std::string edge_text(const Workbench& now, const plan::SetUpResult& found) {
+    if (!now.plan || !now.plan->plan.workpiece || !plan::same_but_for_place(found.project, now.project)) {
         return {};
     }
-    project::Workpiece then = *now.plan->plan.workpiece;
+    plan::Workpiece then = *now.plan->plan.workpiece;
     then.machine = then.machine.with_workpiece_offset(toolpath::offset_of(found.now));
-    return project::edge_sentence(found.study->search,
-                                  project::set_up_box(then, found.settings),
-                                  {"Shift a, b", "Shift a, b", "Shift c", "Turn"});
+    return plan::edge_sentence(found.study->search,
+                               plan::set_up_box(then, found.settings),
+                               {"Shift a, b", "Shift a, b", "Shift c", "Turn"});
 }
 
-void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const project::SetUpResult& found) {
+void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUpResult& found) {
     if (found.failure) {
         (void)widgets::banner(
             ui,

@@ -9,8 +9,8 @@ namespace millwright::panels {
 
 namespace {
 
+using drivers::DriverState;
 using kinematics::AxisKind;
-using machine::DriverState;
 
 /// Of each axis, mm or degrees: what was entered, at first what is assumed.
 std::vector<double> entered(const Workbench& now) {
@@ -24,7 +24,7 @@ std::vector<double> entered(const Workbench& now) {
     return values;
 }
 
-widgets::Permission can_say(const machine::DriverStatus& status) {
+widgets::Permission can_say(const drivers::DriverStatus& status) {
     if (status.link_lost) {
         return widgets::Permission::refused("The link is lost: reconnect first.");
     }
@@ -65,7 +65,7 @@ void stands_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             const bool turns = machine.axes[n].kind == AxisKind::rotary;
             place[static_cast<Eigen::Index>(n)] = turns ? from_degrees(values[n]) : values[n];
         }
-        ask.tell([place](machine::Driver& driver) { driver.stands_at(place); });
+        ask.tell([place](drivers::Driver& driver) { driver.stands_at(place); });
         ask.show([](actions::Session& session) { session.hand.stands.clear(); });
     }
 }

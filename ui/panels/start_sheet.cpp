@@ -2,7 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/units.h"
-#include "core/gcode/reader/axes.h"
+#include "core/gcode/axes.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/widgets/notices.h"
@@ -18,8 +18,8 @@ namespace millwright::panels {
 
 namespace {
 
-using machine::MachineLimits;
-using machine::Survey;
+using drivers::MachineLimits;
+using jobs::Survey;
 
 constexpr float sheet_width = 560.0F;
 
@@ -51,7 +51,7 @@ bool stands_still(const Survey::Range& range, const std::optional<double>& start
 }
 
 void draw_extents(Ui& ui, const actions::StartCheck& check) {
-    for (const gcode::ProgramAxis& axis : check.wish->survey.axes) {
+    for (const program::ProgramAxis& axis : check.wish->survey.axes) {
         const auto index = std::ranges::find(gcode::axis_letters, axis.letter) - gcode::axis_letters.begin();
         const Survey::Range& range = check.survey.ranges[static_cast<std::size_t>(index)];
         const std::optional<double>& start = check.survey.start[static_cast<std::size_t>(index)];
@@ -75,7 +75,7 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
     }
 }
 
-void draw_spindle_and_tool(Ui& ui, const Survey& survey, const machine::DriverStatus& status) {
+void draw_spindle_and_tool(Ui& ui, const Survey& survey, const drivers::DriverStatus& status) {
     ui.value("spindle",
              "Spindle",
              survey.greatest_spindle_rpm > 0.0 ? fmt::format("up to {:.0f} rpm", survey.greatest_spindle_rpm)
@@ -105,8 +105,8 @@ void draw_check_result(Ui& ui,
 }
 
 /// What the controller said of the program in its check mode.
-void draw_answer(Ui& ui, const machine::CommandAnswer& answer) {
-    using State = machine::CommandAnswer::State;
+void draw_answer(Ui& ui, const drivers::CommandAnswer& answer) {
+    using State = drivers::CommandAnswer::State;
     using widgets::Severity;
     if (answer.state == State::pending) {
         ui.note("The controller is reading the program in check mode \u2026");
@@ -139,7 +139,7 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const actions::StartWish& wish = *now.session.start;
-    const machine::DriverStatus& status = now.controller.status;
+    const drivers::DriverStatus& status = now.controller.status;
     {
         const auto labels = ui.label_share(0.2F);
         ui.value("program",
@@ -162,7 +162,7 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     if (!status.position_doubt.empty()) {
         (void)widgets::banner(
-            ui, "doubt", {widgets::Severity::warning, machine::doubt_sentence(status.position_doubt), {}});
+            ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(status.position_doubt), {}});
         action_button(ui, now, ask, catalogue_, "machine.trust_position");
     }
     if (!wish.gouges.empty()) {

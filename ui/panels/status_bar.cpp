@@ -18,7 +18,7 @@ std::string machine_state(const Workbench& now) {
         return now.controller.link == actions::LinkState::none ? table : table + ", " + controller_text(now);
     }
     if (now.controller.link == actions::LinkState::none && now.job.running && now.job.report) {
-        return fmt::format("virtual machine {}", machine::to_text(now.job.report->driver.state));
+        return fmt::format("virtual machine {}", to_text(now.job.report->driver.state));
     }
     return controller_text(now);
 }

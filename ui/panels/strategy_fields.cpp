@@ -2,8 +2,8 @@
 
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "core/project/cut_remarks.h"
-#include "core/project/strategy_path.h"
+#include "core/plan/cut_remarks.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/tool_settings.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/internal/fields.h"
@@ -42,7 +42,7 @@ void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
 /// The points are chosen for the tip; what a cutter with a width does beside it they cannot help.
 void kept_tolerance(Ui& ui, const Workbench& now) {
     const auto path = now.program_path();
-    const std::string why = path ? project::why_not_kept(now.project, *path) : std::string();
+    const std::string why = path ? plan::why_not_kept(now.project, *path) : std::string();
     if (!why.empty()) {
         (void)widgets::banner(ui, "not_kept", {widgets::Severity::warning, as_sentence(why), {}});
     }
@@ -50,16 +50,16 @@ void kept_tolerance(Ui& ui, const Workbench& now) {
 
 } // namespace
 
-std::string so_far_note(const project::Evaluation& evaluation) {
+std::string so_far_note(const plan::Evaluation& evaluation) {
     return actions::is_so_far(evaluation) ? " So far: measured coarsely; the exact figures can say otherwise."
                                           : "";
 }
 
 std::string grid_note(const Workbench& now) {
     const Project& project = now.project;
-    if (project::follows_nodes(project.toolpath.strategy)) {
+    if (plan::follows_nodes(project.toolpath.strategy)) {
         const std::string crossing =
-            now.plan ? project::crossing_remark(now.plan->project, now.plan->plan) : std::string();
+            now.plan ? plan::crossing_remark(now.plan->project, now.plan->plan) : std::string();
         return crossing.empty()
                    ? fmt::format("Over the nodes of the grid: {}.",
                                  project::row_of(project::grid_methods(), project.grid.method).label)

@@ -12,7 +12,7 @@ namespace millwright::panels {
 [[nodiscard]] std::string grid_note(const Workbench& now);
 
 /// What follows a note of `evaluation` whose figures are not the last ones; empty where they are.
-[[nodiscard]] std::string so_far_note(const project::Evaluation& evaluation);
+[[nodiscard]] std::string so_far_note(const plan::Evaluation& evaluation);
 
 /// Only the fields that the chosen strategy has.
 void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask);

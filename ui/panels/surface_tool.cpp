@@ -1,9 +1,9 @@
 #include "ui/panels/surface_tool.h"
 
 #include "core/base/counted.h"
-#include "core/project/grids.h"
+#include "core/plan/grids.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
-#include "core/project/strategy_path.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 
@@ -42,7 +42,7 @@ constexpr double largest_share = 1e3; // project::elliptic_numbers() allow no mo
 void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const project::StrategyInput strategy = now.project.toolpath.strategy;
     const project::GridMethod method = now.project.grid.method;
-    if (!project::follows_nodes(strategy)) {
+    if (!plan::follows_nodes(strategy)) {
         (void)widgets::banner(
             ui,
             "own_points",
@@ -50,7 +50,7 @@ void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
              fmt::format(
                  "The program's path ({}) chooses its own points and follows no grid: what you paint or "
                  "outline does not change it.",
-                 project::strategy_text(now.project)),
+                 plan::strategy_text(now.project)),
              {}});
         if (ui.button("use_zigzag", "Use a zigzag over the grid")) {
             ask.edit("Use a zigzag over the grid",
@@ -58,7 +58,7 @@ void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
         return;
     }
-    if (project::uses_weight(method)) {
+    if (plan::uses_weight(method)) {
         return;
     }
     (void)widgets::banner(
@@ -213,12 +213,12 @@ void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQue
         tool.erases ? "Erase the weight" : "Paint the weight",
         [painted, brush](Project& p) {
             const auto patch = static_cast<std::size_t>(p.surface.machined_patch);
-            project::paint_weight(p.grid.elliptic,
-                                  geometry::BezierPatch(p.surface.patches.at(patch)),
-                                  painted.from,
-                                  painted.to,
-                                  brush);
-            project::let_paint_count(p.grid.elliptic);
+            plan::paint_weight(p.grid.elliptic,
+                               geometry::BezierPatch(p.surface.patches.at(patch)),
+                               painted.from,
+                               painted.to,
+                               brush);
+            plan::let_paint_count(p.grid.elliptic);
         },
         "paint the weight");
 }

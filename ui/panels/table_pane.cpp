@@ -20,8 +20,8 @@ namespace millwright::panels {
 namespace {
 
 using actions::TableChoice;
-using machine::Jitter;
-using machine::PlayState;
+using drivers::Jitter;
+using drivers::PlayState;
 using plot::DecodeMode;
 using plot::DecodeSettings;
 using plot::SampleRounding;
@@ -106,7 +106,7 @@ std::string delay_text(double seconds) {
 
 /// What is known, a line each: name and text.
 std::vector<std::array<std::string, 2>> read_out(const actions::TableView& table) {
-    const machine::PlayStatus& now = table.status;
+    const drivers::PlayStatus& now = table.status;
     return {{"X", fixed(now.position.x(), 3) + " mm"},
             {"Y", fixed(now.position.y(), 3) + " mm"},
             {"Z", fixed(now.position.z(), 3) + " mm"},
@@ -196,7 +196,7 @@ void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
 }
 
 /// What a point looks like on the wire.
-void record_fields(Ui& ui, const machine::RecordFormat& record, ActionQueue& ask) {
+void record_fields(Ui& ui, const drivers::RecordFormat& record, ActionQueue& ask) {
     const auto section = ui.section("record", "Record", false);
     if (!section) {
         return;

@@ -44,7 +44,7 @@ void obey(const TimelineAsk& asked, const Workbench& now, ActionQueue& ask) {
 }
 
 /// What runs though no program is opened here, as the machine tells it.
-void draw_job(Ui& ui, const machine::JobReport& job) {
+void draw_job(Ui& ui, const jobs::JobReport& job) {
     widgets::TimelineView view;
     view.permission = widgets::Permission::refused("A job runs: see the Machine workspace.");
     view.blocks = job.blocks;
@@ -117,7 +117,7 @@ void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
 /// Of a plot whose program is not there.
 void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
     const auto made = now.plot.latest();
-    const bool long_one = made && made->path && made->path->size() > project::most_points_at_once;
+    const bool long_one = made && made->path && made->path->size() > plan::most_points_at_once;
     widgets::TimelineView view;
     view.permission = widgets::Permission::refused(
         now.plot.file().empty() ? "Nothing is open."

@@ -4,8 +4,8 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/project/cut_remarks.h"
-#include "core/project/cut_study.h"
+#include "core/plan/cut_remarks.h"
+#include "core/plan/cut_study.h"
 #include "core/project/tool_settings.h"
 #include "core/toolpath/shortest_sequence.h"
 #include "ui/panels/internal/fields.h"
@@ -33,9 +33,9 @@ bool is_asked_for(const Project& project, std::string_view id) {
     return project::has_number(tool.cutter, id) && !of_no_holder && !of_strategy && !of_no_call;
 }
 
-void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
+void bites_text(Ui& ui, const Project& project, const plan::CutStudy& cut) {
     std::ptrdiff_t of_holder = 0;
-    for (const project::BlockBite& bite : cut.bites) {
+    for (const plan::BlockBite& bite : cut.bites) {
         of_holder += bite.by_holder ? 1 : 0;
     }
     const std::ptrdiff_t of_cutter = std::ssize(cut.bites) - of_holder;
@@ -44,7 +44,7 @@ void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
              length_text(cut.deepest),
              "mm",
              "How deep the cutter goes below the surface at most");
-    ui.note(as_sentence(project::checked_text(project)));
+    ui.note(as_sentence(plan::checked_text(project)));
     ui.value("bites",
              "Too deep",
              fmt::format("{}", counted(of_cutter, "block")),
@@ -68,12 +68,12 @@ void bites_text(Ui& ui, const Project& project, const project::CutStudy& cut) {
 
 /// Before and after, where the program's angles are not the nearest ones.
 void gain_text(Ui& ui, const Workbench& now) {
-    const project::Plan& plan = now.plan->plan;
+    const plan::Plan& plan = now.plan->plan;
     const auto after = plan.program_path(now.plan->project);
     if (!plan.unsequenced || !after || !plan.trajectory) {
         return;
     }
-    const project::Evaluation& before = *plan.unsequenced;
+    const plan::Evaluation& before = *plan.unsequenced;
     const auto both = [](const std::string& from, const std::string& to) { return from + " \u2192 " + to; };
     ui.note("The program with the nearest angles and no point added \u2192 as chosen here:");
     ui.value("both_points",
@@ -106,16 +106,16 @@ void gain_text(Ui& ui, const Workbench& now) {
 
 /// Where the points that are added make the uniform grid the better one.
 void sequencing_warning(Ui& ui, const Workbench& now) {
-    const std::string remark = project::sequencing_remark(now.plan->project, now.plan->plan);
+    const std::string remark = plan::sequencing_remark(now.plan->project, now.plan->plan);
     if (!remark.empty()) {
         (void)widgets::banner(ui, "uniform_better", {widgets::Severity::warning, as_sentence(remark), {}});
     }
 }
 
 /// Where a part is not cut, what stands there is higher than any ridge.
-void highest_left(Ui& ui, const project::Plan& plan) {
+void highest_left(Ui& ui, const plan::Plan& plan) {
     const double on_cut = plan.cut->scallops.max;
-    if (const auto least = project::left_at_least(plan)) {
+    if (const auto least = plan::left_at_least(plan)) {
         ui.value("scallop_max",
                  "Highest left",
                  "at least " + length_text(*least),
@@ -164,7 +164,7 @@ void cut_fields(Ui& ui, const Workbench& now) {
         ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
         return;
     }
-    const project::CutStudy& cut = *now.plan->plan.cut;
+    const plan::CutStudy& cut = *now.plan->plan.cut;
     highest_left(ui, now.plan->plan);
     ui.value("scallop_mean",
              "Mean left",
@@ -183,7 +183,7 @@ void cut_fields(Ui& ui, const Workbench& now) {
                  "mm",
                  "How far the tracks may be apart for the scallop that is wanted");
     }
-    if (const std::string why = project::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
+    if (const std::string why = plan::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
         (void)widgets::banner(ui, "left_higher", {widgets::Severity::warning, why + ".", {}});
     }
     bites_text(ui, now.plan->project, cut);

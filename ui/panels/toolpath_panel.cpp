@@ -1,8 +1,8 @@
 #include "ui/panels/toolpath_panel.h"
 
 #include "core/base/text.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/assets.h"
-#include "core/project/strategy_path.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/beside.h"
 #include "ui/panels/internal/fields.h"
@@ -56,7 +56,7 @@ void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const std::string_view path = project::row_of(project::strategies(), now.project.toolpath.strategy).label;
     const auto grids = static_cast<int>(options.size());
-    if (project::has_own_path(now.project)) {
+    if (plan::has_own_path(now.project)) {
         options.push_back({"path", path, {}, "The path that the program follows", {}});
     }
     if (const auto chosen = ui.choice("shown",
@@ -87,8 +87,8 @@ std::string_view gap_tip(const Project& project) {
 /// With the change against the uniform grid's; what is measured coarsely so far is marked.
 void error_values(Ui& ui,
                   const Project& project,
-                  const project::Evaluation& shown,
-                  const project::Evaluation& uniform) {
+                  const plan::Evaluation& shown,
+                  const plan::Evaluation& uniform) {
     const grid::ErrorSummary& error = shown.closest;
     const grid::ErrorSummary& before = uniform.closest;
     const std::string mark = actions::is_so_far(shown) || actions::is_so_far(uniform) ? "~ " : "";

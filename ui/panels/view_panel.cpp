@@ -1,6 +1,6 @@
 #include "ui/panels/view_panel.h"
 
-#include "core/project/plan.h"
+#include "core/plan/plan.h"
 #include "core/project/settings.h"
 #include "core/project/surface.h"
 #include "ui/actions/arm_bench.h"
@@ -60,7 +60,7 @@ void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQu
     if (!program || !trajectory || !is_program || now.follows_job()) {
         return;
     }
-    const auto ends_there = [&](const gcode::Block& block) { return block.path_point == wanted.move + 1; };
+    const auto ends_there = [&](const program::Block& block) { return block.path_point == wanted.move + 1; };
     const auto block = std::find_if(program->blocks.begin(), program->blocks.end(), ends_there);
     if (block != program->blocks.end()) {
         const auto n = static_cast<int>(block - program->blocks.begin());
@@ -180,12 +180,12 @@ viewport::Scene scene_of(const Workbench& now) {
         show_import(now, scene);
         return scene;
     }
-    const project::Plan& plan = now.plan->plan;
+    const plan::Plan& plan = now.plan->plan;
     viewport::show_plan(scene, plan);
     scene.shown = now.shown();
     scene.cut = plan.cut_of(now.project, scene.shown.get());
     scene.machine_solids = now.machine_solids;
-    if (now.set_up && project::same_but_for_place(now.set_up->project, now.project)) {
+    if (now.set_up && plan::same_but_for_place(now.set_up->project, now.project)) {
         scene.set_up = now.set_up;
         scene.set_up_place = now.set_up_place();
     }
@@ -280,7 +280,7 @@ void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
 
 /// A drawing that has been moved, turned to other units or made larger stays in sight; a view that a person
 /// has moved stays as it is as long as anything can be seen in it.
-void ViewPanel::follow_plot(const project::PlotResult& made) {
+void ViewPanel::follow_plot(const plan::PlotResult& made) {
     Box3 box;
     for (const auto& cut : made.cuts) {
         if (!cut.path.empty()) {

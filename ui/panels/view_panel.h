@@ -28,12 +28,11 @@ private:
     void fit_file(const Workbench& now, ActionQueue& ask);
     void fit_plot(const Workbench& now, ActionQueue& ask);
     void look_from(render::StandardView side, ActionQueue& ask);
-    void follow_plot(const project::PlotResult& made);
+    void follow_plot(const plan::PlotResult& made);
 
     const actions::Catalogue& catalogue_;
     viewport::Viewport view_;
-    std::map<int, std::shared_ptr<const project::SetUpResult>>
-        set_ups_;             ///< whose map was seen, by Scene::sight
+    std::map<int, std::shared_ptr<const plan::SetUpResult>> set_ups_; ///< whose map was seen, by Scene::sight
     bool growing_ = false;    ///< an opened file was fitted before all of it was there
     Box3 plot_box_;           ///< where a plot lay when its view was fitted
     bool showed_arm_ = false; ///< when the Machine workspace was seen last

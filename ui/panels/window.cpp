@@ -159,7 +159,7 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
 bool Window::no_jog(const Workbench& now) {
     const bool stop_key = now.session.workspace == actions::Workspace::arm && now.session.hand.arm_keys &&
                           render::key_pressed(render::Key::slash);
-    const bool jogging = now.controller.status.activity == machine::Activity::jog;
+    const bool jogging = now.controller.status.activity == drivers::Activity::jog;
     return stop_key || (now.controller.connected() && !jogging && !at_rest(now.controller).allowed);
 }
 
@@ -191,7 +191,7 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
 void Window::forget_machine_notices(const Workbench& now) {
     const actions::ControllerView& machine = now.controller;
     const MachineSeen seen{machine.connected(),
-                           machine.connected() && machine.status.state == machine::DriverState::alarm,
+                           machine.connected() && machine.status.state == drivers::DriverState::alarm,
                            now.job.running};
     const MachineSeen before = std::exchange(machine_seen_, seen);
     if ((before.alarm && !seen.alarm) || (!before.connected && seen.connected) || (!before.job && seen.job)) {

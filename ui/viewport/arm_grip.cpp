@@ -1,6 +1,6 @@
 #include "ui/viewport/arm_grip.h"
 
-#include "core/kinematics/arm_forward.h"
+#include "core/arm/arm_forward.h"
 #include "ui/render/convert.h"
 
 #include <glm/geometric.hpp>
@@ -13,9 +13,9 @@ namespace millwright::viewport {
 
 namespace {
 
-using kinematics::ArmCarrier;
-using kinematics::ArmPart;
-using kinematics::JointPositions;
+using arm::ArmCarrier;
+using arm::ArmPart;
+using arm::JointPositions;
 
 /// The joint that a person means who takes hold of a part; -1 of what does not move.
 int joint_of(const ArmPart& part) {
@@ -69,7 +69,7 @@ double distance_to(const geometry::SolidBody& body, const Vec3& origin, const Ve
 Vec3 point_of_link(
     const ArmScene& scene, JointPositions joints, int joint, double position, const Vec3& local) {
     joints[joint] = position;
-    return kinematics::base_T_joints(scene.look->arm(), joints)[static_cast<std::size_t>(joint)] * local;
+    return arm::base_T_joints(scene.look->arm(), joints)[static_cast<std::size_t>(joint)] * local;
 }
 
 std::optional<glm::dvec2> projected_pixel(const render::View& view, const Vec3& point) {
@@ -81,8 +81,8 @@ std::optional<glm::dvec2> projected_pixel(const render::View& view, const Vec3& 
 
 std::optional<ArmGrip>
 pick_arm(const ArmScene& scene, const render::View& view, const glm::dvec2& pixel, double within_px) {
-    const kinematics::ArmModel& arm = scene.look->arm();
-    const Vec3 tip = kinematics::base_T_tool(arm, scene.joints).translation();
+    const arm::ArmModel& arm = scene.look->arm();
+    const Vec3 tip = arm::base_T_tool(arm, scene.joints).translation();
     if (const auto seen = projected_pixel(view, tip); seen && glm::length(*seen - pixel) <= within_px) {
         return ArmGrip{ArmGrip::tip, tip};
     }
@@ -98,8 +98,7 @@ pick_arm(const ArmScene& scene, const render::View& view, const glm::dvec2& pixe
     const render::Ray sight = render::ray(view, pixel);
     const Vec3 origin = render::to_core(sight.origin), direction = render::to_core(sight.direction);
     const auto& parts = scene.look->file.bodies->parts;
-    const std::vector<Frame> places =
-        kinematics::base_T_parts(arm, scene.look->file.actuators, parts, scene.joints);
+    const std::vector<Frame> places = arm::base_T_parts(arm, scene.look->file.actuators, parts, scene.joints);
     double nearest = std::numeric_limits<double>::infinity();
     int joint = -1;
     for (std::size_t n = 0; n < parts.size(); ++n) {
@@ -120,8 +119,8 @@ double joint_towards(
     constexpr int rounds = 24;
     constexpr double small = 1e-5;  // rad or mm, for the difference
     constexpr double slow_px = 1.0; // a point that moves less a radian goes along the line of sight
-    const kinematics::ArmJoint& limits = scene.look->arm().joint(joint);
-    const bool turns = limits.kind == kinematics::JointKind::revolute;
+    const arm::ArmJoint& limits = scene.look->arm().joint(joint);
+    const bool turns = limits.kind == arm::JointKind::revolute;
     const double largest = turns ? 0.2 : 50.0;
     double position = scene.joints[joint];
     for (int n = 0; n < rounds; ++n) {

@@ -1,6 +1,6 @@
 #include "ui/viewport/arm_hand.h"
 
-#include "core/kinematics/arm_forward.h"
+#include "core/arm/arm_forward.h"
 #include "ui/viewport/internal/pointer_pixel.h"
 #include "ui/viewport/navigation.h"
 
@@ -64,7 +64,7 @@ void ArmHand::press(const ArmHandInput& input) {
                       Frame::Identity(),
                       pressed_);
     } else {
-        const auto joints = kinematics::base_T_joints(input.scene.look->arm(), before_);
+        const auto joints = arm::base_T_joints(input.scene.look->arm(), before_);
         local_ = joints[static_cast<std::size_t>(grip_->joint)].inverse() * grip_->at;
     }
 }

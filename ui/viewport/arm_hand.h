@@ -44,7 +44,7 @@ private:
     bool wants_fit_ = false;
     glm::dvec2 pressed_{};
     Vec3 local_ = Vec3::Zero(); ///< of a link: where it is held, in its joint's frame
-    kinematics::JointPositions before_;
+    arm::JointPositions before_;
     std::optional<PointDrag> drag_; ///< of the tip
 };
 

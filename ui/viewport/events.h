@@ -43,7 +43,7 @@ enum class DragStage { going_on, finished, cancelled };
 /// The tip of an arm is being dragged: one event a frame. `before`: the joints when it was taken hold of.
 struct MoveArmTip {
     Vec3 tip = Vec3::Zero(); ///< where it is to be
-    kinematics::JointPositions before;
+    arm::JointPositions before;
     DragStage stage = DragStage::going_on;
 };
 
@@ -51,7 +51,7 @@ struct MoveArmTip {
 struct TurnArmJoint {
     int joint = 0;
     double position = 0.0; ///< where the joint is to be, rad or mm
-    kinematics::JointPositions before;
+    arm::JointPositions before;
     DragStage stage = DragStage::going_on;
 };
 

@@ -219,7 +219,7 @@ std::optional<SurfaceHit> SurfacePicker::hit(const render::Ray& ray, const Frame
     return nearest;
 }
 
-std::optional<int> pick_face(const project::ReferenceMesh& reference,
+std::optional<int> pick_face(const plan::ReferenceMesh& reference,
                              const render::Ray& ray,
                              const Frame& s_T_w,
                              double farthest_mm) {

@@ -49,7 +49,7 @@ private:
 
 /// The face of the reference that the ray (scene) meets first, no further than `farthest_mm` from the ray's
 /// origin; nothing where it has no faces.
-[[nodiscard]] std::optional<int> pick_face(const project::ReferenceMesh& reference,
+[[nodiscard]] std::optional<int> pick_face(const plan::ReferenceMesh& reference,
                                            const render::Ray& ray,
                                            const Frame& s_T_w,
                                            double farthest_mm);

@@ -34,14 +34,14 @@ struct Part {
     std::string caption;
 };
 
-Moment moment_at(const project::Evaluation& shown, double share) {
+Moment moment_at(const plan::Evaluation& shown, double share) {
     const auto& positions = shown.axes.positions;
     const auto at = static_cast<std::size_t>(share * static_cast<double>(positions.size() - 1));
     return {.axes = positions[at], .move = static_cast<int>(at), .fraction = 0.0};
 }
 
 std::vector<Part> parts_of(const project::Project& project,
-                           const project::Plan& plan,
+                           const plan::Plan& plan,
                            ViewKind kind,
                            const MachineSolids& machine_solids) {
     Part part = {.scene = scene_of(project, plan, kind), .caption = {}};
@@ -125,7 +125,7 @@ private:
 
 } // namespace
 
-void show_plan(Scene& scene, const project::Plan& plan) {
+void show_plan(Scene& scene, const plan::Plan& plan) {
     scene.surface = plan.surface;
     scene.trims = plan.trims;
     scene.workpiece = plan.workpiece;
@@ -133,7 +133,7 @@ void show_plan(Scene& scene, const project::Plan& plan) {
     scene.weight = plan.weight;
 }
 
-Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+Scene scene_of(const project::Project& project, const plan::Plan& plan, ViewKind kind) {
     const auto& chosen = plan.program_path(project);
     Scene scene;
     scene.layers = layers_of(kind);
@@ -145,7 +145,7 @@ Scene scene_of(const project::Project& project, const project::Plan& plan, ViewK
 }
 
 render::Picture render_view(const project::Project& project,
-                            const project::Plan& plan,
+                            const plan::Plan& plan,
                             ViewKind kind,
                             const PixelSize& size,
                             render::Theme theme,

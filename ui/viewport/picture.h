@@ -2,7 +2,7 @@
 // Needs no display.
 #pragma once
 
-#include "core/project/plan.h"
+#include "core/plan/plan.h"
 #include "ui/render/camera.h"
 #include "ui/render/picture.h"
 #include "ui/render/view_colors.h"
@@ -14,10 +14,10 @@ namespace millwright::viewport {
 using MachineSolids = std::shared_ptr<const std::vector<geometry::SolidBody>>;
 
 /// Puts what every view has of a plan into `scene`: the surface with its outlines, workpiece, poles, weight.
-void show_plan(Scene& scene, const project::Plan& plan);
+void show_plan(Scene& scene, const plan::Plan& plan);
 
 /// All of `plan` as one view shows it at first, on the grid that the project chose.
-[[nodiscard]] Scene scene_of(const project::Project& project, const project::Plan& plan, ViewKind kind);
+[[nodiscard]] Scene scene_of(const project::Project& project, const plan::Plan& plan, ViewKind kind);
 
 /// How a view is drawn, beside its contents.
 struct PictureLook {
@@ -30,7 +30,7 @@ struct PictureLook {
 /// there is no EGL or no OpenGL 3.3, or where the path has no produced surface to show; Defect if the size
 /// has no area.
 [[nodiscard]] render::Picture render_view(const project::Project& project,
-                                          const project::Plan& plan,
+                                          const plan::Plan& plan,
                                           ViewKind kind,
                                           const render::PixelSize& size,
                                           render::Theme theme,

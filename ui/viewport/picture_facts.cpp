@@ -3,7 +3,7 @@
 #include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/project/strategy_path.h"
+#include "core/plan/strategy_path.h"
 
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ std::string reachable_length_text(double length, int decimals) {
     return std::isfinite(length) ? fixed(length, std::abs(length) < 1000.0 ? decimals : 1) : "out of reach";
 }
 
-std::vector<std::string> error_row(std::string_view name, const project::Evaluation& evaluation) {
+std::vector<std::string> error_row(std::string_view name, const plan::Evaluation& evaluation) {
     const grid::ErrorSummary& errors = evaluation.closest;
     return {std::string(name),
             reachable_length_text(errors.max, 3),
@@ -34,7 +34,7 @@ std::vector<std::string> error_row(std::string_view name, const project::Evaluat
             evaluation.track_gap ? reachable_length_text(*evaluation.track_gap, 2) : "-"};
 }
 
-void add_errors(PictureFacts& facts, const project::Project& project, const project::Plan& plan) {
+void add_errors(PictureFacts& facts, const project::Project& project, const plan::Plan& plan) {
     facts.columns = {"error", "max mm", "mean mm", "by length mm", "95 % mm", "axis \u00B0", "track gap mm"};
     if (plan.uniform) {
         facts.rows.push_back(error_row(title(GridMethod::uniform), *plan.uniform));
@@ -45,7 +45,7 @@ void add_errors(PictureFacts& facts, const project::Project& project, const proj
     }
 }
 
-void add_design(PictureFacts& facts, const project::Plan& plan) {
+void add_design(PictureFacts& facts, const plan::Plan& plan) {
     if (!plan.surface) {
         return;
     }
@@ -61,7 +61,7 @@ void add_design(PictureFacts& facts, const project::Plan& plan) {
                           std::to_string(plan.surface->patch_count())});
 }
 
-std::string subtitle(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+std::string subtitle(const project::Project& project, const plan::Plan& plan, ViewKind kind) {
     std::string text(title(kind));
     if (plan.workpiece) {
         text += "  \u00B7  " + plan.workpiece->machine.name();
@@ -82,11 +82,11 @@ std::string_view title(GridMethod method) {
 }
 
 std::string program_title(const project::Project& project) {
-    return project::has_own_path(project) ? project::strategy_text(project)
-                                          : std::string(title(project::program_grid(project)));
+    return plan::has_own_path(project) ? plan::strategy_text(project)
+                                       : std::string(title(plan::program_grid(project)));
 }
 
-PictureFacts picture_facts(const project::Project& project, const project::Plan& plan, ViewKind kind) {
+PictureFacts picture_facts(const project::Project& project, const plan::Plan& plan, ViewKind kind) {
     PictureFacts facts;
     facts.title = project.name;
     facts.subtitle = subtitle(project, plan, kind);

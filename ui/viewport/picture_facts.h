@@ -1,7 +1,7 @@
 // What a picture of a view says in words: the figures that are always shown together, before and after.
 #pragma once
 
-#include "core/project/plan.h"
+#include "core/plan/plan.h"
 #include "ui/viewport/scene.h"
 
 #include <string>
@@ -25,6 +25,6 @@ struct PictureFacts {
 /// Of the design the part's size and net; of all other views the errors on the machine, uniform grid first.
 /// Results that the plan lacks are left out.
 [[nodiscard]] PictureFacts
-picture_facts(const project::Project& project, const project::Plan& plan, ViewKind kind);
+picture_facts(const project::Project& project, const plan::Plan& plan, ViewKind kind);
 
 } // namespace millwright::viewport

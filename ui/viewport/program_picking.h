@@ -1,7 +1,7 @@
 // Which piece of a long path lies under a pixel.
 #pragma once
 
-#include "core/gcode/reader/preview_path.h"
+#include "core/gcode/preview_path.h"
 #include "ui/render/view.h"
 
 #include <cstddef>

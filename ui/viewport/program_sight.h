@@ -1,7 +1,7 @@
 // Which points of a long path a picture shows: at most so many, those whose absence would be seen most.
 #pragma once
 
-#include "core/gcode/reader/preview_path.h"
+#include "core/gcode/preview_path.h"
 #include "ui/render/view.h"
 
 #include <cstdint>

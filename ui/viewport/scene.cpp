@@ -171,7 +171,7 @@ SurfaceColors surface_colors(const Scene& scene) {
 
 render::ColorScale weight_colors(const Scene& scene) {
     expects(scene.weight != nullptr, "there is a weight to be coloured");
-    const project::WeightMap& weight = *scene.weight;
+    const plan::WeightMap& weight = *scene.weight;
     const bool constant = !(weight.high > weight.low); // its legend has a range all the same
     const double above = constant ? std::max(std::abs(weight.low), 1.0) : 0.0;
     return {.map = scene.error.map == render::ColorMap::viridis ? render::ColorMap::cividis

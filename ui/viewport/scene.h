@@ -8,13 +8,13 @@
 #include "core/geometry/solid.h"
 #include "core/geometry/surface.h"
 #include "core/grid/improver.h"
-#include "core/project/cut_study.h"
-#include "core/project/evaluation.h"
-#include "core/project/opened_program.h"
-#include "core/project/plot_work.h"
-#include "core/project/reference_mesh.h"
-#include "core/project/set_up_work.h"
-#include "core/project/weight_map.h"
+#include "core/plan/cut_study.h"
+#include "core/plan/evaluation.h"
+#include "core/plan/opened_program.h"
+#include "core/plan/plot_work.h"
+#include "core/plan/reference_mesh.h"
+#include "core/plan/set_up_work.h"
+#include "core/plan/weight_map.h"
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
 #include "ui/render/color_map.h"
@@ -130,22 +130,22 @@ struct Scene {
     Layers layers;
     std::shared_ptr<const geometry::Surface> surface;
     std::shared_ptr<const std::vector<geometry::Trim>> trims = nullptr; ///< one a patch; null: all whole
-    std::shared_ptr<const project::ReferenceMesh> reference = nullptr;
-    std::shared_ptr<const project::Workpiece> workpiece;
+    std::shared_ptr<const plan::ReferenceMesh> reference = nullptr;
+    std::shared_ptr<const plan::Workpiece> workpiece;
     std::vector<toolpath::SingularPoint> singular_points;
     /// Bodies of the workpiece's machine in place of the simple ones; null: it has none.
     std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids = nullptr;
-    std::shared_ptr<const project::Evaluation> shown; ///< grid, path and errors that are drawn
-    std::shared_ptr<const project::Evaluation> start; ///< the grid it began with
+    std::shared_ptr<const plan::Evaluation> shown; ///< grid, path and errors that are drawn
+    std::shared_ptr<const plan::Evaluation> start; ///< the grid it began with
     std::shared_ptr<const grid::ImproverState>
         watched; ///< an adaptation on its way; drawn in place of the grid
-    std::shared_ptr<const project::WeightMap> weight;
-    std::shared_ptr<const project::CutStudy> cut = nullptr;           ///< of the program
-    std::shared_ptr<const project::SetUpResult> set_up = nullptr;     ///< of the last search
+    std::shared_ptr<const plan::WeightMap> weight;
+    std::shared_ptr<const plan::CutStudy> cut = nullptr;              ///< of the program
+    std::shared_ptr<const plan::SetUpResult> set_up = nullptr;        ///< of the last search
     toolpath::SetUpPlace set_up_place = toolpath::SetUpPlace::Zero(); ///< that is marked on its map
-    std::shared_ptr<const project::OpenedProgram> opened = nullptr;   ///< in place of everything above
+    std::shared_ptr<const plan::OpenedProgram> opened = nullptr;      ///< in place of everything above
     std::optional<ProgramMoment> opened_now = std::nullopt;
-    std::shared_ptr<const project::PlotResult> plot = nullptr; ///< its paths in place of the program's
+    std::shared_ptr<const plan::PlotResult> plot = nullptr; ///< its paths in place of the program's
     std::optional<Vec3> table_tip = std::nullopt; ///< mm, of a table that is played to: there the tool is
     bool against_light = false;                   ///< the finished plot as light goes through
     bool picture_shown = false; ///< in place of it, the picture that it was made of, below the path

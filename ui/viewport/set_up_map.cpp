@@ -8,14 +8,14 @@ using toolpath::SetUpParameter;
 
 std::vector<double> for_people(SetUpParameter parameter, std::vector<double> values) {
     for (double& value : values) {
-        value = project::for_people(parameter, value);
+        value = plan::for_people(parameter, value);
     }
     return values;
 }
 
 widgets::MapPlace on_map(const toolpath::SetUpMap& map, const toolpath::SetUpPlace& place) {
     const auto at = [&](SetUpParameter parameter) {
-        return project::for_people(parameter, place[static_cast<Eigen::Index>(parameter)]);
+        return plan::for_people(parameter, place[static_cast<Eigen::Index>(parameter)]);
     };
     return {at(map.across), at(map.up)};
 }
@@ -32,10 +32,10 @@ SetUpMapView::SetUpMapView(const toolpath::SetUpMap& map,
                            const toolpath::SetUpPlace& chosen)
     : x(for_people(map.across, map.x)), y(for_people(map.up, map.y)) {
     view.title = title(goal);
-    view.x_label = project::name(map.across);
-    view.x_unit = project::unit(map.across);
-    view.y_label = project::name(map.up);
-    view.y_unit = project::unit(map.up);
+    view.x_label = plan::name(map.across);
+    view.x_unit = plan::unit(map.across);
+    view.y_label = plan::name(map.up);
+    view.y_unit = plan::unit(map.up);
     view.unit = "mm";
     view.when_empty = "No place of the map is in reach.";
     view.x = x;

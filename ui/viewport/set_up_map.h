@@ -2,7 +2,7 @@
 // pictures of the command line.
 #pragma once
 
-#include "core/project/set_up_study.h"
+#include "core/plan/set_up_study.h"
 #include "ui/widgets/heat_map.h"
 
 #include <vector>

@@ -54,7 +54,7 @@ void set_path_acceleration(Leg& leg, const Mechanism& machine, double path_accel
 void set_feed(Leg& leg,
               const Mechanism& machine,
               const PlannerSettings& settings,
-              const gcode::Block& block,
+              const program::Block& block,
               const AxisPositions& from,
               const AxisPositions& to) {
     const double top = leg.speed;
@@ -97,7 +97,7 @@ unit_of(const std::vector<AxisLimits>& limits, const AxisPositions& from, const 
 Leg leg_of(const Mechanism& machine,
            const std::vector<AxisLimits>& limits,
            const PlannerSettings& settings,
-           const gcode::Block& block,
+           const program::Block& block,
            const AxisPositions& from,
            const AxisPositions& to,
            double path_acceleration) {
@@ -107,7 +107,7 @@ Leg leg_of(const Mechanism& machine,
     leg.length = leg.unit.norm();
     leg.unit /= leg.length;
     leg.direction = step / leg.length;
-    leg.rapid = block.kind == gcode::BlockKind::rapid;
+    leg.rapid = block.kind == program::BlockKind::rapid;
     leg.path = block.path.value_or(settings.path);
     set_axis_limits(leg, limits);
     set_path_acceleration(leg, machine, path_acceleration);

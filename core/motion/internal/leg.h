@@ -1,9 +1,9 @@
 // One move on its own: direction, limits and the speeds that the program asks for along it.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
+#include "core/program/program.h"
 
 #include <limits>
 #include <vector>
@@ -29,7 +29,7 @@ struct Leg {
     Cause speed_cause, acceleration_cause;
     double path_acceleration =
         std::numeric_limits<double>::infinity(); ///< of the linear axes together, mm/s2
-    gcode::PathControl path;
+    program::PathControl path;
 };
 
 /// The direction from `from` to `to` in scaled axes, of length 1.
@@ -45,7 +45,7 @@ struct Leg {
 [[nodiscard]] Leg leg_of(const Mechanism& machine,
                          const std::vector<AxisLimits>& limits,
                          const PlannerSettings& settings,
-                         const gcode::Block& block,
+                         const program::Block& block,
                          const kinematics::AxisPositions& from,
                          const kinematics::AxisPositions& to,
                          double path_acceleration = std::numeric_limits<double>::infinity());

@@ -1,7 +1,7 @@
 #include "core/motion/internal/mechanism.h"
 
+#include "core/arm/arm_forward.h"
 #include "core/base/numbers.h"
-#include "core/kinematics/arm_forward.h"
 
 #include <cmath>
 #include <utility>
@@ -14,12 +14,12 @@ using kinematics::MachineAxis;
 
 namespace {
 
-std::vector<MachineAxis> axes_of(const kinematics::ArmModel& arm) {
+std::vector<MachineAxis> axes_of(const arm::ArmModel& arm) {
     std::vector<MachineAxis> axes;
-    for (const kinematics::ArmJoint& joint : arm.description().joints) {
+    for (const arm::ArmJoint& joint : arm.description().joints) {
         MachineAxis axis;
         axis.letter = static_cast<char>('1' + axes.size());
-        axis.kind = joint.kind == kinematics::JointKind::revolute ? AxisKind::rotary : AxisKind::linear;
+        axis.kind = joint.kind == arm::JointKind::revolute ? AxisKind::rotary : AxisKind::linear;
         axis.min = joint.min;
         axis.max = joint.max;
         axis.max_velocity = joint.max_velocity;
@@ -68,15 +68,14 @@ double MachineMechanism::sliding(const AxisPositions&, const AxisPositions& chan
     return sum.norm();
 }
 
-ArmMechanism::ArmMechanism(const kinematics::ArmModel& arm)
-    : Mechanism(arm.name(), axes_of(arm)), arm_(arm) {}
+ArmMechanism::ArmMechanism(const arm::ArmModel& arm) : Mechanism(arm.name(), axes_of(arm)), arm_(arm) {}
 
 Vec3 ArmMechanism::tip(const AxisPositions& positions) const {
-    return kinematics::base_T_tool(arm_, positions).translation();
+    return arm::base_T_tool(arm_, positions).translation();
 }
 
 kinematics::Jacobian ArmMechanism::jacobian(const AxisPositions& positions) const {
-    return kinematics::arm_jacobian(arm_, positions);
+    return arm::arm_jacobian(arm_, positions);
 }
 
 double ArmMechanism::sliding(const AxisPositions& positions, const AxisPositions& change) const {

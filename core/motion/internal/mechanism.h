@@ -2,7 +2,7 @@
 // goes with them. Lengths mm, angles rad.
 #pragma once
 
-#include "core/kinematics/arm_model.h"
+#include "core/arm/arm_model.h"
 #include "core/kinematics/forward.h"
 
 #include <string>
@@ -61,7 +61,7 @@ private:
 /// it.
 class ArmMechanism final : public Mechanism {
 public:
-    explicit ArmMechanism(const kinematics::ArmModel& arm);
+    explicit ArmMechanism(const arm::ArmModel& arm);
 
     [[nodiscard]] Vec3 tip(const kinematics::AxisPositions& positions) const override;
     [[nodiscard]] kinematics::Jacobian jacobian(const kinematics::AxisPositions& positions) const override;
@@ -69,7 +69,7 @@ public:
                                  const kinematics::AxisPositions& change) const override;
 
 private:
-    const kinematics::ArmModel& arm_;
+    const arm::ArmModel& arm_;
 };
 
 } // namespace millwright::motion::internal

@@ -12,15 +12,15 @@ namespace millwright::motion::internal {
 
 namespace {
 
-bool may_round(const gcode::Program& program, const PlannerSettings& settings) {
-    return std::ranges::any_of(program.blocks, [&](const gcode::Block& block) {
-        return block.moves() && block.path.value_or(settings.path).mode == gcode::PathMode::continuous;
+bool may_round(const program::Program& program, const PlannerSettings& settings) {
+    return std::ranges::any_of(program.blocks, [&](const program::Block& block) {
+        return block.moves() && block.path.value_or(settings.path).mode == program::PathMode::continuous;
     });
 }
 
 } // namespace
 
-Path lay_out(const gcode::Program& program,
+Path lay_out(const program::Program& program,
              const Mechanism& machine,
              const PlannerSettings& settings,
              const kinematics::AxisPositions& start,
@@ -49,16 +49,16 @@ Path lay_out(const gcode::Program& program,
     if (may_round(program, settings)) {
         chosen = 0.75;
         RoundingChoice choice(machine, settings, start, filter.seconds(), true);
-        for_each_block(progress.part(0.0, chosen), [&](int, const gcode::Block& block, double acceleration) {
-            choice.add(block, acceleration);
-        });
+        for_each_block(
+            progress.part(0.0, chosen),
+            [&](int, const program::Block& block, double acceleration) { choice.add(block, acceleration); });
         static_cast<void>(choice.finish());
         sections = choice.sections();
     }
     RoadBuilder builder(machine, settings, filter.seconds(), start, true);
     builder.reserve(program.blocks.size());
     auto section = sections.begin();
-    for_each_block(progress.part(chosen, 1.0), [&](int n, const gcode::Block& block, double acceleration) {
+    for_each_block(progress.part(chosen, 1.0), [&](int n, const program::Block& block, double acceleration) {
         for (; section != sections.end() && section->first <= n; ++section) {
             builder.set_rounding_bounds(section->bounds);
         }

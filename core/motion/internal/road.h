@@ -1,16 +1,16 @@
 // From a program to the way of its axes: lengths, limits and corners of every block.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/planner.h"
+#include "core/program/program.h"
 
 #include <span>
 
 namespace millwright::motion::internal {
 
 /// As plan() and, where there are `accelerations`, plan_within() describe. Throws what they throw.
-[[nodiscard]] Path lay_out(const gcode::Program& program,
+[[nodiscard]] Path lay_out(const program::Program& program,
                            const Mechanism& machine,
                            const PlannerSettings& settings,
                            const kinematics::AxisPositions& start,

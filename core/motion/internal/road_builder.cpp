@@ -13,9 +13,9 @@
 
 namespace millwright::motion::internal {
 
-using gcode::Block;
-using gcode::BlockKind;
 using kinematics::AxisPositions;
+using program::Block;
+using program::BlockKind;
 
 namespace {
 
@@ -81,32 +81,32 @@ bool keeps_moving(BlockKind kind) {
     return kind == BlockKind::comment || kind == BlockKind::rapid || kind == BlockKind::feed;
 }
 
-Meeting meeting_of(const gcode::PathControl& last_path,
+Meeting meeting_of(const program::PathControl& last_path,
                    const AxisPositions& last_unit,
                    bool last_rapid,
                    const AxisPositions& next_unit,
                    bool next_rapid) {
     constexpr double straight = 1e-15; // rounding of a unit vector
     const bool turns = (next_unit - last_unit).cwiseAbs().maxCoeff() > straight;
-    const bool rounded = last_path.mode == gcode::PathMode::continuous && turns;
-    if (last_path.mode == gcode::PathMode::exact_stop || (rounded && last_rapid != next_rapid)) {
+    const bool rounded = last_path.mode == program::PathMode::continuous && turns;
+    if (last_path.mode == program::PathMode::exact_stop || (rounded && last_rapid != next_rapid)) {
         return Meeting::rest;
     }
     return rounded ? Meeting::rounding : Meeting::corner;
 }
 
-double rounding_tolerance_of(const gcode::PathControl& path, const PlannerSettings& settings) {
+double rounding_tolerance_of(const program::PathControl& path, const PlannerSettings& settings) {
     return path.tolerance > 0.0 ? path.tolerance : settings.rounding_tolerance;
 }
 
-void check_axes(const std::vector<gcode::ProgramAxis>& axes,
+void check_axes(const std::vector<program::ProgramAxis>& axes,
                 const std::string& machine_of_program,
                 const Mechanism& machine) {
     std::string wanted;
     std::string there;
     bool same = static_cast<int>(axes.size()) == machine.axis_count();
     for (int n = 0; n < static_cast<int>(axes.size()); ++n) {
-        const gcode::ProgramAxis& axis = axes[static_cast<std::size_t>(n)];
+        const program::ProgramAxis& axis = axes[static_cast<std::size_t>(n)];
         wanted += axis.letter;
         same = same && axis.letter == machine.axis(n).letter && axis.kind == machine.axis(n).kind;
     }

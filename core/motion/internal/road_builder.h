@@ -2,12 +2,12 @@
 // forgotten, so that a program of any length is laid in little memory.
 #pragma once
 
-#include "core/gcode/program.h"
 #include "core/motion/internal/leg.h"
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/profile.h"
 #include "core/motion/internal/rounding.h"
 #include "core/motion/planner.h"
+#include "core/program/program.h"
 
 #include <cstddef>
 #include <limits>
@@ -18,7 +18,7 @@
 namespace millwright::motion::internal {
 
 /// Throws Error if the program's axes are not the machine's.
-void check_axes(const std::vector<gcode::ProgramAxis>& axes,
+void check_axes(const std::vector<program::ProgramAxis>& axes,
                 const std::string& machine_of_program,
                 const Mechanism& machine);
 /// Throws Defect for a setting out of range, or a start that is none of the machine's.
@@ -27,21 +27,21 @@ void check_settings(const PlannerSettings& settings,
                     const kinematics::AxisPositions& start);
 
 /// Where a block goes. Throws Defect if that is not finite.
-[[nodiscard]] kinematics::AxisPositions position_after(const gcode::Block& block,
+[[nodiscard]] kinematics::AxisPositions position_after(const program::Block& block,
                                                        const kinematics::AxisPositions& before);
 
 /// Whether the axes go on moving.
-[[nodiscard]] bool keeps_moving(gcode::BlockKind kind);
+[[nodiscard]] bool keeps_moving(program::BlockKind kind);
 
 /// How two moves meet.
 enum class Meeting { rest, rounding, corner };
-[[nodiscard]] Meeting meeting_of(const gcode::PathControl& last_path,
+[[nodiscard]] Meeting meeting_of(const program::PathControl& last_path,
                                  const kinematics::AxisPositions& last_unit,
                                  bool last_rapid,
                                  const kinematics::AxisPositions& next_unit,
                                  bool next_rapid);
 /// mm, of a continuous path.
-[[nodiscard]] double rounding_tolerance_of(const gcode::PathControl& path, const PlannerSettings& settings);
+[[nodiscard]] double rounding_tolerance_of(const program::PathControl& path, const PlannerSettings& settings);
 
 class RoadBuilder {
 public:
@@ -58,7 +58,7 @@ public:
     void set_rounding_bounds(const RoundingBounds& bounds) { bounds_ = bounds; }
     /// The linear axes together accelerate along it by `path_acceleration` mm/s2 at most. Throws what plan()
     /// throws for a block.
-    void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
+    void add(const program::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
     /// No more blocks come: the last move ends at rest.
     void finish() { stop(); }
 
@@ -94,7 +94,7 @@ private:
     Segment& segment_of(const Leg& leg) {
         return path_.segments[static_cast<std::size_t>(leg.block - forgotten_)];
     }
-    void add_move(const gcode::Block& block,
+    void add_move(const program::Block& block,
                   const kinematics::AxisPositions& before,
                   const kinematics::AxisPositions& after,
                   double path_acceleration);

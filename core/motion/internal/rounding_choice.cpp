@@ -5,8 +5,8 @@
 
 namespace millwright::motion::internal {
 
-using gcode::Block;
 using kinematics::AxisPositions;
+using program::Block;
 
 RoundingChoice::RoundingChoice(const Mechanism& machine,
                                const PlannerSettings& settings,
@@ -54,7 +54,7 @@ void RoundingChoice::add(const Block& block, double path_acceleration) {
     const bool moves = (after - at_).cwiseAbs().maxCoeff() > 0.0;
     if (moves) {
         const Straight next{unit_of(limits_, at_, after),
-                            block.kind == gcode::BlockKind::rapid,
+                            block.kind == program::BlockKind::rapid,
                             block.path.value_or(settings_.path)};
         if (last_) {
             meet(next);

@@ -27,7 +27,7 @@ public:
                    double filter_time,
                    bool keep);
 
-    void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
+    void add(const program::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
     /// Of all blocks, s, with the fastest roundings. Nothing is added after it.
     [[nodiscard]] double finish();
     /// Blocks that are in memory now, of one choice.
@@ -45,7 +45,7 @@ private:
     struct Straight {
         kinematics::AxisPositions unit;
         bool rapid = false;
-        gcode::PathControl path;
+        program::PathControl path;
     };
 
     const Mechanism& machine_;

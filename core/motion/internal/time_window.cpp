@@ -14,9 +14,9 @@ TimeWindow::TimeWindow(const Mechanism& machine,
                        double filter_time)
     : filter_time_(filter_time), road_(machine, settings, filter_time, start, false) {}
 
-void TimeWindow::add(const gcode::Block& block, double path_acceleration) {
+void TimeWindow::add(const program::Block& block, double path_acceleration) {
     road_.add(block, path_acceleration);
-    if (block.kind == gcode::BlockKind::dwell && block.duration > 0.0) {
+    if (block.kind == program::BlockKind::dwell && block.duration > 0.0) {
         time_ += block.duration;
     }
     if (road_.block_count() >= full_) {

@@ -18,7 +18,7 @@ public:
     /// From the next corner on.
     void set_rounding_bounds(const RoundingBounds& bounds) { road_.set_rounding_bounds(bounds); }
     /// As RoadBuilder::add().
-    void add(const gcode::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
+    void add(const program::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
     /// Of all blocks, s, the last one ending at rest. Nothing is added after it.
     [[nodiscard]] double finish();
     /// Blocks that are in memory now.

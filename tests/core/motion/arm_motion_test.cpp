@@ -1,8 +1,8 @@
 #include "core/motion/arm_motion.h"
 
+#include "core/arm/arm_forward.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "core/motion/planner.h"
 #include "tests/support/arm_ways.h"
 #include "tests/support/arms.h"
@@ -15,10 +15,10 @@
 namespace millwright::motion {
 namespace {
 
-using kinematics::ArmModel;
-using kinematics::ArmPath;
-using kinematics::ArmWay;
-using kinematics::JointPositions;
+using arm::ArmModel;
+using arm::ArmPath;
+using arm::ArmWay;
+using arm::JointPositions;
 using ::testing::HasSubstr;
 
 const Vec3 down = -Vec3::UnitZ();
@@ -47,8 +47,7 @@ TEST(ArmMotion, ALineIsFollowedAtItsFeedWithinItsTolerance) {
     const ArmModel model = arm();
     const Vec3 a(800.0, -200.0, 100.0), b(800.0, 200.0, 100.0);
     const std::vector<ArmWay> ways{test::line_way(a, b, down, 20.0)};
-    const ArmPath path =
-        kinematics::follow_path_well(model, ways, joints_in_degrees(0, -90, 90, 0, 0), {}, {});
+    const ArmPath path = arm::follow_path_well(model, ways, joints_in_degrees(0, -90, 90, 0, 0), {}, {});
     ArmMotion motion(model, path.points.front().joints);
     motion.follow(ways, path, "part.ngc");
     PlannerSettings settings;
@@ -59,10 +58,9 @@ TEST(ArmMotion, ALineIsFollowedAtItsFeedWithinItsTolerance) {
     EXPECT_LE(trajectory.duration(), 21.0);
     for (double time = 0.0; time < trajectory.duration(); time += 0.05) {
         const Sample now = trajectory.at(time);
-        const Vec3 tip = kinematics::base_T_tool(model, now.position).translation();
+        const Vec3 tip = arm::base_T_tool(model, now.position).translation();
         EXPECT_LE(std::hypot(tip.x() - 800.0, tip.z() - 100.0), 0.021) << time;
-        const double speed =
-            (kinematics::arm_jacobian(model, now.position).topRows<3>() * now.velocity).norm();
+        const double speed = (arm::arm_jacobian(model, now.position).topRows<3>() * now.velocity).norm();
         EXPECT_LE(speed, 20.0 * 1.01) << time;
     }
 }
@@ -71,8 +69,7 @@ TEST(ArmMotion, NoJointIsFasterThanItCanWhereThePathIsNearlySingular) {
     const ArmModel model = arm();
     const std::vector<ArmWay> ways{
         test::line_way(Vec3(2.0, -300.0, 700.0), Vec3(2.0, 300.0, 700.0), Vec3::UnitZ(), 200.0)};
-    const ArmPath path =
-        kinematics::follow_path_well(model, ways, joints_in_degrees(0, -90, 90, 0, 0), {}, {});
+    const ArmPath path = arm::follow_path_well(model, ways, joints_in_degrees(0, -90, 90, 0, 0), {}, {});
     ASSERT_TRUE(path.whole());
     ArmMotion motion(model, path.points.front().joints);
     motion.follow(ways, path, "part.ngc");
@@ -92,7 +89,7 @@ TEST(ArmMotion, RefusesWhatTheArmCannotFollowWithItsLine) {
     std::vector<ArmWay> ways{test::line_way(Vec3(1400.0, 0.0, 0.0), Vec3(1500.0, 0.0, 0.0), down)};
     ways.front().line = 17;
     const JointPositions rest = joints_in_degrees(0, -90, 90, 0, 0);
-    const ArmPath path = kinematics::follow_path_well(arm(), ways, rest, {}, {});
+    const ArmPath path = arm::follow_path_well(arm(), ways, rest, {}, {});
     const ArmModel model = arm();
     ArmMotion motion(model, rest);
     try {
@@ -120,7 +117,7 @@ TEST(ArmMotion, SlidingJointsArePlannedInMillimetres) {
     const ArmModel scara = test::arm("scara");
     JointPositions start = JointPositions::Zero(scara.joint_count());
     int slide = 0;
-    while (scara.joint(slide).kind != kinematics::JointKind::prismatic) {
+    while (scara.joint(slide).kind != arm::JointKind::prismatic) {
         ++slide;
     }
     start[slide] = scara.joint(slide).min;

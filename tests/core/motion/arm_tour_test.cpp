@@ -1,10 +1,10 @@
 #include "core/motion/arm_tour.h"
 
+#include "core/arm/arm_file.h"
+#include "core/arm/arm_forward.h"
+#include "core/arm/arm_simulation.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_file.h"
-#include "core/kinematics/arm_forward.h"
-#include "core/kinematics/arm_simulation.h"
 #include "core/motion/planner.h"
 
 #include <gmock/gmock.h>
@@ -15,11 +15,11 @@
 namespace millwright::motion {
 namespace {
 
-using kinematics::ArmModel;
-using kinematics::JointPositions;
+using arm::ArmModel;
+using arm::JointPositions;
 
 ArmModel l3() {
-    return kinematics::read_arm("assets/arms/motoman-l3.json").arm;
+    return arm::read_arm("assets/arms/motoman-l3.json").arm;
 }
 
 JointPositions joints_from_degrees(double a, double b, double c, double d, double e) {
@@ -28,7 +28,7 @@ JointPositions joints_from_degrees(double a, double b, double c, double d, doubl
     return joints;
 }
 
-const JointPositions home = kinematics::arm_home();
+const JointPositions home = arm::arm_home();
 
 JointPositions beside_home(double turn_deg) {
     JointPositions joints = home;
@@ -59,7 +59,7 @@ TEST(ArmTourC6, EndsAtTheLastOfItsPointsAndPassesTheOthers) {
     std::vector<ArmStop> stops = to("A", beside_home(20), false, 1.0);
     add(stops, "B", beside_home(-20), false, 0.5);
     add(stops, "C", beside_home(10), true, 0.4);
-    const gcode::Program program = tour(arm, home, stops);
+    const program::Program program = tour(arm, home, stops);
     const Trajectory motion = plan(program, arm, {}, {});
     EXPECT_LT((motion.at(motion.duration()).position - stops[2].joints).norm(), 1e-6);
     double nearest = 1.0;
@@ -83,12 +83,12 @@ TEST(ArmTourC6, TheTipOfAStraightMoveStaysOnItsLine) {
     const ArmModel arm = l3();
     const JointPositions end = beside_home(30);
     const Trajectory motion = plan(tour(arm, home, to("A", end, true, 1.0)), arm, {}, {});
-    const Vec3 from = kinematics::base_T_tool(arm, home).translation();
-    const Vec3 to = kinematics::base_T_tool(arm, end).translation();
+    const Vec3 from = arm::base_T_tool(arm, home).translation();
+    const Vec3 to = arm::base_T_tool(arm, end).translation();
     double farthest = 0.0, fastest = 0.0;
     Vec3 last = from;
     for (double t = 0.0; t < motion.duration(); t += 0.002) {
-        const Vec3 tip = kinematics::base_T_tool(arm, motion.at(t).position).translation();
+        const Vec3 tip = arm::base_T_tool(arm, motion.at(t).position).translation();
         farthest = std::max(farthest, (tip - from).cross((to - from).normalized()).norm());
         fastest = std::max(fastest, (tip - last).norm() / 0.002);
         last = tip;

@@ -92,7 +92,7 @@ TEST(Hold, GoesOnBlockAfterBlockNearlyAsFastAsAllAtOnce) {
     for (unsigned seed = 1; seed <= 10; ++seed) {
         const MachineModel machine = test::with_jerk(test::machine("ac-table"), 30.0);
         PlannerSettings rounded;
-        rounded.path = {gcode::PathMode::continuous, 0.05};
+        rounded.path = {program::PathMode::continuous, 0.05};
         const Trajectory whole = plan(test::random_program(machine, 300, seed), machine, rounded, {});
         for (const int blocks : {1, 40}) {
             Trajectory now = go_on_for(blocks, whole, 0.0, {});
@@ -117,8 +117,8 @@ TEST(Hold, GoesOnBlockAfterBlockNearlyAsFastAsAllAtOnce) {
 
 TEST(Hold, ContinuesADwellWhereItWasInterrupted) {
     const MachineModel machine = test::machine("rotary-tilt-listing");
-    gcode::Program program = test::empty_program(machine);
-    test::add_block(program, gcode::BlockKind::dwell);
+    program::Program program = test::empty_program(machine);
+    test::add_block(program, program::BlockKind::dwell);
     program.blocks.back().duration = 2.0;
     const Trajectory planned = plan(program, machine, {}, {});
     const Trajectory braking = brake(planned, 0.5);
@@ -128,7 +128,7 @@ TEST(Hold, ContinuesADwellWhereItWasInterrupted) {
 
 TEST(Hold, StopsALongMoveAfterTheTimeThatItsAxisNeeds) {
     const MachineModel machine = test::machine("rotary-tilt-listing");
-    gcode::Program program = test::empty_program(machine);
+    program::Program program = test::empty_program(machine);
     AxisPositions q = program.start;
     q[0] = 400.0;
     test::add_move(program, q);

@@ -17,8 +17,8 @@
 namespace millwright::motion {
 namespace {
 
-using gcode::PathMode;
 using kinematics::MachineModel;
+using program::PathMode;
 
 /// The greatest use of any limit, as a share of it.
 struct Use {

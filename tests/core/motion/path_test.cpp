@@ -17,7 +17,7 @@ using kinematics::MachineModel;
 
 PlannerSettings rounded(double tolerance) {
     PlannerSettings settings;
-    settings.path = {gcode::PathMode::continuous, tolerance};
+    settings.path = {program::PathMode::continuous, tolerance};
     return settings;
 }
 
@@ -70,7 +70,7 @@ TEST(RoundedPath, KeepsTheTipWithinTheToleranceOfTheProgrammedPath) {
 
 TEST(RoundedPath, UsesTheToleranceInASharpCorner) {
     const MachineModel machine = test::machine("router-xyz");
-    gcode::Program program = test::empty_program(machine);
+    program::Program program = test::empty_program(machine);
     AxisPositions q = program.start;
     q[0] = 50.0;
     test::add_move(program, q, 1.0);

@@ -15,9 +15,9 @@
 namespace millwright::motion {
 namespace {
 
-using gcode::Program;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
+using program::Program;
 using test::at_xy;
 using test::listing_machine;
 
@@ -79,7 +79,7 @@ TEST(PlanWithin, StepsInACornerByWhatThatAccelerationReaches) {
 
 TEST(PlanWithin, KeepsToThatAccelerationOnRoundings) {
     PlannerSettings settings;
-    settings.path = {gcode::PathMode::continuous, 0.5};
+    settings.path = {program::PathMode::continuous, 0.5};
     const Program program = feed_program({at_xy(60.0), at_xy(60.0, 60.0), at_xy(20.0, 90.0)}, 1.0);
     const double greatest = greatest_acceleration(within(program, 40.0, settings));
     EXPECT_LE(greatest, 40.0 + 1e-9);

@@ -18,10 +18,10 @@
 namespace millwright::motion {
 namespace {
 
-using gcode::BlockKind;
-using gcode::Program;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
+using program::BlockKind;
+using program::Program;
 using test::listing_machine;
 
 AxisPositions at_xyz(double x, double y = 0.0, double z = 0.0) {
@@ -100,7 +100,7 @@ TEST(Planner, TurnsACornerWithTheAllowedStepAndNoMore) {
 
 TEST(Planner, StopsInEveryCornerIfAskedTo) {
     PlannerSettings exact;
-    exact.path.mode = gcode::PathMode::exact_stop;
+    exact.path.mode = program::PathMode::exact_stop;
     const double one = planned_path(moves({at_xyz(50.0)})).duration();
     EXPECT_NEAR(planned_path(moves({at_xyz(50.0), at_xyz(100.0), at_xyz(100.0, 50.0)}), exact).duration(),
                 3.0 * one,
@@ -111,14 +111,14 @@ TEST(Planner, ObeysThePathModeOfEachBlock) {
     const double one = planned_path(moves({at_xyz(50.0)})).duration();
     const double through = planned_path(moves({at_xyz(100.0)})).duration();
     Program program = moves({at_xyz(50.0), at_xyz(100.0), at_xyz(150.0)});
-    program.blocks[0].path = gcode::PathControl{gcode::PathMode::exact_stop, 0.0};
+    program.blocks[0].path = program::PathControl{program::PathMode::exact_stop, 0.0};
     EXPECT_NEAR(planned_path(program).duration(), one + through, planner_rounding_s);
 }
 
 TEST(Planner, RoundsACornerWithoutAnyStepOfVelocity) {
     Program program = moves({at_xyz(50.0), at_xyz(50.0, 50.0)}, 1.0);
     const double exact = planned_path(program).duration();
-    program.blocks[0].path = gcode::PathControl{gcode::PathMode::continuous, 0.1};
+    program.blocks[0].path = program::PathControl{program::PathMode::continuous, 0.1};
     const Trajectory rounded = planned_path(program);
     EXPECT_LT(rounded.duration(), exact);
     const double corner = rounded.end_of(0);
@@ -130,7 +130,7 @@ TEST(Planner, RoundsACornerWithoutAnyStepOfVelocity) {
 TEST(Planner, RestsBetweenRapidAndFeedOfAContinuousPath) {
     Program program = moves({at_xyz(50.0)});
     test::add_move(program, at_xyz(50.0, 50.0), 1.0);
-    program.blocks[0].path = gcode::PathControl{gcode::PathMode::continuous, 1.0};
+    program.blocks[0].path = program::PathControl{program::PathMode::continuous, 1.0};
     const Trajectory trajectory = planned_path(program);
     EXPECT_EQ(trajectory.at(trajectory.end_of(0)).velocity.norm(), 0.0);
     EXPECT_EQ(trajectory.at(trajectory.end_of(0)).position, at_xyz(50.0));
@@ -188,7 +188,7 @@ TEST(Planner, SaysThatTheJerkKeepsAMoveFromBeingFaster) {
 /// The axes rest in a pause, exactly where the block before it ends.
 void expect_rest_in_pauses(const Program& program, const Trajectory& trajectory, unsigned seed) {
     for (int n = trajectory.first_block() + 1; n <= trajectory.last_block(); ++n) {
-        const gcode::Block& block = program.blocks[static_cast<std::size_t>(n)];
+        const program::Block& block = program.blocks[static_cast<std::size_t>(n)];
         if (block.kind == BlockKind::pause) {
             const Sample rest = trajectory.at(trajectory.end_of(n));
             // The end of braking, to the rounding of its time.
@@ -203,12 +203,12 @@ TEST(Planner, RestsInEveryPauseWhateverComesAfterIt) {
         const MachineModel model = test::with_jerk(listing_machine(), seed % 2 == 0 ? 30.0 : 1e9);
         Program program = test::random_program(model, 200, seed);
         for (std::size_t n = 10; n < program.blocks.size(); n += 7) { // instead of nothing that stops
-            gcode::Block& block = program.blocks[n];
+            program::Block& block = program.blocks[n];
             block.target = program.blocks[n - 1].target;
             block.kind = BlockKind::pause;
         }
         PlannerSettings settings;
-        settings.path = {seed % 3 == 0 ? gcode::PathMode::exact_path : gcode::PathMode::continuous, 0.1};
+        settings.path = {seed % 3 == 0 ? program::PathMode::exact_path : program::PathMode::continuous, 0.1};
         settings.look_ahead = seed % 4 == 0 ? 16 : 0;
         const Trajectory whole = plan(program, model, settings, {});
         expect_rest_in_pauses(program, whole, seed);
@@ -223,7 +223,7 @@ TEST(Planner, IsNeverSlowerThanWithALookAheadOf16Blocks) {
         const MachineModel model = test::with_jerk(listing_machine(), seed % 2 == 0 ? 30.0 : 1e9);
         const Program program = test::random_program(model, 200, seed);
         PlannerSettings settings;
-        settings.path = {seed % 3 == 0 ? gcode::PathMode::exact_path : gcode::PathMode::continuous, 0.01};
+        settings.path = {seed % 3 == 0 ? program::PathMode::exact_path : program::PathMode::continuous, 0.01};
         const double whole = plan(program, model, settings, {}).duration();
         settings.look_ahead = 16;
         const double sixteen = plan(program, model, settings, {}).duration();
@@ -276,7 +276,7 @@ TEST(Planner, NeverTakesTheTipFasterOverThePartThanTheFeed) {
     double closest = 0.0;
     for (int k = 0; k < 200'000; ++k) {
         const Sample sample = trajectory.at(trajectory.duration() * k / 200'000);
-        const gcode::Block& block = program.blocks[static_cast<std::size_t>(sample.block)];
+        const program::Block& block = program.blocks[static_cast<std::size_t>(sample.block)];
         if (block.kind == BlockKind::feed) {
             const auto J = kinematics::jacobian(model, sample.position);
             const double speed = (J.topRows<3>() * sample.velocity).norm();
@@ -324,7 +324,7 @@ TEST(Planner, SpendsNoTimeOnMovesOfNoLength) {
 
 TEST(Planner, LeavesAxesThatABlockDoesNotNameWhereTheyAre) {
     Program program = moves({at_xyz(10.0, 20.0, 30.0)});
-    program.blocks[0].named = gcode::AxisSet::only(2);
+    program.blocks[0].named = program::AxisSet::only(2);
     const Trajectory trajectory = plan(program, listing_machine(), {}, {}, at_xyz(1.0, 2.0, 3.0));
     EXPECT_EQ(trajectory.at(0.0).position, at_xyz(1.0, 2.0, 3.0));
     EXPECT_EQ(trajectory.at(trajectory.duration()).position, at_xyz(1.0, 2.0, 30.0));

@@ -20,9 +20,9 @@
 namespace millwright::motion {
 namespace {
 
-using gcode::PathMode;
-using gcode::Program;
 using kinematics::MachineModel;
+using program::PathMode;
+using program::Program;
 
 double seconds_of(const Program& program, const MachineModel& machine, const PlannerSettings& settings) {
     return plan(program, machine, settings, {}).duration();
@@ -171,18 +171,18 @@ TEST(RoundingChoice, AnEstimateChoosesAsThePlanDoes) {
             const MachineModel machine = test::machine(name);
             Program program = test::random_program(machine, 400, seed);
             for (std::size_t n = 0; n < program.blocks.size(); ++n) { // tolerances that change along the way
-                gcode::Block& block = program.blocks[n];
+                program::Block& block = program.blocks[n];
                 constexpr std::array of_blocks{0.002, 0.05, 0.5};
                 if (block.moves() && n % 50 != 0) {
-                    block.path = gcode::PathControl{PathMode::continuous, of_blocks[n / 40 % 3]};
+                    block.path = program::PathControl{PathMode::continuous, of_blocks[n / 40 % 3]};
                 }
             }
             FilterTime filter(machine, program.start);
-            for (const gcode::Block& block : program.blocks) {
+            for (const program::Block& block : program.blocks) {
                 filter.add(block);
             }
             TimeEstimate estimate(machine, {}, program.start, filter);
-            for (const gcode::Block& block : program.blocks) {
+            for (const program::Block& block : program.blocks) {
                 estimate.add(block);
             }
             const double whole = seconds_of(program, machine, {});

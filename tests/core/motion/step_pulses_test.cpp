@@ -22,7 +22,7 @@ using test::listing_machine;
 
 /// Feeds through `targets`, 1 s each.
 Trajectory planned_feeds(const std::vector<AxisPositions>& targets) {
-    gcode::Program program = test::empty_program(listing_machine());
+    program::Program program = test::empty_program(listing_machine());
     for (const AxisPositions& target : targets) {
         test::add_move(program, target, 1.0);
     }
@@ -84,7 +84,7 @@ TEST(StepPulses, KeepTheMotorWithinHalfAStepOfThePlanAtEveryMoment) {
 TEST(StepPulses, FollowRoundedCornersWhereAnAxisTurnsBackWithinABlock) {
     const auto model = test::with_jerk(listing_machine(), 20.0);
     PlannerSettings rounded;
-    rounded.path = {gcode::PathMode::continuous, 5.0};
+    rounded.path = {program::PathMode::continuous, 5.0};
     rounded.rounding_angle = 0.1;
     const Trajectory whole = plan(test::random_program(model, 60, 7), model, rounded, {});
     expect_half_a_step(whole);
@@ -146,7 +146,7 @@ TEST(StepPulses, TellTheBlockFromWhichTheTimerDoesNotKeepUp) {
 }
 
 TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
-    gcode::Program program = test::empty_program(listing_machine());
+    program::Program program = test::empty_program(listing_machine());
     test::add_move(program, at_xy(0.019), 1.0);
     const Trajectory trajectory = plan(program, listing_machine(), {}, {}, at_xy(0.004));
     const Pulsed found = pulsed(trajectory, hundred_a_mm());

@@ -15,10 +15,10 @@
 namespace millwright::motion {
 namespace {
 
-using gcode::BlockKind;
-using gcode::PathMode;
-using gcode::Program;
 using kinematics::MachineModel;
+using program::BlockKind;
+using program::PathMode;
+using program::Program;
 
 struct Estimated {
     double seconds = 0.0;
@@ -27,7 +27,7 @@ struct Estimated {
 
 FilterTime filter_of(const Program& program, const MachineModel& machine) {
     FilterTime filter(machine, program.start);
-    for (const gcode::Block& block : program.blocks) {
+    for (const program::Block& block : program.blocks) {
         filter.add(block);
     }
     return filter;
@@ -37,7 +37,7 @@ Estimated
 estimated(const Program& program, const MachineModel& machine, const PlannerSettings& settings = {}) {
     TimeEstimate estimate(machine, settings, program.start, filter_of(program, machine));
     Estimated result;
-    for (const gcode::Block& block : program.blocks) {
+    for (const program::Block& block : program.blocks) {
         estimate.add(block);
         result.most_kept = std::max(result.most_kept, estimate.blocks_kept());
     }

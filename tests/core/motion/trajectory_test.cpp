@@ -20,9 +20,9 @@ Trajectory dome_trajectory() {
 
 TEST(Trajectory, IsAtEachBlocksTargetWhenTheBlockEnds) {
     const MachineModel machine = test::machine("rotary-tilt-listing");
-    gcode::ProgramSettings exact;
+    program::ProgramSettings exact;
     exact.path_tolerance = 0.0;
-    const gcode::Program program = test::post_over("dome", machine, 8, 8, exact).program;
+    const program::Program program = test::post_over("dome", machine, 8, 8, exact).program;
     const Trajectory trajectory = plan(program, machine, {}, {});
     for (int n = 0; n < program.block_count(); ++n) {
         const kinematics::AxisPositions off =
@@ -71,7 +71,7 @@ TEST(Trajectory, FindsTheTimeOfABlocksFractionAgain) {
 TEST(Trajectory, FindsTheTimeOfABlocksFractionAgainWithLimitsOfJerk) {
     const MachineModel machine = test::with_jerk(test::machine("ac-table"), 20.0);
     PlannerSettings rounded;
-    rounded.path = {gcode::PathMode::continuous, 0.1};
+    rounded.path = {program::PathMode::continuous, 0.1};
     const Trajectory trajectory = plan(test::random_program(machine, 100, 3), machine, rounded, {});
     for (int k = 1; k < 1000; ++k) {
         const double time = trajectory.duration() * k / 1000.0;

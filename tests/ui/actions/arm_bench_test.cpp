@@ -1,8 +1,8 @@
 #include "ui/actions/arm_bench.h"
 
+#include "core/arm/arm_forward.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "core/kinematics/tool_roll.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST_F(ArmBenchTest, FindsEverySolutionOfAGoalAndNamesItsBranch) {
     EXPECT_EQ(bench_.solutions()[1].branch, "front, elbow down");
     EXPECT_NEAR(bench_.solutions()[0].farthest_turn, 0.0, 1e-9); // where it stands
     for (const ArmSolution& solution : bench_.solutions()) {
-        const Frame there = kinematics::base_T_tool(bench_.arm(), solution.joints);
+        const Frame there = arm::base_T_tool(bench_.arm(), solution.joints);
         EXPECT_LT((there.translation() - Vec3(800.0, 0.0, 650.0)).norm(), 1e-9);
     }
 }
@@ -78,10 +78,10 @@ TEST_F(ArmBenchTest, TurnsAnAxisIntoItsPlaneOnlyIfItMay) {
 }
 
 TEST_F(ArmBenchTest, HoldsTheRollOfAGoalWhereOneIsAskedFor) {
-    kinematics::JointPositions there(5);
+    arm::JointPositions there(5);
     there << from_degrees(30.0), from_degrees(-60.0), from_degrees(80.0), from_degrees(20.0),
         from_degrees(45.0);
-    const Frame wanted = kinematics::base_T_tool(bench_.arm(), there);
+    const Frame wanted = arm::base_T_tool(bench_.arm(), there);
     bench_.set_goal(wanted.translation(), wanted.linear().col(2));
     ASSERT_FALSE(bench_.solutions().empty());
     EXPECT_NEAR(bench_.solutions()[0].joints[4], 0.0, 1e-9); // any roll: joint 5 stays
@@ -89,7 +89,7 @@ TEST_F(ArmBenchTest, HoldsTheRollOfAGoalWhereOneIsAskedFor) {
     ASSERT_GE(bench_.solutions().size(), 2U);
     EXPECT_LT((bench_.solutions()[0].joints - there).norm(), 1e-9);
     for (const ArmSolution& solution : bench_.solutions()) {
-        const Frame back = kinematics::base_T_tool(bench_.arm(), solution.joints);
+        const Frame back = arm::base_T_tool(bench_.arm(), solution.joints);
         EXPECT_LT((back.matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-9);
     }
     // Of an axis that has to be turned into the plane the roll is that about the turned one.
@@ -97,7 +97,7 @@ TEST_F(ArmBenchTest, HoldsTheRollOfAGoalWhereOneIsAskedFor) {
     bench_.set_goal_roll(from_degrees(25.0));
     ASSERT_FALSE(bench_.solutions().empty());
     for (const ArmSolution& solution : bench_.solutions()) {
-        const Mat3 held = kinematics::base_T_tool(bench_.arm(), solution.joints).linear();
+        const Mat3 held = arm::base_T_tool(bench_.arm(), solution.joints).linear();
         EXPECT_NEAR(to_degrees(kinematics::roll_of(held)), 25.0, 1e-6);
         EXPECT_LT((held.col(2) - bench_.goal()->axis).norm(), 1e-9);
     }
@@ -120,7 +120,7 @@ TEST_F(ArmBenchTest, GoesInALineWhereItIsToldTo) {
 }
 
 TEST_F(ArmBenchTest, AJogThatIsNotWantedAnyMoreStops) {
-    kinematics::JointPositions rates = kinematics::JointPositions::Zero(5);
+    arm::JointPositions rates = arm::JointPositions::Zero(5);
     rates[0] = 0.5;
     bench_.hold_jog(rates);
     EXPECT_TRUE(bench_.advance(0.1));
@@ -130,7 +130,7 @@ TEST_F(ArmBenchTest, AJogThatIsNotWantedAnyMoreStops) {
 }
 
 TEST_F(ArmBenchTest, AHeldLineIsStraightHoweverSlowTheFramesAre) {
-    bench_.set_joints((kinematics::JointPositions(5) << 0.2, -1.2, 1.0, 0.3, 0.0).finished());
+    bench_.set_joints((arm::JointPositions(5) << 0.2, -1.2, 1.0, 0.3, 0.0).finished());
     for (const Vec3& velocity : {Vec3(0.0, 0.0, -100.0), Vec3(100.0, 0.0, 0.0), Vec3(0.0, -100.0, 0.0)}) {
         const Vec3 from = tip(), along = velocity.normalized();
         for (int n = 0; n < 20; ++n) {
@@ -177,7 +177,7 @@ TEST_F(ArmBenchTest, MovesItsTipAndKeepsTheLean) {
 
 TEST_F(ArmBenchTest, FollowsWhatAControllerTellsOfSomeJoints) {
     bench_.set_joint(4, 1.0);
-    kinematics::JointPositions told(4);
+    arm::JointPositions told(4);
     told << 0.1, -1.0, 1.2, 0.3;
     bench_.follow(told);
     EXPECT_LT((bench_.joints().head(4) - told).norm(), 1e-15);
@@ -190,7 +190,7 @@ TEST_F(ArmBenchTest, ATraceBeginsAnewWhereThePositionBecomesKnown) {
         return trace ? trace->size() : 0;
     };
     const auto told = [](double first) {
-        return kinematics::JointPositions(kinematics::JointPositions::Constant(4, first));
+        return arm::JointPositions(arm::JointPositions::Constant(4, first));
     };
     bench_.clear_trace();
     bench_.follow(told(0.1), false);

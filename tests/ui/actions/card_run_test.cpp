@@ -1,18 +1,18 @@
 // Where the card is in its program, by what the driver tells and the time that goes by.
 #include "ui/actions/card_run.h"
 
-#include "core/machine/drivers/pmac/pmac_program.h"
+#include "core/pmac/driver/pmac_program.h"
 
 #include <gtest/gtest.h>
 
 namespace millwright::actions {
 namespace {
 
-using machine::Activity;
-using machine::DriverState;
+using drivers::Activity;
+using drivers::DriverState;
 
-machine::DriverStatus running(int executed, int sent) {
-    machine::DriverStatus status;
+drivers::DriverStatus running(int executed, int sent) {
+    drivers::DriverStatus status;
     status.state = DriverState::running;
     status.activity = Activity::program;
     status.executed_blocks = executed;
@@ -31,13 +31,12 @@ const std::vector<std::string> two_moves{"LINEAR",
                                          "X4.00000 Y0.00000"};
 
 TEST(CardRun, KnowsWhenEachLineOfAPlanEnds) {
-    EXPECT_EQ(machine::line_ends(two_moves),
-              (std::vector<double>{0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 2.0, 2.5, 3.0}));
+    EXPECT_EQ(pmac::line_ends(two_moves), (std::vector<double>{0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 2.0, 2.5, 3.0}));
 }
 
 TEST(CardRun, TellsLineShareAndTimeOfAPlannedMotion) {
     CardRun run;
-    run.begin({9, 3.0, machine::line_ends(two_moves)});
+    run.begin({9, 3.0, pmac::line_ends(two_moves)});
     EXPECT_FALSE(run.place());
     run.follow(running(0, 4), 1.0);
     ASSERT_TRUE(run.place());
@@ -66,7 +65,7 @@ TEST(CardRun, OfALongLineTellsWhereTheMotorsAreWhateverTheTime) {
     CardRun run;
     run.begin({1, 6.0, {}});
     run.know_way(there_with_rest);
-    machine::DriverStatus status = running(0, 1);
+    drivers::DriverStatus status = running(0, 1);
     status.position = there_with_rest(0.0);
     for (int n = 1; n <= 100; ++n) { // the card takes twice the computer's time
         status.position = there_with_rest(0.01 * n);
@@ -81,7 +80,7 @@ TEST(CardRun, OfARestTellsTheTimeThatWentBy) {
     CardRun run;
     run.begin({1, 6.0, {}});
     run.know_way(there_with_rest);
-    machine::DriverStatus status = running(0, 1);
+    drivers::DriverStatus status = running(0, 1);
     for (int n = 1; n <= 150; ++n) {
         status.position = there_with_rest(0.02 * n);
         run.follow(status, 0.02);
@@ -99,7 +98,7 @@ TEST(CardRun, KeepsWhereItWasBrokenOff) {
     CardRun run;
     run.begin({2, 40.0, {}});
     run.follow(running(0, 2), 10.0);
-    machine::DriverStatus lost;
+    drivers::DriverStatus lost;
     lost.state = DriverState::alarm;
     lost.link_lost = true;
     run.follow(lost, 0.1);
@@ -110,14 +109,14 @@ TEST(CardRun, KeepsWhereItWasBrokenOff) {
     run.begin({2, 40.0, {}});
     EXPECT_FALSE(run.broken_off());
     run.follow(running(0, 2), 10.0);
-    machine::DriverStatus well;
+    drivers::DriverStatus well;
     well.state = DriverState::idle;
     run.follow(well, 0.1);
     EXPECT_FALSE(run.broken_off());
 }
 
 TEST(CardRun, WaitsUntilTheMachineIsToldToRun) {
-    machine::DriverStatus old;
+    drivers::DriverStatus old;
     old.state = DriverState::stopped;
     CardRun run;
     run.begin({2, 40.0, {}});
@@ -135,13 +134,13 @@ TEST(CardRun, StandsStillInAHoldAndEndsWithTheProgram) {
     CardRun run;
     run.begin({2, 40.0, {}});
     run.follow(running(0, 2), 10.0);
-    machine::DriverStatus held = running(0, 2);
+    drivers::DriverStatus held = running(0, 2);
     held.state = DriverState::holding;
     run.follow(held, 10.0);
     EXPECT_DOUBLE_EQ(run.place()->time, 10.0);
     run.follow(running(0, 2), 10.0);
     EXPECT_DOUBLE_EQ(run.place()->share, 0.5);
-    machine::DriverStatus over;
+    drivers::DriverStatus over;
     over.state = DriverState::idle;
     run.follow(over, 0.1);
     EXPECT_FALSE(run.place());

@@ -38,7 +38,7 @@ TEST_F(WorkshopOnDisk, AStopInTheMomentInWhichAJobBeginsIsNotLost) {
             workshop_.wait_idle();
             const JobView job = workshop_.look().job;
             EXPECT_FALSE(job.running);
-            EXPECT_TRUE(job.failure || (job.outcome && job.outcome->end != machine::JobEnd::done)) << stop;
+            EXPECT_TRUE(job.failure || (job.outcome && job.outcome->end != jobs::JobEnd::done)) << stop;
         }
     }
 }
@@ -48,22 +48,22 @@ TEST_F(WorkshopOnDisk, HoldsResumesAndStopsAJob) {
     workshop_.run("machine.run");
     const auto state = [&] {
         const auto report = workshop_.look().job.report;
-        return report ? report->driver.state : machine::DriverState::disconnected;
+        return report ? report->driver.state : drivers::DriverState::disconnected;
     };
-    while (workshop_.look().job.running && state() != machine::DriverState::running) {
+    while (workshop_.look().job.running && state() != drivers::DriverState::running) {
         std::this_thread::yield();
     }
     workshop_.advance(0.01);
     workshop_.run("machine.hold");
-    while (workshop_.look().job.running && state() != machine::DriverState::holding) {
+    while (workshop_.look().job.running && state() != drivers::DriverState::holding) {
         std::this_thread::yield();
     }
-    EXPECT_EQ(state(), machine::DriverState::holding);
+    EXPECT_EQ(state(), drivers::DriverState::holding);
     workshop_.run("machine.stop");
     workshop_.wait_idle();
     const auto outcome = workshop_.look().job.outcome;
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->end, machine::JobEnd::stopped);
+    EXPECT_EQ(outcome->end, jobs::JobEnd::stopped);
     EXPECT_LT(outcome->executed_blocks, outcome->blocks);
 
     // The timeline stays where the machine stands, until somebody moves it.

@@ -43,7 +43,7 @@ TEST(JogHand, IsNotInterruptedByFramesThatAreSlowOneLikeAnother) {
     auto last = Clock::now();
     for (int n = 0; n < most_frames && looks < wanted; ++n) {
         std::this_thread::sleep_for(std::chrono::milliseconds(130));
-        const bool goes_on = driver->status().activity == machine::Activity::jog;
+        const bool goes_on = driver->status().activity == drivers::Activity::jog;
         const auto now = Clock::now();
         const double frame = std::chrono::duration<double>(now - std::exchange(last, now)).count();
         if (frame > 0.17) { // the computer was too busy: it is pressed anew

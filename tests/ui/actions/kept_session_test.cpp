@@ -18,7 +18,7 @@ Session changed_session() {
     session.hand.choice.address = "/dev/ttyUSB3,57600,8E1";
     session.hand.choice.one_by_one = true;
     session.hand.addresses[static_cast<std::size_t>(DriverKind::stream)] = "file:/tmp/out";
-    session.hand.choice.record = machine::RecordFormat{.pattern = "G{X}", .ending = "\r\n", .relative = true};
+    session.hand.choice.record = drivers::RecordFormat{.pattern = "G{X}", .ending = "\r\n", .relative = true};
     session.hand.step = 0.1;
     session.folders["program"] = "/home/me/nc";
     return session;

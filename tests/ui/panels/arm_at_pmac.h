@@ -21,16 +21,16 @@ struct ArmAtPmac {
     }
     void connect() {
         person.click("hand/connection/machine_connect");
-        ASSERT_TRUE(person.live_until([&] { return is(machine::DriverState::idle); }));
+        ASSERT_TRUE(person.live_until([&] { return is(drivers::DriverState::idle); }));
     }
-    [[nodiscard]] bool is(machine::DriverState state) {
+    [[nodiscard]] bool is(drivers::DriverState state) {
         const auto machine = person.workshop().look().controller;
         return machine.connected() && machine.status.state == state;
     }
     /// Whatever ended it, nothing moves any more and nobody says that it does.
     [[nodiscard]] bool rests() {
-        const bool told = is(machine::DriverState::idle) || is(machine::DriverState::stopped) ||
-                          is(machine::DriverState::alarm);
+        const bool told = is(drivers::DriverState::idle) || is(drivers::DriverState::stopped) ||
+                          is(drivers::DriverState::alarm);
         return told && !pmac.moving();
     }
     /// The number of the notice that came last of those on show; 0 without any.
@@ -43,15 +43,15 @@ struct ArmAtPmac {
         return newest;
     }
     void give_power() {
-        if (is(machine::DriverState::alarm)) {
+        if (is(drivers::DriverState::alarm)) {
             person.workshop().run("machine.reset");
-            (void)person.live_until([&] { return is(machine::DriverState::idle); });
+            (void)person.live_until([&] { return is(drivers::DriverState::idle); });
         }
         if (!pmac.powered()) {
             person.click("hand/power/arm_enable");
             const auto told = [&] { return person.workshop().look().controller.status.powered; };
             (void)person.live_until(
-                [&] { return (pmac.powered() && told()) || is(machine::DriverState::alarm); });
+                [&] { return (pmac.powered() && told()) || is(drivers::DriverState::alarm); });
         }
     }
     void point_at(const char* path) {
@@ -68,8 +68,8 @@ struct ArmAtPmac {
             point_at(path);
             person.hold_button(true);
             const auto moved = [&] { return std::abs(pmac.degrees(motor) - before) > 0.3; };
-            (void)person.live_until([&] { return moved() || is(machine::DriverState::alarm); });
-            if (moved() && is(machine::DriverState::running)) {
+            (void)person.live_until([&] { return moved() || is(drivers::DriverState::alarm); });
+            if (moved() && is(drivers::DriverState::running)) {
                 return;
             }
             person.hold_button(false);

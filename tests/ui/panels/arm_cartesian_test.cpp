@@ -14,7 +14,7 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 
 class ArmAtPmacU5 : public ::testing::Test {
 protected:
@@ -31,9 +31,9 @@ protected:
         let_the_picture_follow();
     }
     void tell(const std::string& line) {
-        person_.workshop().controller().tell([&](machine::Driver& driver) { (void)driver.command(line); });
+        person_.workshop().controller().tell([&](drivers::Driver& driver) { (void)driver.command(line); });
     }
-    [[nodiscard]] machine::DriverStatus status() { return person_.workshop().look().controller.status; }
+    [[nodiscard]] drivers::DriverStatus status() { return person_.workshop().look().controller.status; }
     [[nodiscard]] Frame tool() { return person_.workshop().arm().tool(); }
     void let_the_picture_follow() {
         ASSERT_TRUE(person_.live_until([&] {

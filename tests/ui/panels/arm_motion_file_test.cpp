@@ -1,8 +1,8 @@
 // The editor of motion files in the Arm workspace, and finding and replacing in every editor (S7 of the list
 // of what replaces the program of Saengsasri, Nittayachin 1996).
+#include "core/arm/arm_forward.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "tests/ui/panels/person.h"
 #include "ui/actions/arm_bench.h"
 
@@ -156,7 +156,7 @@ TEST_F(ArmMotionFileS7, IsOpenedSavedUndoneAndPlayedFromWhereTheArmIs) {
 
 TEST_F(ArmMotionFileS7, IsStreamedThroughTheDualPortedRamOfAnEmulatedCard) {
     write("G1 X0 Y100 Z-50 F2 ;");
-    const Vec3 begin = kinematics::base_T_tool(arm().arm(), arm().home()).translation();
+    const Vec3 begin = arm::base_T_tool(arm().arm(), arm().home()).translation();
     person_.click("lower/arm_stream_motion");
     EXPECT_THAT(person_.workshop().session().log,
                 ::testing::Contains(::testing::HasSubstr("The stream does not use F")));

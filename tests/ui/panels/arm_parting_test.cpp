@@ -12,7 +12,7 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using test::ArmAtPmac;
 
 TEST(ArmAtPmacF1, ProtectionsThatAreOffAreToldWhenItIsConnectedAndWhenItGetsPower) {
@@ -76,7 +76,7 @@ TEST(ArmAtPmacF2, QuittingAsksSaysThatTheArmMovesAndTakesThePower) {
     EXPECT_TRUE(bench.pmac.powered());
     EXPECT_FALSE(session.quit);
     bench.person.workshop().controller().tell(
-        [](machine::Driver& driver) { (void)driver.command("#1J=6000"); });
+        [](drivers::Driver& driver) { (void)driver.command("#1J=6000"); });
     ASSERT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::running) && bench.pmac.moving(); }));
     bench.person.workshop().run("arm.teach"); // refused; the project is as it was

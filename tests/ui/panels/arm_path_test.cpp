@@ -67,7 +67,7 @@ TEST_F(ArmPath, GoesAgainFromWhereItStandsThen) {
     show();
     go();
     arm().go_home();
-    const kinematics::JointPositions here = arm().joints();
+    const arm::JointPositions here = arm().joints();
     person_.click("inspector/path/arm_send_path");
     ASSERT_TRUE(person_.live_until([&] { return arm().moving(); }, 60.0));
     EXPECT_EQ(arm().path()->motion->at(0.0).position, here);

@@ -19,7 +19,7 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using test::ArmAtPmac;
 
 TEST(ArmAtPmacU2, NothingMovesAndNoMotorHasPowerByConnecting) {
@@ -78,7 +78,7 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     bench.person.press_key(Key::s);
     ASSERT_TRUE(bench.person.live_until([&] {
         return status().answer.number > before &&
-               status().answer.state == machine::CommandAnswer::State::done && bench.is(DriverState::idle);
+               status().answer.state == drivers::CommandAnswer::State::done && bench.is(DriverState::idle);
     }));
     EXPECT_NEAR(bench.pmac.degrees(1), 0.0, 0.1); // sent, not run
     bench.person.click("lower/tabs/console");
@@ -88,7 +88,7 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     bench.person.press_key(Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
         return status().answer.number > before + 1 &&
-               status().answer.state == machine::CommandAnswer::State::done && bench.is(DriverState::idle);
+               status().answer.state == drivers::CommandAnswer::State::done && bench.is(DriverState::idle);
     }));
     EXPECT_NE(status().answer.text.find("X5"), std::string::npos) << status().answer.text;
 
@@ -168,7 +168,7 @@ TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
     bench.person.press_key(Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
         const auto& answer = bench.person.workshop().look().controller.status.answer;
-        return answer.number > before && answer.state == machine::CommandAnswer::State::done;
+        return answer.number > before && answer.state == drivers::CommandAnswer::State::done;
     }));
     EXPECT_EQ(bench.person.workshop().session().hand.commands.back(), "#1P");
 }
@@ -264,7 +264,7 @@ TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
     bench.person.workshop().run("machine.emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
     actions::ActionQueue asked;
-    asked.tell([](machine::Driver& driver) { driver.home(); });
+    asked.tell([](drivers::Driver& driver) { driver.home(); });
     asked.show([](actions::Session&) { throw Error("the disk is full"); });
     bench.person.workshop().perform(asked, true);
     bench.person.frames(3);
@@ -401,7 +401,7 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     bench.person.press_key(render::Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
         return bench.person.workshop().look().controller.status.answer.state ==
-               machine::CommandAnswer::State::done;
+               drivers::CommandAnswer::State::done;
     }));
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     bench.person.click("lower/command");
@@ -409,12 +409,12 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     bench.person.press_key(render::Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
         return bench.person.workshop().look().controller.status.answer.state ==
-               machine::CommandAnswer::State::refused;
+               drivers::CommandAnswer::State::refused;
     }));
-    std::vector<machine::ConsoleLine> lines;
+    std::vector<drivers::ConsoleLine> lines;
     (void)bench.person.workshop().controller().driver()->console()->read(0, lines, 100'000);
     std::vector<std::string> texts;
-    for (const machine::ConsoleLine& line : lines) {
+    for (const drivers::ConsoleLine& line : lines) {
         texts.push_back((line.sent ? "> " : "") + line.text);
     }
     EXPECT_THAT(texts, testing::IsSupersetOf({"> I122", "32", "> NONSENSE"}));

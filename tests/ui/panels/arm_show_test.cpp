@@ -19,7 +19,7 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using project::TaughtPoint;
 
 /// In the picture and in the card, which are told to each other.
@@ -40,7 +40,7 @@ protected:
     }
 
     [[nodiscard]] Vec3 tip() { return person_.workshop().arm().tool().translation(); }
-    [[nodiscard]] machine::DriverStatus status() { return person_.workshop().look().controller.status; }
+    [[nodiscard]] drivers::DriverStatus status() { return person_.workshop().look().controller.status; }
     [[nodiscard]] const std::vector<TaughtPoint>& points() { return person_.project().arm.points; }
     void keep(const std::string& name) { person_.keep("arm-show-" + name); }
 

@@ -15,7 +15,7 @@
 namespace millwright::panels {
 namespace {
 
-using kinematics::JointPositions;
+using arm::JointPositions;
 using test::Person;
 using widgets::Point;
 using widgets::Rect;

@@ -155,7 +155,7 @@ TEST(ArmWorkspace, KeepsItsTipAboveTheFloor) {
     arm.move_tip({900.0, 0.0, -950.0});
     EXPECT_THAT(arm.refusal(), testing::HasSubstr("below -900 of the arm's workspace"));
     EXPECT_NEAR(arm.tool().translation().z(), -880.0, 1e-6);
-    kinematics::JointPositions down = arm.joints();
+    arm::JointPositions down = arm.joints();
     down[1] += 0.2;
     arm.set_joints(down);
     EXPECT_THAT(arm.refusal(), testing::HasSubstr("arm's workspace"));
@@ -166,10 +166,10 @@ TEST(ArmWorkspace, KeepsItsTipAboveTheFloor) {
 
 TEST(ArmWorkspace, ALinkThatIsDraggedTurnsItsJointAlone) {
     ArmWorkspacePerson bench;
-    const kinematics::JointPositions before = bench.arm().joints();
+    const arm::JointPositions before = bench.arm().joints();
     const Point from = middle_of(bench.person.place("view/link_3")); // the middle of the forearm
     bench.person.drag(from, {from.x, from.y + 40.0F});
-    const kinematics::JointPositions after = bench.arm().joints();
+    const arm::JointPositions after = bench.arm().joints();
     EXPECT_GT(std::abs(after[2] - before[2]), 0.02);
     for (const int other : {0, 1, 3, 4}) {
         EXPECT_DOUBLE_EQ(after[other], before[other]);

@@ -8,7 +8,7 @@
 
 namespace millwright::test {
 
-[[nodiscard]] inline bool machine_is(Person& person, machine::DriverState state) {
+[[nodiscard]] inline bool machine_is(Person& person, drivers::DriverState state) {
     const auto machine = person.workshop().look().controller;
     return machine.connected() && machine.status.state == state;
 }
@@ -19,10 +19,10 @@ inline void connect(Person& person) {
     person.frames(3);
     person.click("inspector/connection/machine_connect");
     ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
-    if (machine_is(person, machine::DriverState::alarm)) {
+    if (machine_is(person, drivers::DriverState::alarm)) {
         person.workshop().run("machine.reset");
     }
-    ASSERT_TRUE(person.live_until([&] { return machine_is(person, machine::DriverState::idle); }));
+    ASSERT_TRUE(person.live_until([&] { return machine_is(person, drivers::DriverState::idle); }));
 }
 
 inline void connect(Person& person, GrblBench& grbl) {

@@ -163,7 +163,7 @@ TEST(Dialogs, KeysReachTheMachineAlone) {
     person.click("emergency/machine_emergency_stop");
     person.workshop().wait_idle();
     const actions::JobView job = person.workshop().look().job;
-    EXPECT_TRUE(job.failure || (job.outcome && job.outcome->end == machine::JobEnd::fault));
+    EXPECT_TRUE(job.failure || (job.outcome && job.outcome->end == jobs::JobEnd::fault));
 }
 
 /// A copy as a program that crashed leaves it.

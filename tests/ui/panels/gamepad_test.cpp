@@ -13,8 +13,8 @@
 namespace millwright::panels {
 namespace {
 
+using drivers::DriverState;
 using machine::DriverKind;
-using machine::DriverState;
 using render::Gamepad;
 using test::GrblBench;
 using test::Person;

@@ -357,7 +357,7 @@ TEST_F(Import, AnExportCanBeCancelledAndLeavesTheFile) {
     const fs::path file = written("out.stl", std::string("as it was"));
     person_.workshop().export_surface(file);
     ASSERT_TRUE(person_.live_until([&] {
-        const project::Activity now = person_.workshop().look().activity;
+        const plan::Activity now = person_.workshop().look().activity;
         return now.busy && now.text.starts_with("Writing the surface: ") && now.fraction > 0.0;
     }));
     person_.keep("export-running");

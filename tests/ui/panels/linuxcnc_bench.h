@@ -1,10 +1,10 @@
 // An emulated LinuxCNC in real time behind its linuxcncrsh on a TCP port, for a person to connect to.
 #pragma once
 
-#include "core/machine/clock.h"
-#include "core/machine/emulators/emulator_server.h"
-#include "core/machine/emulators/linuxcnc/linuxcnc_emulator.h"
-#include "core/machine/links/tcp_server.h"
+#include "core/base/clock.h"
+#include "core/emulators/emulator_server.h"
+#include "core/emulators/linuxcnc/linuxcnc_emulator.h"
+#include "core/links/tcp_server.h"
 #include "tests/support/machines.h"
 
 #include <memory>
@@ -19,44 +19,44 @@ class LinuxCncBench {
 public:
     /// `homed`: begins switched on and homed, else in its emergency stop.
     explicit LinuxCncBench(const std::string& machine_id = "router-xyz", bool homed = false) {
-        auto listener = std::make_unique<machine::TcpServer>(0);
+        auto listener = std::make_unique<links::TcpServer>(0);
         listener->open();
         port_ = listener->port();
-        std::vector<std::unique_ptr<machine::Link>> links;
+        std::vector<std::unique_ptr<links::Link>> links;
         links.push_back(std::move(listener));
-        machine::LinuxCncEmulatorOptions options;
+        emulators::LinuxCncEmulatorOptions options;
         options.homed = homed;
         options.model = std::make_shared<const kinematics::MachineModel>(machine(machine_id));
-        server_ = std::make_unique<machine::EmulatorServer>(
-            std::move(links), clock_, std::make_unique<machine::LinuxCncEmulator>(std::move(options)));
+        server_ = std::make_unique<emulators::EmulatorServer>(
+            std::move(links), clock_, std::make_unique<emulators::LinuxCncEmulator>(std::move(options)));
     }
 
     [[nodiscard]] std::string address() const { return "tcp:127.0.0.1:" + std::to_string(port_); }
     template <class Use> auto with(Use&& use) {
         return server_->with_emulator(
-            [&](machine::Emulator& it) { return use(static_cast<machine::LinuxCncEmulator&>(it)); });
+            [&](emulators::Emulator& it) { return use(static_cast<emulators::LinuxCncEmulator&>(it)); });
     }
     [[nodiscard]] bool moving() {
-        return with([](machine::LinuxCncEmulator& it) { return it.moving(); });
+        return with([](emulators::LinuxCncEmulator& it) { return it.moving(); });
     }
     /// Without a motion, s of its own time: also while it is held.
     [[nodiscard]] double rested_for() {
-        return with([](machine::LinuxCncEmulator& it) { return it.time() - it.truth().last_motion; });
+        return with([](emulators::LinuxCncEmulator& it) { return it.time() - it.truth().last_motion; });
     }
     [[nodiscard]] double position(Eigen::Index axis) {
-        return with([axis](machine::LinuxCncEmulator& it) { return it.position()[axis]; });
+        return with([axis](emulators::LinuxCncEmulator& it) { return it.position()[axis]; });
     }
     [[nodiscard]] int runs() {
-        return with([](machine::LinuxCncEmulator& it) { return it.truth().runs; });
+        return with([](emulators::LinuxCncEmulator& it) { return it.truth().runs; });
     }
     void press_emergency_stop() {
-        with([](machine::LinuxCncEmulator& it) { it.raise_alarm(); });
+        with([](emulators::LinuxCncEmulator& it) { it.raise_alarm(); });
     }
 
 private:
-    machine::SteadyClock clock_;
+    SteadyClock clock_;
     std::uint16_t port_ = 0;
-    std::unique_ptr<machine::EmulatorServer> server_;
+    std::unique_ptr<emulators::EmulatorServer> server_;
 };
 
 } // namespace millwright::test

@@ -14,8 +14,8 @@ namespace millwright::panels {
 namespace {
 
 using actions::Workspace;
-using machine::DriverState;
-using machine::JobEnd;
+using drivers::DriverState;
+using jobs::JobEnd;
 using test::GrblBench;
 using test::Person;
 using testing::Contains;
@@ -28,7 +28,7 @@ protected:
 
     void SetUp() override { test::connect(person, grbl); }
 
-    [[nodiscard]] machine::DriverStatus status() { return person.workshop().look().controller.status; }
+    [[nodiscard]] drivers::DriverStatus status() { return person.workshop().look().controller.status; }
     [[nodiscard]] bool is(DriverState state) { return test::machine_is(person, state); }
     [[nodiscard]] bool rests() {
         const bool idle = person.live_until([this] { return is(DriverState::idle); });
@@ -64,7 +64,7 @@ TEST_F(MachineControls, DoNotHomeWhereTheControllerHasNoHoming) {
 
 TEST_F(MachineWithSwitches, IsHomed) {
     press("inspector/finding/machine_home");
-    ASSERT_TRUE(person.live_until([this] { return status().activity == machine::Activity::homing; }));
+    ASSERT_TRUE(person.live_until([this] { return status().activity == drivers::Activity::homing; }));
     EXPECT_TRUE(
         person.live_until([this] { return !person.refusal("inspector/job/machine_run").empty(); }, 2.0));
     ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle) && !grbl.moving(); }, 120.0));
@@ -83,7 +83,7 @@ TEST_F(MachineWithSwitches, AreNotMovedByAWordInThePaletteElsewhere) {
     person.frames(2);
     person.press_key(render::Key::enter);
     person.frames(30);
-    EXPECT_NE(status().activity, machine::Activity::homing);
+    EXPECT_NE(status().activity, drivers::Activity::homing);
     EXPECT_FALSE(grbl.moving());
 }
 
@@ -142,7 +142,7 @@ TEST_F(MachineControls, ChooseAWorkSystemAndMakeItsZeroHere) {
     ASSERT_TRUE(person.live_until([this] { return std::abs(status().work_position()[0]) < 1e-6; }));
     const auto g55 = [this] {
         const auto offsets = person.workshop().look().controller.offsets;
-        return std::ranges::find(offsets, "G55", &machine::StoredOffset::name)->value[0];
+        return std::ranges::find(offsets, "G55", &drivers::StoredOffset::name)->value[0];
     };
     EXPECT_TRUE(person.live_until([&] { return std::abs(g55() - 6.0) < 1e-6; }));
     EXPECT_NEAR(grbl.position()[0], 6.0, 0.01); // no axis moved
@@ -156,7 +156,7 @@ TEST_F(MachineControls, ChangeASettingOfTheController) {
     person.fill_in("lower/value", "200");
     const auto value = [this] {
         const auto settings = person.workshop().look().controller.settings;
-        return std::ranges::find(settings, "$1", &machine::ControllerSetting::name)->value;
+        return std::ranges::find(settings, "$1", &drivers::ControllerSetting::name)->value;
     };
     EXPECT_TRUE(person.live_until([&] { return std::abs(value() - 200.0) < 1e-9; }));
 }

@@ -2,6 +2,7 @@
 // keys and focus. What stops a jog: letting go, losing the focus, another workspace, a question, a window
 // that hangs, a lost link.
 #include "core/base/files.h"
+#include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
 #include "ui/panels/jog_gate.h"
@@ -24,8 +25,8 @@ namespace {
 
 using actions::LinkState;
 using actions::Workspace;
+using drivers::DriverState;
 using machine::DriverKind;
-using machine::DriverState;
 using test::GrblBench;
 using test::Person;
 
@@ -241,7 +242,7 @@ TEST_F(MachineByHand, StopsWhenTheWindowHangs) {
     connect();
     start_jog();
     const auto console = person.workshop().look().console;
-    std::vector<machine::ConsoleLine> lines;
+    std::vector<drivers::ConsoleLine> lines;
     const std::int64_t next = console->end();
     constexpr int most_looks = 60'000;
     for (int n = 0; n < most_looks && grbl.moving(); ++n) { // no frame
@@ -249,7 +250,7 @@ TEST_F(MachineByHand, StopsWhenTheWindowHangs) {
     }
     EXPECT_FALSE(grbl.moving());
     (void)console->read(next, lines); // it did not just come to the end of its way
-    EXPECT_TRUE(std::ranges::any_of(lines, [](const machine::ConsoleLine& line) {
+    EXPECT_TRUE(std::ranges::any_of(lines, [](const drivers::ConsoleLine& line) {
         return line.sent && line.text.find("jog cancel") != std::string::npos;
     }));
     person.hold_button(false);
@@ -408,7 +409,7 @@ TEST_F(MachineByHand, SendsALineByEnterAloneAndTellsOfARefusal) {
     ASSERT_TRUE(live_until([this] { return rests_at(0, 2.0); }));
     person.fill_in("lower/command", "G1 X5 F0");
     ASSERT_TRUE(live_until(
-        [this] { return machine().status.answer.state == machine::CommandAnswer::State::refused; }));
+        [this] { return machine().status.answer.state == drivers::CommandAnswer::State::refused; }));
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
     person.keep("machine-refused");
     ASSERT_TRUE(live_until([this] { return is(DriverState::idle); })); // the field takes lines again
@@ -492,7 +493,7 @@ TEST_F(MachineByHand, RunsAFileHoldsResumesAndEnds) {
     ASSERT_TRUE(live_until([this] { return !person.workshop().look().job.running; }, 40.0));
     const auto job = person.workshop().look().job;
     ASSERT_TRUE(job.outcome) << (job.failure ? job.failure->message : "");
-    EXPECT_EQ(job.outcome->end, machine::JobEnd::done);
+    EXPECT_EQ(job.outcome->end, jobs::JobEnd::done);
     EXPECT_EQ(job.outcome->executed_blocks, 6);
     EXPECT_NE(job.outcome->log_file.string().find("square"), std::string::npos);
 }

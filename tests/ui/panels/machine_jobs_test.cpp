@@ -1,7 +1,7 @@
 // Jobs in the Machine workspace: begun at a line, changed while they run, and found again after a crash.
 #include "core/base/files.h"
-#include "core/machine/job.h"
-#include "core/machine/job_log.h"
+#include "core/jobs/job.h"
+#include "core/jobs/job_log.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/ui/panels/at_machine.h"
 
@@ -48,24 +48,24 @@ protected:
     /// The log of a Grbl job of which `executed` blocks were done when its program was killed.
     static std::filesystem::path
     broken_log(const std::filesystem::path& folder, const std::filesystem::path& file, int executed) {
-        const machine::Job job = machine::text_job(read_file(file), file);
-        machine::JobLog log(folder, "part");
-        machine::LogStart start;
+        const jobs::Job job = jobs::text_job(read_file(file), file);
+        jobs::JobLog log(folder, "part");
+        jobs::LogStart start;
         start.job = "part";
         start.project = file.string();
         start.driver = "grbl";
         start.started_at = "2026-11-21 12:00:00";
-        start.program_hash = machine::program_hash(job.listing->text);
+        start.program_hash = jobs::program_hash(job.listing->text);
         start.axes = {{'X', kinematics::AxisKind::linear}};
         start.blocks = job.block_count();
         log.write(start);
-        machine::LogRecord record;
-        record.event = machine::LogEvent::ahead;
+        jobs::LogRecord record;
+        record.event = jobs::LogEvent::ahead;
         record.position = kinematics::AxisPositions::Zero(1);
         record.line = 1;
         record.allowed_blocks = job.block_count();
         log.write(record);
-        record.event = machine::LogEvent::executed;
+        record.event = jobs::LogEvent::executed;
         record.executed_blocks = executed;
         record.line = job.listing->line_of_block[static_cast<std::size_t>(executed)];
         log.write(record);
@@ -98,7 +98,7 @@ TEST_F(MachineJobs, AreNotEndedByClosingTheWindowUnlessAPersonSaysSo) {
     person.click("dialogs/running_job/running_job_stop");
     EXPECT_TRUE(session.quit);
     ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
-    EXPECT_EQ(person.workshop().look().job.outcome->end, machine::JobEnd::stopped);
+    EXPECT_EQ(person.workshop().look().job.outcome->end, jobs::JobEnd::stopped);
     EXPECT_FALSE(grbl.moving());
 }
 
@@ -112,7 +112,7 @@ TEST_F(MachineJobs, LeaveNothingBehindOfALineThatWasRefusedBefore) {
     person.frames(3);
     person.fill_in("lower/command", "G1 X5 F0");
     ASSERT_TRUE(person.live_until([&] { return person.sees("lower/refused"); }));
-    ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, machine::DriverState::idle); }));
+    ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, drivers::DriverState::idle); }));
     EXPECT_TRUE(person.sees("lower/refused")) << "until something else is done";
     test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.running; }));
@@ -172,12 +172,12 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
         },
         60.0));
     const auto job = person.workshop().look().job;
-    EXPECT_EQ(job.outcome->end, machine::JobEnd::done) << job.outcome->sentence;
+    EXPECT_EQ(job.outcome->end, jobs::JobEnd::done) << job.outcome->sentence;
     EXPECT_LT(farthest, 10.0); // never where the lines before went
     EXPECT_EQ(first_line, middle_line);
     EXPECT_GE(person.workshop().look().file_place().value().line, 14);
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
-    EXPECT_EQ(machine::read_job_log(job.outcome->log_file).start.from_line, middle_line);
+    EXPECT_EQ(jobs::read_job_log(job.outcome->log_file).start.from_line, middle_line);
     EXPECT_FALSE(person.workshop().session().begin.on); // the next job begins at its beginning
 }
 
@@ -209,7 +209,7 @@ TEST_F(MachineJobs, OfTheVirtualMachineBeginAtALineToo) {
     person.workshop().run("machine.run");
     ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }, 60.0));
     const auto outcome = *person.workshop().look().job.outcome;
-    EXPECT_EQ(outcome.end, machine::JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(outcome.end, jobs::JobEnd::done) << outcome.sentence;
     EXPECT_NEAR(outcome.position[0], 2.0, 1e-6);
     EXPECT_LT(outcome.executed_blocks, 16);
 }
@@ -230,9 +230,8 @@ TEST_F(MachineJobs, LogTheOverridesOfAPerson) {
         person.live_until([&] { return person.workshop().look().controller.status.overrides.feed == 200; }));
     person.workshop().run("machine.stop");
     ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }));
-    const auto log = machine::read_job_log(person.workshop().look().job.outcome->log_file);
-    const auto entry =
-        std::ranges::find(log.records, machine::LogEvent::overrides, &machine::LogRecord::event);
+    const auto log = jobs::read_job_log(person.workshop().look().job.outcome->log_file);
+    const auto entry = std::ranges::find(log.records, jobs::LogEvent::overrides, &jobs::LogRecord::event);
     ASSERT_NE(entry, log.records.end());
     EXPECT_THAT(entry->text, HasSubstr("feed 200 %, rapid 50 %"));
 }
@@ -280,7 +279,7 @@ TEST_F(MachineJobs, ThatWereBrokenOffAreToldOfAtTheStartAndGoOnFromTheirLine) {
 
     // Another program would be begun at a line that means something else there.
     write_file(file, std::string("(changed)\n") + far_first);
-    person.workshop().session().begin.hash = machine::read_job_log(log).start.program_hash;
+    person.workshop().session().begin.hash = jobs::read_job_log(log).start.program_hash;
     const actions::BeginAt begin = person.workshop().session().begin;
     person.open(file);
     person.workshop().run("view.machine");

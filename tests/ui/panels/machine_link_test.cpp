@@ -1,8 +1,8 @@
 // The Machine workspace at the other end of different links: what can be chosen, what a machine cannot do,
 // and a link that is lost and made again.
 #include "core/base/files.h"
-#include "core/machine/emulators/grbl/grbl_server.h"
-#include "core/machine/links/tcp_server.h"
+#include "core/emulators/grbl/grbl_server.h"
+#include "core/links/tcp_server.h"
 #include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
 
@@ -20,8 +20,8 @@ namespace millwright::panels {
 namespace {
 
 using actions::LinkState;
+using drivers::DriverState;
 using machine::DriverKind;
-using machine::DriverState;
 using test::Person;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -51,7 +51,7 @@ protected:
             << (machine().failure ? machine().failure->message : "");
     }
     /// The Grbl at `port` goes away while it moves.
-    void lose(std::unique_ptr<machine::GrblServer>& grbl, std::uint16_t port) {
+    void lose(std::unique_ptr<emulators::GrblServer>& grbl, std::uint16_t port) {
         choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
         connect();
         person.workshop().run("machine.reset");
@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    machine::TcpServer server_;
+    links::TcpServer server_;
     std::string text_;
 };
 
@@ -120,18 +120,18 @@ TEST_F(MachineLink, SendsACoordinateStreamAndMakesALostLinkAgainWithoutMoving) {
 }
 
 /// At a port of this computer, 0 for any that is free; which one it is.
-std::pair<std::uint16_t, std::unique_ptr<machine::GrblServer>> serve_grbl(std::uint16_t port,
-                                                                          machine::SteadyClock& clock) {
-    auto listener = std::make_unique<machine::TcpServer>(port);
+std::pair<std::uint16_t, std::unique_ptr<emulators::GrblServer>> serve_grbl(std::uint16_t port,
+                                                                            SteadyClock& clock) {
+    auto listener = std::make_unique<links::TcpServer>(port);
     listener->open();
     const std::uint16_t opened = listener->port();
-    std::vector<std::unique_ptr<machine::Link>> links;
+    std::vector<std::unique_ptr<links::Link>> links;
     links.push_back(std::move(listener));
-    return {opened, std::make_unique<machine::GrblServer>(std::move(links), clock)};
+    return {opened, std::make_unique<emulators::GrblServer>(std::move(links), clock)};
 }
 
 TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
-    machine::SteadyClock clock;
+    SteadyClock clock;
     auto [port, grbl] = serve_grbl(0, clock);
     ASSERT_NO_FATAL_FAILURE(lose(grbl, port));
 
@@ -147,13 +147,13 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
     person.frames(30);
     EXPECT_FALSE(machine().status.link_lost);
     const auto last_motion =
-        again->with_controller([](machine::GrblEmulator& it) { return it.truth().last_motion; });
+        again->with_controller([](emulators::GrblEmulator& it) { return it.truth().last_motion; });
     EXPECT_LE(last_motion, 0.0);
-    EXPECT_FALSE(again->with_controller([](machine::GrblEmulator& it) { return it.moving(); }));
+    EXPECT_FALSE(again->with_controller([](emulators::GrblEmulator& it) { return it.moving(); }));
 }
 
 TEST_F(MachineLink, AfterReconnectAGrblThatWasResetInMotionIsNotTrusted) {
-    machine::SteadyClock clock;
+    SteadyClock clock;
     auto [port, grbl] = serve_grbl(0, clock);
     ASSERT_NO_FATAL_FAILURE(lose(grbl, port));
     ASSERT_FALSE(machine().status.position_lost);
@@ -168,17 +168,17 @@ TEST_F(MachineLink, AfterReconnectAGrblThatWasResetInMotionIsNotTrusted) {
 
 /// As behind a link that broke in a job: the controller goes on with what it has.
 TEST_F(MachineLink, AGrblThatStillMovesIsConnectedAndStopped) {
-    machine::SteadyClock clock;
-    auto listener = std::make_unique<machine::TcpServer>(0);
+    SteadyClock clock;
+    auto listener = std::make_unique<links::TcpServer>(0);
     listener->open();
     choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(listener->port()));
-    std::vector<std::unique_ptr<machine::Link>> links;
+    std::vector<std::unique_ptr<links::Link>> links;
     links.push_back(std::move(listener));
-    machine::GrblServer server(std::move(links), clock);
+    emulators::GrblServer server(std::move(links), clock);
     const auto moves = [&] {
-        return server.with_controller([](machine::GrblEmulator& grbl) { return grbl.moving(); });
+        return server.with_controller([](emulators::GrblEmulator& grbl) { return grbl.moving(); });
     };
-    server.with_controller([](machine::GrblEmulator& grbl) { grbl.receive("$X\nG91\nG1 X-150 F100\n"); });
+    server.with_controller([](emulators::GrblEmulator& grbl) { grbl.receive("$X\nG91\nG1 X-150 F100\n"); });
     ASSERT_TRUE(person.live_until([&] { return moves(); }));
     connect();
     ASSERT_TRUE(is(DriverState::running));
@@ -256,7 +256,7 @@ TEST_F(MachineLink, RunsAProgramOnTheCordicProcessorWithoutAnAddress) {
     const auto job = [this] { return person.workshop().look().job; };
     ASSERT_TRUE(person.live_until([&] { return job().outcome || job().failure; }, 90.0));
     ASSERT_TRUE(job().outcome) << job().failure->message;
-    EXPECT_EQ(job().outcome->end, machine::JobEnd::done) << job().outcome->sentence;
+    EXPECT_EQ(job().outcome->end, jobs::JobEnd::done) << job().outcome->sentence;
     EXPECT_NEAR(job().outcome->position[0], 0.0, 0.01);
     EXPECT_NEAR(job().outcome->position[1], 5.0, 0.01);
 }

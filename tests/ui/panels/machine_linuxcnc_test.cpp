@@ -1,7 +1,7 @@
 // An emulated LinuxCNC in the Machine workspace, by mouse and keys: connected, homed, given a program, held,
 // resumed, ended; moved by hand; stopped at the machine.
 #include "core/base/files.h"
-#include "core/machine/job_log.h"
+#include "core/jobs/job_log.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/linuxcnc_bench.h"
@@ -15,8 +15,8 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
-using machine::JobEnd;
+using drivers::DriverState;
+using jobs::JobEnd;
 using test::LinuxCncBench;
 using test::Person;
 using testing::HasSubstr;
@@ -75,7 +75,7 @@ protected:
     }
     /// It is homed once it refuses no move any more; before, it may be on its way there.
     [[nodiscard]] bool takes_moves() {
-        using State = machine::CommandAnswer::State;
+        using State = drivers::CommandAnswer::State;
         constexpr int tries = 20;
         for (int n = 0; n < tries; ++n) {
             const int before = machine().status.answer.number;
@@ -125,7 +125,7 @@ TEST_F(MachineLinuxCnc, IsUnlockedAndHomedBeforeItMoves) {
     // Not homed: LinuxCNC's own words tell why nothing moves.
     person.fill_in("lower/command", "G0 X5");
     ASSERT_TRUE(person.live_until(
-        [this] { return machine().status.answer.state == machine::CommandAnswer::State::refused; }));
+        [this] { return machine().status.answer.state == drivers::CommandAnswer::State::refused; }));
     EXPECT_THAT(machine().status.answer.text, HasSubstr("homed"));
     EXPECT_NEAR(linuxcnc.position(0), 0.0, 1e-9);
 }
@@ -152,7 +152,7 @@ TEST_F(MachineLinuxCnc, RunsAProgramThatIsHeldResumedAndEnds) {
     EXPECT_EQ(job().outcome->executed_blocks, 5);
     EXPECT_EQ(linuxcnc.runs(), 1);
     expect_position(0, 0.0);
-    EXPECT_EQ(machine::read_job_log(job().outcome->log_file).end(), JobEnd::done);
+    EXPECT_EQ(jobs::read_job_log(job().outcome->log_file).end(), JobEnd::done);
     person.frames(3);
     person.keep("machine-linuxcnc-done");
 }

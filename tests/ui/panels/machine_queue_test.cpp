@@ -2,7 +2,7 @@
 // them when the window is closed, killed, or opened twice.
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/machine/job_queue.h"
+#include "core/jobs/job_queue.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/ui/panels/at_machine.h"
 
@@ -16,10 +16,10 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
-using machine::JobEnd;
-using machine::QueuedJob;
-using machine::QueueState;
+using drivers::DriverState;
+using jobs::JobEnd;
+using jobs::QueuedJob;
+using jobs::QueueState;
 using test::connect;
 using test::GrblBench;
 using test::machine_is;
@@ -98,7 +98,7 @@ TEST_F(MachineQueue, OutlivesTheWindowAndIsTheCommandLinesToo) {
         ASSERT_TRUE(person.live_until([&] { return machine_is(person, DriverState::idle); }));
     }
     {
-        const machine::JobQueue on_the_command_line(file);
+        const jobs::JobQueue on_the_command_line(file);
         EXPECT_EQ(on_the_command_line.next()->name, "second");
     }
     write_file(folder / "third.ngc", "G21 G90\nG0 X500\nM2\n"); // another program than was queued

@@ -9,13 +9,13 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using test::GrblBench;
 using test::machine_is;
 using test::Person;
 
 TEST(MachineWithRotaryAxes, IsNamedReadOutJoggedAndZeroed) {
-    GrblBench grbl({.firmware = machine::EmulatedFirmware::grblhal, .axes = "XYZAB"});
+    GrblBench grbl({.firmware = emulators::EmulatedFirmware::grblhal, .axes = "XYZAB"});
     Person person({1280, 900});
     person.workshop().session().hand.turn_deg_per_min = 1800.0;
     test::connect(person, grbl);

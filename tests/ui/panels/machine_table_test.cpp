@@ -17,7 +17,7 @@
 namespace millwright::panels {
 namespace {
 
-using machine::DriverState;
+using drivers::DriverState;
 using test::Person;
 using test::TableBench;
 using testing::ElementsAre;
@@ -48,7 +48,7 @@ protected:
     }
     [[nodiscard]] actions::Workbench now() { return person.workshop().look(); }
     [[nodiscard]] bool known() {
-        const machine::DriverStatus status = now().controller.status;
+        const drivers::DriverStatus status = now().controller.status;
         return status.position_known && status.position_doubt.empty();
     }
     void begin_at(int line) {
@@ -99,7 +99,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
             return shown.job.outcome.has_value();
         },
         60.0));
-    EXPECT_EQ(now().job.outcome->end, machine::JobEnd::done) << now().job.outcome->sentence;
+    EXPECT_EQ(now().job.outcome->end, jobs::JobEnd::done) << now().job.outcome->sentence;
     EXPECT_THAT(table.positions().front(), ElementsAre(30.0, 33.0, 5.0)); // up from there, before all else
     EXPECT_GE(first_line, 20);
     EXPECT_GT(most_left, 10.0) << "20 rows of 45 mm at 50 mm/s, of the job's own plan"; // it was 0 to the end
@@ -143,7 +143,7 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     // Within a row: between two rows the table has answered, and its position is known.
     ASSERT_TRUE(person.live_until(
         [&] {
-            const machine::DriverStatus status = now().controller.status;
+            const drivers::DriverStatus status = now().controller.status;
             return status.position[1] > 8.0 && status.sent_blocks > status.executed_blocks;
         },
         60.0));

@@ -39,11 +39,11 @@ TEST_F(Outline, AFigureOfARunningWorkIsMarked) {
     actions::Workbench now = person_.workshop().look();
     EXPECT_FALSE(row(now, "tracks").so_far);
     EXPECT_NE(row(now, "tracks").detail.front(), '~');
-    project::PublishedPlan plan = *now.plan;
-    project::Evaluation coarse = *plan.plan.optimised;
+    plan::PublishedPlan plan = *now.plan;
+    plan::Evaluation coarse = *plan.plan.optimised;
     coarse.outcome.status = grid::ImproverStatus::running;
-    plan.plan.optimised = std::make_shared<const project::Evaluation>(std::move(coarse));
-    now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
+    plan.plan.optimised = std::make_shared<const plan::Evaluation>(std::move(coarse));
+    now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_TRUE(row(now, "tracks").so_far);
     EXPECT_EQ(row(now, "tracks").detail.substr(0, 2), "~ ");
     for (const char* made_of_it : {"toolpath", "program", "machine"}) {

@@ -19,8 +19,8 @@ using ::testing::ElementsAre;
 using toolpath::MoveKind;
 
 /// Three moves of 10, 4 and 6 mm; the second goes from track to track.
-project::Evaluation three_moves() {
-    project::Evaluation evaluation{{grid::Grid::uniform(2, 2)}, {}, {}, {}, {}, {}, {}, {}};
+plan::Evaluation three_moves() {
+    plan::Evaluation evaluation{{grid::Grid::uniform(2, 2)}, {}, {}, {}, {}, {}, {}, {}};
     evaluation.field.moves = {{.kind = MoveKind::track, .closest = 0.1, .length = 10.0},
                               {.kind = MoveKind::cross, .closest = 9.0, .length = 4.0},
                               {.kind = MoveKind::track, .closest = 0.3, .length = 6.0}};
@@ -105,11 +105,11 @@ TEST_F(PlottedPaths, OfAGridThatIsOnlyWatchedThereIsNoneAndTheProgramsStands) {
 
 TEST_F(PlottedPaths, AreMarkedSoFarAndNoneWhereAFileIsOnScreen) {
     actions::Workbench now = person_.workshop().look();
-    project::PublishedPlan plan = *now.plan;
-    project::Evaluation coarse = *plan.plan.optimised;
+    plan::PublishedPlan plan = *now.plan;
+    plan::Evaluation coarse = *plan.plan.optimised;
     coarse.outcome.status = grid::ImproverStatus::running;
-    plan.plan.optimised = std::make_shared<const project::Evaluation>(std::move(coarse));
-    now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
+    plan.plan.optimised = std::make_shared<const plan::Evaluation>(std::move(coarse));
+    now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_EQ(plotted_paths(now).back().name, "Track optimiser, the program's path (so far)");
     const auto file = person_.folder() / "part.ngc";
     std::ofstream(file) << "G21 G90 F600\nG1 X10\nM2\n";

@@ -29,7 +29,7 @@ struct PlotPerson {
         person.frames(3);
     }
     [[nodiscard]] actions::PlotBench& plot() { return person.workshop().plot(); }
-    [[nodiscard]] const project::PlotResult& made() {
+    [[nodiscard]] const plan::PlotResult& made() {
         result = plot().latest();
         return *result;
     }
@@ -42,7 +42,7 @@ struct PlotPerson {
 
     ScratchFolder folder;
     Person person;
-    std::shared_ptr<const project::PlotResult> result;
+    std::shared_ptr<const plan::PlotResult> result;
 };
 
 } // namespace millwright::test

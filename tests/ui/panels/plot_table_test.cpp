@@ -1,6 +1,6 @@
 // Points that the Plot & Picture workspace plays to a table, with real mouse and keys in real OpenGL.
-#include "core/machine/job_log.h"
-#include "core/machine/links/link.h"
+#include "core/jobs/job_log.h"
+#include "core/links/link.h"
 #include "tests/support/reason.h"
 #include "tests/ui/panels/plot_person.h"
 #include "tests/ui/panels/table_bench.h"
@@ -53,13 +53,13 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     bench.person.click("timeline/timeline/last");
     bench.person.frames(2);
     EXPECT_FALSE(bench.person.workshop().look().table_tip());
-    EXPECT_EQ(stopped.status.state, machine::PlayState::emergency_stop);
+    EXPECT_EQ(stopped.status.state, drivers::PlayState::emergency_stop);
     EXPECT_LT(stopped.status.points, stopped.total);
     EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
     ASSERT_TRUE(stopped.outcome);
-    const machine::ReadLog log = machine::read_job_log(stopped.outcome->log_file);
+    const jobs::ReadLog log = jobs::read_job_log(stopped.outcome->log_file);
     EXPECT_EQ(log.start.driver, "points");
-    EXPECT_EQ(log.end(), machine::JobEnd::fault);
+    EXPECT_EQ(log.end(), jobs::JobEnd::fault);
 }
 
 /// Six squares beside each other, a pen each.
@@ -106,7 +106,7 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
     bench.person.click("lower/plot_play_table");
     const auto held = [&] {
         const actions::TableView now = bench.plot().table().view();
-        return now.playing && now.status.state == machine::PlayState::holding;
+        return now.playing && now.status.state == drivers::PlayState::holding;
     };
     ASSERT_TRUE(bench.person.live_until(held, 20.0));
     EXPECT_THAT(bench.plot().table().view().status.sentence, HasSubstr("put in tool 1"));
@@ -130,9 +130,9 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }, 60.0));
     const actions::TableView end = bench.plot().table().view();
     ASSERT_TRUE(end.outcome) << (end.failure ? to_text(*end.failure) : "");
-    EXPECT_EQ(end.outcome->end, machine::JobEnd::done) << end.outcome->sentence;
-    EXPECT_NO_THROW(machine::make_link(table.port())->open()); // given back
-    std::vector<int> squares;                                  // as they were cut
+    EXPECT_EQ(end.outcome->end, jobs::JobEnd::done) << end.outcome->sentence;
+    EXPECT_NO_THROW(links::make_link(table.port())->open()); // given back
+    std::vector<int> squares;                                // as they were cut
     for (const std::vector<double>& at : table.positions()) {
         const int square = static_cast<int>(at[0] / 10.0);
         if (at[2] < -0.01) {
@@ -143,8 +143,8 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
         }
     }
     EXPECT_THAT(squares, testing::ElementsAre(6, 5, 4, 3, 1));
-    const machine::ReadLog log = machine::read_job_log(end.outcome->log_file);
-    EXPECT_EQ(log.end(), machine::JobEnd::done);
+    const jobs::ReadLog log = jobs::read_job_log(end.outcome->log_file);
+    EXPECT_EQ(log.end(), jobs::JobEnd::done);
     EXPECT_EQ(log.start.address, table.port());
 }
 
@@ -165,13 +165,13 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
     ASSERT_TRUE(bench.person.live_until(cuts, 60.0)) << table.position()[0];
     // The port is the table's while it plays, and anybody's afterwards.
-    const std::unique_ptr<machine::Link> anybody = machine::make_link(table.port());
+    const std::unique_ptr<links::Link> anybody = links::make_link(table.port());
     EXPECT_THAT(test::reason([&] { anybody->open(); }), HasSubstr("held already"));
     bench.person.click("lower/plot_stop_table");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
     EXPECT_NO_THROW(anybody->open());
     anybody->close();
-    EXPECT_EQ(bench.plot().table().view().status.state, machine::PlayState::stopped);
+    EXPECT_EQ(bench.plot().table().view().status.state, drivers::PlayState::stopped);
     bench.person.frames(2);
     EXPECT_TRUE(bench.person.sees("lower/begins"));
     const auto first = static_cast<std::size_t>(table.records());
@@ -221,7 +221,7 @@ TEST(PlotTable, PointsEndAtTheSafeHeight) {
     bench.person.frames();
     bench.person.click("lower/plot_play_table");
     ASSERT_TRUE(bench.person.live_until(
-        [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }));
+        [&] { return bench.plot().table().view().status.state == drivers::PlayState::done; }));
     EXPECT_EQ(bench.plot().table().view().status.position,
               Vec3(30.0, 0.0, bench.plot().settings().safe_height));
 }
@@ -246,7 +246,7 @@ TEST(PlotTable, GCodeIsPlayedAtItsOwnHeights) {
     bench.person.frames(3);
     ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
     ASSERT_TRUE(bench.person.live_until(
-        [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }, 60.0));
+        [&] { return bench.plot().table().view().status.state == drivers::PlayState::done; }, 60.0));
     const auto went = table.positions();
     EXPECT_EQ(went.front(), (std::vector<double>{0.0, 0.0, 4.0}));
     EXPECT_EQ(went.back(), (std::vector<double>{12.0, 3.0, 4.0}));
@@ -288,7 +288,7 @@ TEST(PlotTable, APointFileIsOpenedShownAndPlayedAsItIs) {
     bench.person.frames(3);
     ASSERT_FALSE(bench.plot().table().view().failure) << to_text(*bench.plot().table().view().failure);
     ASSERT_TRUE(bench.person.live_until(
-        [&] { return bench.plot().table().view().status.state == machine::PlayState::done; }, 60.0));
+        [&] { return bench.plot().table().view().status.state == drivers::PlayState::done; }, 60.0));
     const auto went = table.positions();
     ASSERT_EQ(went.size(), points.size());
     for (std::size_t n = 0; n < points.size(); ++n) {

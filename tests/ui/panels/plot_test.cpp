@@ -1,7 +1,7 @@
 // The Plot & Picture workspace with real mouse and keys in real OpenGL.
 #include "core/base/files.h"
-#include "core/machine/emulators/stream/stream_emulator.h"
-#include "core/machine/recovery.h"
+#include "core/emulators/stream/stream_emulator.h"
+#include "core/jobs/recovery.h"
 #include "core/plot/path_file.h"
 #include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/plot_person.h"
@@ -353,7 +353,7 @@ TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
 /// Chooses a table at `port` that takes `pattern` and answers by `ok`; nothing is connected yet.
 void choose_table(Person& person,
                   const std::string& port,
-                  const std::string& pattern = machine::RecordFormat().pattern) {
+                  const std::string& pattern = drivers::RecordFormat().pattern) {
     auto& choice = person.workshop().session().hand.choice;
     choice.kind = machine::DriverKind::records;
     choice.address = port;
@@ -363,14 +363,14 @@ void choose_table(Person& person,
 }
 
 /// Runs what `button` begins, going on where it waits for a person, to its end.
-machine::JobOutcome outcome_of(Person& person, const std::string& button) {
+jobs::JobOutcome outcome_of(Person& person, const std::string& button) {
     person.frames(3);
     EXPECT_EQ(person.refusal(button), "");
     test::press_run(person, button);
     EXPECT_TRUE(person.live_until(
         [&] {
             const actions::JobView job = person.workshop().look().job;
-            if (job.running && job.report && job.report->driver.state == machine::DriverState::holding) {
+            if (job.running && job.report && job.report->driver.state == drivers::DriverState::holding) {
                 person.workshop().run("machine.resume");
             }
             return !job.running && (job.outcome || job.failure);
@@ -378,13 +378,13 @@ machine::JobOutcome outcome_of(Person& person, const std::string& button) {
         60.0));
     const actions::JobView job = person.workshop().look().job;
     EXPECT_FALSE(job.failure) << to_text(*job.failure);
-    return job.outcome.value_or(machine::JobOutcome());
+    return job.outcome.value_or(jobs::JobOutcome());
 }
 
 /// Moves of the opened program that records can tell: from where the table stood, by a digit at least.
-std::int64_t moves_of(const gcode::Program& program, kinematics::AxisPositions at) {
+std::int64_t moves_of(const program::Program& program, kinematics::AxisPositions at) {
     constexpr double half_a_digit = 0.5e-4;
-    return std::ranges::count_if(program.blocks, [&](const gcode::Block& block) {
+    return std::ranges::count_if(program.blocks, [&](const program::Block& block) {
         const kinematics::AxisPositions from = std::exchange(at, block.moves() ? block.target : at);
         return (at - from).cwiseAbs().maxCoeff() >= half_a_digit;
     });
@@ -399,8 +399,8 @@ TEST(PlotWorkspace, ProgramsOfPlotsAndPathFilesAreSentByRecords) {
     test::connect(bench.person);
     const auto start = bench.person.workshop().look().controller.status.position;
     const auto plot = bench.person.workshop().look().opened->motion->program;
-    const machine::JobOutcome sent = outcome_of(bench.person, "inspector/job/machine_run");
-    EXPECT_EQ(sent.end, machine::JobEnd::done) << sent.sentence;
+    const jobs::JobOutcome sent = outcome_of(bench.person, "inspector/job/machine_run");
+    EXPECT_EQ(sent.end, jobs::JobEnd::done) << sent.sentence;
     const std::int64_t of_plot = moves_of(*plot, start);
     EXPECT_GT(of_plot, 50);
     EXPECT_EQ(table.records(), of_plot);
@@ -415,8 +415,8 @@ TEST(PlotWorkspace, ProgramsOfPlotsAndPathFilesAreSentByRecords) {
     bench.settle();
     bench.person.click("lower/tabs/queue");
     bench.person.click("lower/queue/queue_add");
-    const machine::JobOutcome queued = outcome_of(bench.person, "lower/queue/queue_run_next");
-    EXPECT_EQ(queued.end, machine::JobEnd::done) << queued.sentence;
+    const jobs::JobOutcome queued = outcome_of(bench.person, "lower/queue/queue_run_next");
+    EXPECT_EQ(queued.end, jobs::JobEnd::done) << queued.sentence;
     EXPECT_GE(table.records(), of_plot + 4);
     EXPECT_EQ(table.bad_lines(), 0);
     EXPECT_NEAR(table.position()[0], 48.0, 1e-9);
@@ -436,9 +436,9 @@ TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) 
     const std::string why = bench.person.workshop().look().job.failure->message;
     EXPECT_THAT(why, HasSubstr("Z"));
     EXPECT_EQ(table.records() + table.bad_lines(), 0);
-    const auto jobs = machine::read_job_folder(bench.person.folder() / "jobs");
+    const auto jobs = jobs::read_job_folder(bench.person.folder() / "jobs");
     EXPECT_TRUE(jobs.unreadable.empty());
-    for (const machine::JobStory& job : jobs.jobs) {
+    for (const jobs::JobStory& job : jobs.jobs) {
         EXPECT_FALSE(job.broken_off()) << job.sentence;
     }
     Person next({1280, 800}, {}, bench.person.folder() / "jobs");
@@ -447,15 +447,15 @@ TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) 
 }
 
 TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
-    auto terminal = std::make_unique<machine::PseudoTerminal>();
+    auto terminal = std::make_unique<links::PseudoTerminal>();
     terminal->open();
     const std::string port = terminal->path().string();
-    std::vector<std::unique_ptr<machine::Link>> links;
+    std::vector<std::unique_ptr<links::Link>> links;
     links.push_back(std::move(terminal));
-    auto emulator = std::make_unique<machine::StreamEmulator>();
+    auto emulator = std::make_unique<emulators::StreamEmulator>();
     const auto& stream = *emulator;
-    const machine::SteadyClock clock;
-    machine::EmulatorServer server(std::move(links), clock, std::move(emulator));
+    const SteadyClock clock;
+    emulators::EmulatorServer server(std::move(links), clock, std::move(emulator));
     PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
@@ -465,7 +465,7 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
     test::connect(bench.person);
     test::press_run(bench.person);
     const auto truth = [&] {
-        return server.with_emulator([&](machine::Emulator&) { return stream.truth(); });
+        return server.with_emulator([&](emulators::Emulator&) { return stream.truth(); });
     };
     ASSERT_TRUE(bench.person.live_until([&] { return truth().samples > 50; })) << truth().first_fault;
     EXPECT_EQ(truth().bad_lines, 0) << truth().first_fault;

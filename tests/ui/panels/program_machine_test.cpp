@@ -98,7 +98,7 @@ TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
 TEST(ProgramOnItsMachine, KnowsTheAxesOfLongProgramsWithoutRotaryAxes) {
     Person person;
     std::string text = "G21 G90 G1 F3000\n";
-    const auto count = static_cast<int>(project::most_planned_points) + 10;
+    const auto count = static_cast<int>(plan::most_planned_points) + 10;
     for (int n = 0; n < count; ++n) {
         fmt::format_to(std::back_inserter(text), "X{:.3f} Y{:.2f}\n", 0.1 * (n % 1000), 0.01 * (n / 1000));
     }
@@ -121,7 +121,7 @@ TEST(ProgramOnItsMachine, ShowsTheConnectedMachineInTheMachineWorkspace) {
     person.workshop().run("machine.connect");
     ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
     person.workshop().controller().tell(
-        [](machine::Driver& driver) { (void)driver.command("G21 G90 G0 X12 Z34 A-7"); });
+        [](drivers::Driver& driver) { (void)driver.command("G21 G90 G0 X12 Z34 A-7"); });
     ASSERT_TRUE(person.live_until([&] {
         const auto found = axes(person);
         return found.size() == 5 && std::abs(found[3] + 7.0) < 1e-6 && std::abs(found[2] - 34.0) < 1e-6;

@@ -146,7 +146,7 @@ TEST_F(StartSheetAtGrbl, TracesTheBoxInPlaceOfTheJob) {
     }));
     EXPECT_FALSE(is_asked());
     const auto now = person.workshop().look();
-    EXPECT_EQ(now.job.outcome->end, machine::JobEnd::done) << now.job.outcome->sentence;
+    EXPECT_EQ(now.job.outcome->end, jobs::JobEnd::done) << now.job.outcome->sentence;
     EXPECT_NEAR(now.controller.status.position[0], 2.0, 0.01); // back where it began
     EXPECT_NEAR(now.controller.status.position[1], 2.0, 0.01);
 }
@@ -199,7 +199,7 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
     // Where that is known only once the program was read for this machine, the sheet says it.
     actions::ControllerView grbl_view = person.workshop().look().controller;
     grbl_view.can.dialect.reset(); // Grbl's own rules do not know the word
-    const auto job = machine::text_job("G21 G90\nG1 X10 A30 F100\nM2\n", "turns.ngc");
+    const auto job = jobs::text_job("G21 G90\nG1 X10 A30 F100\nM2\n", "turns.ngc");
     const auto wish = std::make_shared<const actions::StartWish>(actions::start_wish(job, {}, grbl_view));
     const actions::StartCheck check = actions::check_start(wish, {});
     ASSERT_FALSE(check.faults.empty());

@@ -1,5 +1,5 @@
 // Strategies and grid methods as a person chooses them: real mouse and keys, drawn in real OpenGL.
-#include "core/project/strategy_path.h"
+#include "core/plan/strategy_path.h"
 #include "tests/ui/panels/person.h"
 #include "ui/panels/strategy_fields.h"
 
@@ -31,7 +31,7 @@ protected:
         person_.wait_idle();
     }
 
-    [[nodiscard]] const project::Plan& plan() { return person_.workshop().look().plan->plan; }
+    [[nodiscard]] const plan::Plan& plan() { return person_.workshop().look().plan->plan; }
 
     Person person_{{1600, 1400}};
 };
@@ -76,11 +76,11 @@ TEST_F(Strategies, WhatACoarseSpiralSaysOfItsGridIsSoFar) {
     actions::Workbench now = person_.workshop().look();
     const std::string exact = grid_note(now);
     ASSERT_THAT(exact, EndsWith("which is kept."));
-    project::PublishedPlan plan = *now.plan;
-    project::Evaluation coarse = *plan.plan.path;
+    plan::PublishedPlan plan = *now.plan;
+    plan::Evaluation coarse = *plan.plan.path;
     coarse.outcome.status = grid::ImproverStatus::running;
-    plan.plan.path = std::make_shared<const project::Evaluation>(std::move(coarse));
-    now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
+    plan.plan.path = std::make_shared<const plan::Evaluation>(std::move(coarse));
+    now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_THAT(grid_note(now), StartsWith(exact + " So far: measured coarsely"));
 }
 

@@ -1,5 +1,5 @@
 // Brush and outline on the surface in the Grid workspace: real mouse and keys, drawn in real OpenGL.
-#include "core/project/weight_map.h"
+#include "core/plan/weight_map.h"
 #include "tests/ui/panels/person.h"
 
 #include <gtest/gtest.h>

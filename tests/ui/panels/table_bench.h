@@ -1,9 +1,9 @@
 // An emulated table that takes records at a pseudo-terminal, for a person to connect to.
 #pragma once
 
-#include "core/machine/emulators/emulator_server.h"
-#include "core/machine/emulators/table/table_emulator.h"
-#include "core/machine/links/pseudo_terminal.h"
+#include "core/emulators/emulator_server.h"
+#include "core/emulators/table/table_emulator.h"
+#include "core/links/pseudo_terminal.h"
 #include "tests/support/machines.h"
 
 #include <cstdint>
@@ -17,42 +17,42 @@ namespace millwright::test {
 class TableBench {
 public:
     /// A forming table that obeys records of the usual form at once and answers each by `ok`.
-    explicit TableBench(const machine::TableOptions& options = {}) {
-        auto terminal = std::make_unique<machine::PseudoTerminal>();
+    explicit TableBench(const emulators::TableOptions& options = {}) {
+        auto terminal = std::make_unique<links::PseudoTerminal>();
         terminal->open();
         port_ = terminal->path().string();
-        std::vector<std::unique_ptr<machine::Link>> links;
+        std::vector<std::unique_ptr<links::Link>> links;
         links.push_back(std::move(terminal));
-        machine::RecordFormat format;
+        drivers::RecordFormat format;
         format.answer = "ok";
-        auto table = std::make_unique<machine::TableEmulator>(format, machine("forming-table"), options);
+        auto table = std::make_unique<emulators::TableEmulator>(format, machine("forming-table"), options);
         table_ = table.get();
-        server_ = std::make_unique<machine::EmulatorServer>(std::move(links), clock_, std::move(table));
+        server_ = std::make_unique<emulators::EmulatorServer>(std::move(links), clock_, std::move(table));
     }
 
     [[nodiscard]] const std::string& port() const { return port_; }
     /// Records that were obeyed.
     [[nodiscard]] std::int64_t records() {
-        return server_->with_emulator([this](machine::Emulator&) { return table_->records(); });
+        return server_->with_emulator([this](emulators::Emulator&) { return table_->records(); });
     }
     [[nodiscard]] std::int64_t bad_lines() {
-        return server_->with_emulator([this](machine::Emulator&) { return table_->bad_lines(); });
+        return server_->with_emulator([this](emulators::Emulator&) { return table_->bad_lines(); });
     }
     /// mm of X, Y and Z.
     [[nodiscard]] std::vector<double> position() {
-        return server_->with_emulator([this](machine::Emulator&) { return table_->position(); });
+        return server_->with_emulator([this](emulators::Emulator&) { return table_->position(); });
     }
 
     /// All that it went to, if it keeps them.
     [[nodiscard]] std::vector<std::vector<double>> positions() {
-        return server_->with_emulator([this](machine::Emulator&) { return table_->positions(); });
+        return server_->with_emulator([this](emulators::Emulator&) { return table_->positions(); });
     }
 
 private:
-    machine::SteadyClock clock_;
+    SteadyClock clock_;
     std::string port_;
-    machine::TableEmulator* table_ = nullptr; ///< lives in the server
-    std::unique_ptr<machine::EmulatorServer> server_;
+    emulators::TableEmulator* table_ = nullptr; ///< lives in the server
+    std::unique_ptr<emulators::EmulatorServer> server_;
 };
 
 } // namespace millwright::test

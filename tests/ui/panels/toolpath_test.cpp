@@ -1,5 +1,5 @@
 // The Toolpath workspace driven by real mouse and keys, drawn in real OpenGL.
-#include "core/project/cut_study.h"
+#include "core/plan/cut_study.h"
 #include "tests/ui/panels/person.h"
 #include "ui/panels/window.h"
 
@@ -54,7 +54,7 @@ protected:
         return render::difference(with, without, 0).fraction;
     }
 
-    [[nodiscard]] const project::Plan& plan() { return person_.workshop().look().plan->plan; }
+    [[nodiscard]] const plan::Plan& plan() { return person_.workshop().look().plan->plan; }
 
     Person person_{tall};
 };
@@ -155,7 +155,7 @@ TEST_F(ToolpathWorkspace, GougesAreMarkedAndListedAndAClickGoesThere) {
     ASSERT_TRUE(plan().cut);
     ASSERT_FALSE(plan().cut->bites.empty());
     person_.click("lower/tabs/gouges");
-    const project::BlockBite& first = plan().cut->bites.front();
+    const plan::BlockBite& first = plan().cut->bites.front();
     const std::string row = "lower/gouges/cutter_" + std::to_string(first.block);
     ASSERT_TRUE(person_.sees(row));
     person_.click(row);

@@ -3,8 +3,8 @@
 
 #include "core/base/files.h"
 #include "core/base/text.h"
+#include "core/plan/strategy_path.h"
 #include "core/project/project_file.h"
-#include "core/project/strategy_path.h"
 #include "tests/ui/panels/person.h"
 #include "ui/panels/error_table.h"
 
@@ -135,7 +135,7 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     person.open(dome_project);
     const auto now = person.workshop().look();
     ASSERT_TRUE(now.trajectory());
-    const auto program = static_cast<std::size_t>(project::program_grid(now.project));
+    const auto program = static_cast<std::size_t>(plan::program_grid(now.project));
     const std::vector<ErrorRow> rows = error_rows(now);
     EXPECT_EQ(rows[program].cells.back(), fixed(now.trajectory()->duration(), 1));
     for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -148,15 +148,14 @@ TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     Person person;
     person.open(dome_project);
     auto now = person.workshop().look();
-    project::PublishedPlan plan = *now.plan;
+    plan::PublishedPlan plan = *now.plan;
     const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic");
 
-    project::Evaluation carried = *plan.plan.evaluation(GridMethod::elliptic);
+    plan::Evaluation carried = *plan.plan.evaluation(GridMethod::elliptic);
     carried.outcome.status = grid::ImproverStatus::running;
-    plan.plan.evaluation(GridMethod::elliptic) =
-        std::make_shared<const project::Evaluation>(std::move(carried));
-    now.plan = std::make_shared<const project::PublishedPlan>(std::move(plan));
+    plan.plan.evaluation(GridMethod::elliptic) = std::make_shared<const plan::Evaluation>(std::move(carried));
+    now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (so far)");
 }
 
@@ -309,7 +308,7 @@ TEST(Workbench, RunsTheProgramOnTheVirtualMachineToItsEnd) {
     person.wait_idle();
     const auto job = person.workshop().look().job;
     ASSERT_TRUE(job.outcome.has_value()) << (job.failure ? job.failure->message : "no outcome");
-    EXPECT_EQ(job.outcome->end, machine::JobEnd::done);
+    EXPECT_EQ(job.outcome->end, jobs::JobEnd::done);
     EXPECT_EQ(job.outcome->executed_blocks, job.outcome->blocks);
     EXPECT_TRUE(std::filesystem::exists(job.outcome->log_file));
 }

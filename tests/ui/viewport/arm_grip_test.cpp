@@ -1,7 +1,7 @@
 #include "ui/viewport/arm_grip.h"
 
+#include "core/arm/arm_forward.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "tests/support/arms.h"
 #include "ui/render/camera.h"
 #include "ui/render/convert.h"
@@ -27,13 +27,12 @@ protected:
 
     glm::dvec2 pixel(const Vec3& point) const { return render::project(view_, render::to_glm(point))->pixel; }
     Vec3 on_link(int joint, const Vec3& local) const {
-        return kinematics::base_T_joints(scene_.look->arm(), scene_.joints)[static_cast<std::size_t>(joint)] *
-               local;
+        return arm::base_T_joints(scene_.look->arm(), scene_.joints)[static_cast<std::size_t>(joint)] * local;
     }
 };
 
 TEST_F(ArmGripTest, TakesTheTipWhereItIsAndElseTheLinkUnderTheMouse) {
-    const Vec3 tip = kinematics::base_T_tool(scene_.look->arm(), scene_.joints).translation();
+    const Vec3 tip = arm::base_T_tool(scene_.look->arm(), scene_.joints).translation();
     const auto at_tip = pick_arm(scene_, view_, pixel(tip), 10.0);
     ASSERT_TRUE(at_tip);
     EXPECT_TRUE(at_tip->is_tip());
@@ -54,7 +53,7 @@ TEST_F(ArmGripTest, AJointTurnsUntilWhatIsHeldIsUnderTheMouse) {
     const Vec3 local(400.0, 0.0, 0.0);
     ArmScene there = scene_;
     there.joints[1] += from_degrees(25.0);
-    const Vec3 target = kinematics::base_T_joints(scene_.look->arm(), there.joints)[1] * local;
+    const Vec3 target = arm::base_T_joints(scene_.look->arm(), there.joints)[1] * local;
     EXPECT_NEAR(joint_towards(scene_, 1, local, view_, pixel(target)), there.joints[1], 1e-4);
 }
 
@@ -67,7 +66,7 @@ TEST_F(ArmGripTest, AJointStaysWithinItsLimits) {
 }
 
 TEST(ArmScene, TellsWhatIsNearALimit) {
-    const kinematics::ArmModel arm = test::arm("motoman-l3");
+    const arm::ArmModel arm = test::arm("motoman-l3");
     EXPECT_TRUE(near_limit(arm.joint(0), from_degrees(170.0)));
     EXPECT_FALSE(near_limit(arm.joint(0), from_degrees(0.0)));
     EXPECT_DOUBLE_EQ(share_of_range(arm.joint(0), 0.0), 0.5);

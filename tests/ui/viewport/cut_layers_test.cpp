@@ -46,13 +46,13 @@ TEST_F(CutLayers, GougesAreMarkedWhereTheyAreAndNamed) {
     Scene scene = bare(test::dome);
     scene.layers.surface = true;
     const render::View view = look_at(scene);
-    project::CutStudy study;
+    plan::CutStudy study;
     study.bites.push_back(
         {7,
          9,
          false,
          {.depth = 0.25, .uv = {0.5, 0.5}, .position = scene.workpiece->patch.position(0.5, 0.5)}});
-    scene.cut = std::make_shared<const project::CutStudy>(study);
+    scene.cut = std::make_shared<const plan::CutStudy>(study);
     EXPECT_EQ(count(picture(scene, view), colors.danger), 0);
     scene.layers.gouges = true;
     EXPECT_GT(count(picture(scene, view), colors.danger), 20);
@@ -60,7 +60,7 @@ TEST_F(CutLayers, GougesAreMarkedWhereTheyAreAndNamed) {
     ASSERT_EQ(labels.size(), 1U);
     EXPECT_EQ(labels.front().text, "gouge 0.250 mm");
     study.bites.front().by_holder = true;
-    scene.cut = std::make_shared<const project::CutStudy>(study);
+    scene.cut = std::make_shared<const plan::CutStudy>(study);
     EXPECT_GT(count(picture(scene, view), colors.danger), 20);
     EXPECT_EQ(this->view().labels(view, colors).front().text, "holder 0.250 mm");
 }
@@ -73,10 +73,10 @@ TEST_F(CutLayers, ScallopsColourTheSurface) {
     scene.layers.scallops = true;
     EXPECT_EQ(picture(scene, view), plain) << "there is no study yet";
     const auto with = [&](double height) {
-        project::CutStudy study;
+        plan::CutStudy study;
         study.swept = {3, 3, std::vector<double>(9, height), {}};
         study.scallops.p95 = 0.1;
-        scene.cut = std::make_shared<const project::CutStudy>(study);
+        scene.cut = std::make_shared<const plan::CutStudy>(study);
         return picture(scene, view);
     };
     const Picture low = with(0.0);
@@ -91,14 +91,14 @@ TEST_F(CutLayers, ScallopsColourTheSurface) {
 TEST_F(CutLayers, TheSetUpsMapStandsBesideThePart) {
     Scene scene = bare(test::dome);
     scene.layers.surface = true;
-    project::SetUpResult result;
+    plan::SetUpResult result;
     result.study.emplace();
     toolpath::SetUpMap& map = result.study->map;
     const Vec3 now = scene.workpiece->machine.description().workpiece_offset;
     map.x = {now.x() - 20.0, now.x(), now.x() + 20.0};
     map.y = {now.y() - 20.0, now.y(), now.y() + 20.0};
     map.costs = {3.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0, std::numeric_limits<double>::infinity()};
-    scene.set_up = std::make_shared<const project::SetUpResult>(result);
+    scene.set_up = std::make_shared<const plan::SetUpResult>(result);
     scene.set_up_place << now, 0.0;
     const Picture without = picture(scene, look_at(scene));
     scene.layers.set_up_map = true;

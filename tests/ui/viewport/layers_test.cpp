@@ -128,9 +128,9 @@ TEST_F(LayersTest, ColoursOfValuesEndAtTheOutline) {
     const Scene all = test::scene_of(test::dome, ViewKind::error);
     const render::View view = look_at(all, render::StandardView::top);
     Scene scene = only(all, {.surface = false, .error_surface = true, .floor = false, .origin = false});
-    project::Workpiece made = *scene.workpiece;
+    plan::Workpiece made = *scene.workpiece;
     made.trim = {{test::rectangle(0.0, 0.0, 1.0, 1.0), test::circle({0.5, 0.5}, 0.2, 96)}};
-    scene.workpiece = std::make_shared<const project::Workpiece>(made);
+    scene.workpiece = std::make_shared<const plan::Workpiece>(made);
     const Picture empty = picture(only(scene, bare_view), view);
     for (const bool bent : {false, true}) {
         scene.shown = test::evaluation(made, bent ? test::bent_grid(12) : grid::Grid::uniform(12, 12));
@@ -206,12 +206,12 @@ TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInI
     Scene scene = only(test::scene_of(test::dome, ViewKind::design),
                        {.surface_lines = true, .deviation = true, .floor = false, .origin = false});
     const geometry::Mesh mesh = geometry::tessellate(scene.workpiece->patch, 60, 60);
-    project::ReferenceMesh reference;
+    plan::ReferenceMesh reference;
     reference.fitted.points = mesh.positions;
     reference.fitted.triangles = mesh.triangles;
     reference.deviation.assign(mesh.positions.size(), 0.0);
     reference.largest = 0.01;
-    scene.reference = std::make_shared<const project::ReferenceMesh>(reference);
+    scene.reference = std::make_shared<const plan::ReferenceMesh>(reference);
     Scene bare = scene;
     bare.layers.surface_lines = false;
     const render::View view = look_at(scene);
@@ -332,9 +332,9 @@ TEST_F(LayersTest, TheSurfaceCanCarryTheErrors) {
 }
 
 /// A weight that grows from 1 at u = 0 to 3 at u = 1.
-std::shared_ptr<const project::WeightMap> ramp() {
-    return std::make_shared<const project::WeightMap>(
-        project::WeightMap{.rows = 2, .columns = 2, .values = {1.0, 1.0, 3.0, 3.0}, .low = 1.0, .high = 3.0});
+std::shared_ptr<const plan::WeightMap> ramp() {
+    return std::make_shared<const plan::WeightMap>(
+        plan::WeightMap{.rows = 2, .columns = 2, .values = {1.0, 1.0, 3.0, 3.0}, .low = 1.0, .high = 3.0});
 }
 
 TEST_F(LayersTest, TheWeightColoursTheSurfaceByItsValue) {
@@ -395,9 +395,9 @@ TEST_F(LayersTest, TheToolOfATableStandsWhereTheTableIsAndNotWhereTheProgramIsPl
     chunker.add({Vec3(0, 0, 0), 0, gcode::PathKind::start}, 0.0);
     chunker.add({Vec3(100, 80, 0), 0, gcode::PathKind::feed}, 0.0);
     const gcode::PreviewPath path{{chunker.take_rest()}};
-    auto plot = std::make_shared<project::PlotResult>();
+    auto plot = std::make_shared<plan::PlotResult>();
     plot->cuts.push_back({1, {}, path});
-    auto program = std::make_shared<project::OpenedProgram>();
+    auto program = std::make_shared<plan::OpenedProgram>();
     program->path = path;
     Scene scene = only({}, {.surface = false, .tool = true, .floor = false, .origin = false});
     scene.plot = plot;

@@ -112,8 +112,8 @@ TEST(SurfacePicker, MeetsNothingBesideTheSurfaceOrWithoutOne) {
 }
 
 /// Two triangles over the sheet's corner at different heights, of the faces 3 and 7.
-project::ReferenceMesh two_faces() {
-    project::ReferenceMesh reference;
+plan::ReferenceMesh two_faces() {
+    plan::ReferenceMesh reference;
     reference.rest.points = {{0, 0, 10}, {60, 0, 10}, {0, 60, 10}, {0, 0, 30}, {30, 0, 30}, {0, 30, 30}};
     reference.rest.triangles = {{0, 1, 2}, {3, 4, 5}};
     reference.faces = {3, 7};
@@ -134,7 +134,7 @@ TEST(PickFace, FindsTheNearestAndNoneBehindTheSurfaceOrBeside) {
     Frame moved = Frame::Identity();
     moved.translation() = Vec3(40.0, 40.0, 0.0);
     EXPECT_EQ(pick_face(two_faces(), render::ray(view, pixel_of(view, {50.0, 50.0, 30.0})), moved, any), 7);
-    project::ReferenceMesh mesh = two_faces();
+    plan::ReferenceMesh mesh = two_faces();
     mesh.faces.clear();
     EXPECT_EQ(pick_face(mesh, render::ray(view, pixel_of(view, {10.0, 10.0, 30.0})), here, any),
               std::nullopt);

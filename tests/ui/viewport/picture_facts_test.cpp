@@ -15,7 +15,7 @@ TEST(PictureFacts, PutTheErrorsBeforeAndAfterBelowEachOther) {
     const auto dome = test::planned(test::dome);
     const PictureFacts facts = picture_facts(dome.project, dome.plan, ViewKind::error);
     ASSERT_EQ(facts.rows.size(), 2U);
-    const project::Evaluation& after = *dome.plan.optimised;
+    const plan::Evaluation& after = *dome.plan.optimised;
     const std::vector<std::string> expected = {"optimised",
                                                fixed(after.closest.max, 3),
                                                fixed(after.closest.mean, 4),
@@ -50,7 +50,7 @@ TEST(PictureFacts, NameProjectMachineAndSingularPoints) {
 
 TEST(PictureFacts, SayOutOfReachWhereThereIsNoNumber) {
     auto dome = test::planned(test::dome);
-    auto broken = std::make_shared<project::Evaluation>(*dome.plan.uniform);
+    auto broken = std::make_shared<plan::Evaluation>(*dome.plan.uniform);
     broken->closest.max = std::numeric_limits<double>::infinity();
     dome.plan.uniform = broken;
     EXPECT_EQ(picture_facts(dome.project, dome.plan, ViewKind::error).rows[0][1], "out of reach");

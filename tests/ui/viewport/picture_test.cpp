@@ -111,7 +111,7 @@ TEST(RenderView, ComparesTheChosenGridWithTheUniformOne) {
 
 TEST(RenderView, TakesAPlanThatStopsShort) {
     auto dome = test::planned(test::dome);
-    project::Plan plan;
+    plan::Plan plan;
     plan.surface = dome.plan.surface;
     for (int k = 0; k < view_kind_count; ++k) {
         EXPECT_NO_THROW(

@@ -1,7 +1,7 @@
 // Projects and what is derived from them, for tests of pictures.
 #pragma once
 
-#include "core/project/plan.h"
+#include "core/plan/plan.h"
 #include "tests/ui/viewport/scenes.h"
 
 #include <string>
@@ -11,7 +11,7 @@ namespace millwright::test {
 
 struct Planned {
     project::Project project;
-    project::Plan plan;
+    plan::Plan plan;
 };
 
 /// The bent grid stands for the optimised one.

@@ -93,8 +93,8 @@ TEST(ErrorColors, EndAtTheToleranceWhereThereIsOne) {
 
 TEST(WeightColors, GoFromTheLeastToTheLargestInAnotherMapThanTheErrors) {
     Scene scene;
-    scene.weight = std::make_shared<const project::WeightMap>(project::WeightMap{
-        .rows = 2, .columns = 2, .values = {-1.0, 0.0, 0.0, 4.0}, .low = -1.0, .high = 4.0});
+    scene.weight = std::make_shared<const plan::WeightMap>(
+        plan::WeightMap{.rows = 2, .columns = 2, .values = {-1.0, 0.0, 0.0, 4.0}, .low = -1.0, .high = 4.0});
     const render::ColorScale scale = weight_colors(scene);
     EXPECT_DOUBLE_EQ(scale.low, -1.0);
     EXPECT_DOUBLE_EQ(scale.high, 4.0);
@@ -105,8 +105,8 @@ TEST(WeightColors, GoFromTheLeastToTheLargestInAnotherMapThanTheErrors) {
 
 TEST(WeightColors, OfAConstantWeightHaveARangeForTheLegend) {
     Scene scene;
-    scene.weight = std::make_shared<const project::WeightMap>(
-        project::WeightMap{.rows = 2, .columns = 2, .values = {2.0, 2.0, 2.0, 2.0}, .low = 2.0, .high = 2.0});
+    scene.weight = std::make_shared<const plan::WeightMap>(
+        plan::WeightMap{.rows = 2, .columns = 2, .values = {2.0, 2.0, 2.0, 2.0}, .low = 2.0, .high = 2.0});
     EXPECT_GT(weight_colors(scene).high, weight_colors(scene).low);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/geometry/presets.h"
-#include "core/project/evaluation.h"
+#include "core/plan/evaluation.h"
 #include "tests/support/machines.h"
 #include "ui/viewport/scene.h"
 
@@ -21,7 +21,7 @@ struct Part {
 inline const Part dome{};
 inline const Part two_bell{"two-bell", "ac-table", 12};
 
-inline project::Workpiece workpiece(const Part& part) {
+inline plan::Workpiece workpiece(const Part& part) {
     return {.patch = geometry::surface_preset(part.preset).make().patch(geometry::PatchId{0}),
             .machine = machine(part.machine)};
 }
@@ -41,22 +41,21 @@ inline grid::Grid bent_grid(int nodes) {
     return grid::Grid(array);
 }
 
-inline std::shared_ptr<const project::Evaluation> evaluation(const project::Workpiece& workpiece,
-                                                             grid::Grid grid) {
-    return std::make_shared<const project::Evaluation>(
-        project::evaluate(workpiece, {.grid = std::move(grid), .note = {}}, {8}, Progress()));
+inline std::shared_ptr<const plan::Evaluation> evaluation(const plan::Workpiece& workpiece, grid::Grid grid) {
+    return std::make_shared<const plan::Evaluation>(
+        plan::evaluate(workpiece, {.grid = std::move(grid), .note = {}}, {8}, Progress()));
 }
 
 /// Everything there is, on the uniform grid.
 inline viewport::Scene scene_of(const Part& part, viewport::ViewKind kind) {
     viewport::Scene scene;
-    const project::Workpiece made = workpiece(part);
+    const plan::Workpiece made = workpiece(part);
     scene.layers = viewport::layers_of(kind);
     scene.surface = std::make_shared<const geometry::Surface>(geometry::surface_preset(part.preset).make());
     scene.singular_points = toolpath::singular_points(made.patch, made.machine);
     scene.shown = evaluation(made, grid::Grid::uniform(part.nodes, part.nodes));
     scene.start = scene.shown;
-    scene.workpiece = std::make_shared<const project::Workpiece>(made);
+    scene.workpiece = std::make_shared<const plan::Workpiece>(made);
     return scene;
 }
 

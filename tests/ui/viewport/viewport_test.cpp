@@ -46,11 +46,11 @@ TEST_F(ViewportTest, LabelsOfOnePlaceDoNotCoverEachOther) {
     scene.layers = {.singular_points = true, .gouges = true, .origin = false};
     scene.singular_points.resize(1);
     const Vec3 place = scene.singular_points.front().position;
-    project::CutStudy study;
+    plan::CutStudy study;
     for (const bool by_holder : {false, true}) {
         study.bites.push_back({7, 9, by_holder, {.depth = 0.25, .uv = {0.5, 0.5}, .position = place}});
     }
-    scene.cut = std::make_shared<const project::CutStudy>(study);
+    scene.cut = std::make_shared<const plan::CutStudy>(study);
     frame();
     std::vector<widgets::Rect> words;
     for (int n = 0; n < 3; ++n) {
@@ -81,12 +81,12 @@ gcode::PreviewPath line(const Vec3& from, const Vec3& to) {
 // The program of a plot that was moved is still where the plot was: for as long as the new one was made the
 // view was fitted to both, and stayed so.
 TEST_F(ViewportTest, FitsAPlotAndNotTheProgramThatIsPlayedOfIt) {
-    auto plot = std::make_shared<project::PlotResult>();
+    auto plot = std::make_shared<plan::PlotResult>();
     plot->cuts.push_back({1, {}, line({400, 0, 0}, {500, 80, 0})});
     scene.plot = plot;
     frame();
     const render::CameraPose alone = viewport().camera().pose();
-    auto program = std::make_shared<project::OpenedProgram>();
+    auto program = std::make_shared<plan::OpenedProgram>();
     program->path = line({0, 0, 0}, {100, 80, 0});
     scene.opened = program;
     viewport().fit();

@@ -20,22 +20,20 @@ void ArmBuffers::follow(const std::shared_ptr<const ArmLook>& look) {
     parts_.clear();
     for (std::size_t n = 0; look_ && n < look_->bodies.size(); ++n) {
         Part part;
-        const kinematics::ArmPart& carried = look_->file.bodies->parts[n];
-        part.moves = carried.carrier != kinematics::ArmCarrier::base;
-        part.joint = carried.carrier == kinematics::ArmCarrier::joint ? carried.number : -1;
+        const arm::ArmPart& carried = look_->file.bodies->parts[n];
+        part.moves = carried.carrier != arm::ArmCarrier::base;
+        part.joint = carried.carrier == arm::ArmCarrier::joint ? carried.number : -1;
         part.meshes = buffers_of(look_->bodies[n]);
         parts_.push_back(std::move(part));
     }
 }
 
-void ArmBuffers::draw(const Canvas& canvas,
-                      const kinematics::JointPositions& joints,
-                      const ArmTint& tint) const {
+void ArmBuffers::draw(const Canvas& canvas, const arm::JointPositions& joints, const ArmTint& tint) const {
     if (parts_.empty()) {
         return;
     }
     const std::vector<Frame> places =
-        kinematics::base_T_parts(look_->arm(), look_->file.actuators, look_->file.bodies->parts, joints);
+        arm::base_T_parts(look_->arm(), look_->file.actuators, look_->file.bodies->parts, joints);
     for (std::size_t n = 0; n < parts_.size(); ++n) {
         if (tint.moving_only && !parts_[n].moves) {
             continue;

@@ -24,7 +24,7 @@ class ArmBuffers {
 public:
     /// Makes them anew for another arm.
     void follow(const std::shared_ptr<const ArmLook>& look);
-    void draw(const Canvas& canvas, const kinematics::JointPositions& joints, const ArmTint& tint) const;
+    void draw(const Canvas& canvas, const arm::JointPositions& joints, const ArmTint& tint) const;
 
 private:
     struct Part {

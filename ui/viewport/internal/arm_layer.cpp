@@ -1,6 +1,6 @@
 // A robot arm: its bodies, or lines from joint to joint where it has none.
 
-#include "core/kinematics/arm_forward.h"
+#include "core/arm/arm_forward.h"
 #include "ui/viewport/internal/arm_buffers.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
@@ -17,10 +17,10 @@ constexpr double reach_behind = 0.45, reach_ahead = 0.8, reach_aside = 0.55, rea
 
 std::vector<Vec3> skeleton(const ArmScene& arm) {
     std::vector<Vec3> points{Vec3(0.0, 0.0, arm.look->foot)};
-    for (const Frame& joint : kinematics::base_T_joints(arm.look->arm(), arm.joints)) {
+    for (const Frame& joint : arm::base_T_joints(arm.look->arm(), arm.joints)) {
         points.emplace_back(joint.translation());
     }
-    points.emplace_back(kinematics::base_T_tool(arm.look->arm(), arm.joints).translation());
+    points.emplace_back(arm::base_T_tool(arm.look->arm(), arm.joints).translation());
     return points;
 }
 

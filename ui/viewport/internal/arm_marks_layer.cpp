@@ -1,8 +1,8 @@
 // What is drawn around an arm: how far it reaches, the ranges of its joints, where it would go, where its
 // tool has been and shall go, and how the tool stands.
 
+#include "core/arm/arm_forward.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "ui/viewport/internal/arm_buffers.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
@@ -17,7 +17,7 @@ namespace millwright::viewport {
 
 namespace {
 
-using kinematics::JointPositions;
+using arm::JointPositions;
 
 constexpr double frame_share = 0.11; // axes of the tool, to the reach
 constexpr double ring_share = 0.13;  // radius of a joint's range, to the reach
@@ -45,7 +45,7 @@ std::vector<Vec3> circle(const Vec2& place, double first, double last) {
 
 /// Meridians and parallels of the reach.
 std::vector<std::vector<Vec3>> shell_curves(const ArmLook& look) {
-    const kinematics::ReachShell& shell = *look.shell;
+    const arm::ReachShell& shell = *look.shell;
     std::vector<std::vector<Vec3>> curves;
     const auto meridians =
         std::max(1, static_cast<int>(std::round((shell.last - shell.first) / meridian_step)));
@@ -103,7 +103,7 @@ Drawn drawn(const std::vector<std::vector<Vec3>>& curves) {
 render::LineBuffer track_lines(const ArmTrack& track, const render::ViewColors& colors) {
     std::vector<render::LineVertex> lines;
     for (std::size_t n = 1; n < track.tips.size(); ++n) {
-        const bool free = track.troubles[n] == kinematics::ArmTrouble::none;
+        const bool free = track.troubles[n] == arm::ArmTrouble::none;
         append(lines,
                std::array{track.tips[n - 1], track.tips[n]},
                with_opacity(free ? colors.good : colors.danger, 1.0F));
@@ -128,14 +128,13 @@ public:
         }
         if (scene.arm->track != track_of_) {
             track_of_ = scene.arm->track;
-            thin_track_ = track_of_
-                              ? ThinLines(track_of_->tips,
-                                          [this](std::size_t n) {
-                                              return track_of_->troubles[n] == kinematics::ArmTrouble::none
-                                                         ? plain
-                                                         : troubled;
-                                          })
-                              : ThinLines();
+            thin_track_ =
+                track_of_
+                    ? ThinLines(track_of_->tips,
+                                [this](std::size_t n) {
+                                    return track_of_->troubles[n] == arm::ArmTrouble::none ? plain : troubled;
+                                })
+                    : ThinLines();
             for (const auto theme : {render::Theme::dark, render::Theme::light}) {
                 tracks_[static_cast<std::size_t>(theme)] =
                     track_of_ ? track_lines(*track_of_, render::view_colors(theme)) : render::LineBuffer();
@@ -167,8 +166,7 @@ public:
             draw_frame(canvas, *scene.arm->part, grip && grip->is_part());
         }
         if (scene.layers.tool_frame) {
-            draw_frame(
-                canvas, kinematics::base_T_tool(look_->arm(), scene.arm->joints), grip && grip->is_tip());
+            draw_frame(canvas, arm::base_T_tool(look_->arm(), scene.arm->joints), grip && grip->is_tip());
         }
     }
 
@@ -177,7 +175,7 @@ public:
         if (scene.arm && scene.layers.tool_frame) {
             constexpr std::array names{"x", "y", "z"};
             const std::array colors{canvas.colors.axis_x, canvas.colors.axis_y, canvas.colors.axis_z};
-            const Frame tool = kinematics::base_T_tool(look_->arm(), scene.arm->joints);
+            const Frame tool = arm::base_T_tool(look_->arm(), scene.arm->joints);
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3 end =
                     tool * Vec3(1.18 * frame_share * look_->reach * Vec3::Unit(static_cast<Eigen::Index>(k)));
@@ -214,10 +212,10 @@ private:
     /// An arc or a line for each joint's range, the part that is left behind in the neutral colour, a mark
     /// where it stands; all in the signal colour of warnings near a limit.
     void draw_ranges(const Canvas& canvas, const JointPositions& joints) const {
-        const kinematics::ArmModel& arm = look_->arm();
+        const arm::ArmModel& arm = look_->arm();
         JointPositions at = joints;
         for (int n = 0; n < arm.joint_count(); ++n) {
-            const kinematics::ArmJoint& joint = arm.joint(n);
+            const arm::ArmJoint& joint = arm.joint(n);
             const glm::vec3 color =
                 near_limit(joint, joints[n]) ? canvas.colors.warning : canvas.colors.neutral[5];
             const double low = std::isfinite(joint.min) ? joint.min : joints[n] - pi;
@@ -226,9 +224,8 @@ private:
             const double radius = ring_share * look_->reach * (1.0 - 0.12 * (n % 3));
             const auto mark = [&](double position, double along) -> Vec3 {
                 at[n] = position;
-                const Frame frame = kinematics::base_T_joints(arm, at)[static_cast<std::size_t>(n)];
-                return frame *
-                       Vec3(joint.kind == kinematics::JointKind::revolute ? along * radius : 0.0, 0.0, 0.0);
+                const Frame frame = arm::base_T_joints(arm, at)[static_cast<std::size_t>(n)];
+                return frame * Vec3(joint.kind == arm::JointKind::revolute ? along * radius : 0.0, 0.0, 0.0);
             };
             std::vector<Vec3> arc;
             const int steps = 48;

@@ -32,7 +32,7 @@ std::vector<Vec3> on_surface(const geometry::BezierPatch& patch, const Vec2& a, 
 }
 
 std::vector<Vec3>
-actual_tips(const project::Workpiece& workpiece, const project::Evaluation& shown, int move, int steps) {
+actual_tips(const plan::Workpiece& workpiece, const plan::Evaluation& shown, int move, int steps) {
     const auto from = static_cast<std::size_t>(move);
     const kinematics::AxisPositions& a = shown.axes.positions[from];
     const kinematics::AxisPositions& b = shown.axes.positions[from + 1];
@@ -105,7 +105,7 @@ void draw_move(const Canvas& canvas,
     draw_seamed(canvas, lines.buffer(), style, view);
 }
 
-float track_width_px(const project::Evaluation* shown, const Canvas& canvas) {
+float track_width_px(const plan::Evaluation* shown, const Canvas& canvas) {
     if (shown == nullptr || shown->toolpath.points.empty()) {
         return usual_width_px;
     }

@@ -18,7 +18,7 @@ on_surface(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b, int
 /// Where the tip really goes during a move of `shown`: at least `steps` + 1 points, and more where the axes
 /// turn far.
 [[nodiscard]] std::vector<Vec3>
-actual_tips(const project::Workpiece& workpiece, const project::Evaluation& shown, int move, int steps);
+actual_tips(const plan::Workpiece& workpiece, const plan::Evaluation& shown, int move, int steps);
 
 /// So many steps for each of `curves` curves that they look smooth, and that all together stay quick to draw.
 [[nodiscard]] int smooth_steps(int curves);
@@ -62,7 +62,7 @@ void draw_move(const Canvas& canvas,
 
 /// The width of lines along the tracks of `shown`, px: thinner than usual where the tracks lie so close in
 /// the picture that they would run together.
-[[nodiscard]] float track_width_px(const project::Evaluation* shown, const Canvas& canvas);
+[[nodiscard]] float track_width_px(const plan::Evaluation* shown, const Canvas& canvas);
 
 /// The segments of `lines` that are done at `now`; all of them without it and before the path begins, when a
 /// person wants to see the whole.

@@ -18,10 +18,8 @@ constexpr double deepest_share = 0.05; // of the content's radius: deeper under 
 
 using toolpath::MoveKind;
 
-PathLines actual_lines(const project::Workpiece& workpiece,
-                       const project::Evaluation& shown,
-                       MoveKind kind,
-                       int steps) {
+PathLines
+actual_lines(const plan::Workpiece& workpiece, const plan::Evaluation& shown, MoveKind kind, int steps) {
     return PathLines(static_cast<int>(shown.field.moves.size()), [&](int move) -> PathLines::Move {
         const toolpath::MoveDeviation& deviation = shown.field.moves[static_cast<std::size_t>(move)];
         if (deviation.kind != kind) {
@@ -73,8 +71,8 @@ public:
 private:
     /// Which results a buffer was made from.
     struct Made {
-        std::shared_ptr<const project::Evaluation> shown;
-        std::shared_ptr<const project::Workpiece> workpiece;
+        std::shared_ptr<const plan::Evaluation> shown;
+        std::shared_ptr<const plan::Workpiece> workpiece;
 
         [[nodiscard]] bool same(const Scene& scene) const {
             return shown == scene.shown && workpiece == scene.workpiece;

@@ -10,7 +10,7 @@ namespace millwright::viewport {
 namespace {
 
 /// [nu x nv], row-major like the grid.
-std::vector<double> node_errors(const project::Evaluation& shown) {
+std::vector<double> node_errors(const plan::Evaluation& shown) {
     const grid::NodeArray& array = shown.outcome.grid.array();
     std::vector<double> errors(array.nodes.size(), 0.0);
     const auto& points = shown.toolpath.points;
@@ -29,7 +29,7 @@ std::vector<double> node_errors(const project::Evaluation& shown) {
 
 } // namespace
 
-render::MeshBuffer error_surface(const project::Workpiece& workpiece, const project::Evaluation& shown) {
+render::MeshBuffer error_surface(const plan::Workpiece& workpiece, const plan::Evaluation& shown) {
     return value_surface(workpiece.patch, workpiece.trim, shown.outcome.grid.array(), node_errors(shown));
 }
 

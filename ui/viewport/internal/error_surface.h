@@ -1,14 +1,14 @@
 // The surface under a grid with the errors of the moves spread over it.
 #pragma once
 
-#include "core/project/evaluation.h"
+#include "core/plan/evaluation.h"
 #include "ui/render/mesh_drawer.h"
 
 namespace millwright::viewport {
 
 /// Each node takes the larger error of its two moves inside the track; between nodes errors are blended.
 /// `value` is the closest distance, mm.
-[[nodiscard]] render::MeshBuffer error_surface(const project::Workpiece& workpiece,
-                                               const project::Evaluation& shown);
+[[nodiscard]] render::MeshBuffer error_surface(const plan::Workpiece& workpiece,
+                                               const plan::Evaluation& shown);
 
 } // namespace millwright::viewport

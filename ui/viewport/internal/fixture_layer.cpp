@@ -136,7 +136,7 @@ private:
     }
 
     std::shared_ptr<const geometry::Surface> surface_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     SolidBuffers walls_;
     SolidBuffers plate_;
     SolidBuffers column_;

@@ -13,9 +13,9 @@ namespace millwright::viewport {
 
 namespace {
 
-const project::BlockBite* deepest_of(const project::CutStudy& cut, bool by_holder) {
-    const project::BlockBite* deepest = nullptr;
-    for (const project::BlockBite& bite : cut.bites) {
+const plan::BlockBite* deepest_of(const plan::CutStudy& cut, bool by_holder) {
+    const plan::BlockBite* deepest = nullptr;
+    for (const plan::BlockBite& bite : cut.bites) {
         if (bite.by_holder == by_holder && (!deepest || bite.bite.depth > deepest->bite.depth)) {
             deepest = &bite;
         }
@@ -34,11 +34,11 @@ public:
         std::vector<render::PointVertex> holder;
         std::vector<render::PointVertex> local;
         if (cut_) {
-            for (const project::BlockBite& bite : cut_->bites) {
+            for (const plan::BlockBite& bite : cut_->bites) {
                 (bite.by_holder ? holder : cutter)
                     .push_back({.position = render::to_float(bite.bite.position)});
             }
-            for (const project::LocalGouge& gouge : cut_->local_gouges) {
+            for (const plan::LocalGouge& gouge : cut_->local_gouges) {
                 local.push_back({.position = render::to_float(gouge.contact)});
             }
         }
@@ -64,7 +64,7 @@ public:
         }
         const Frame s_T_w = scene_from_workpiece(scene);
         for (const bool by_holder : {false, true}) {
-            if (const project::BlockBite* bite = deepest_of(*scene.cut, by_holder)) {
+            if (const plan::BlockBite* bite = deepest_of(*scene.cut, by_holder)) {
                 labels.push_back({render::to_glm(s_T_w * bite->bite.position),
                                   (by_holder ? "holder " : "gouge ") + fixed(bite->bite.depth, 3) + " mm",
                                   canvas.colors.danger});
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    std::shared_ptr<const project::CutStudy> cut_;
+    std::shared_ptr<const plan::CutStudy> cut_;
     render::PointBuffer cutter_;
     render::PointBuffer holder_;
     render::PointBuffer local_;

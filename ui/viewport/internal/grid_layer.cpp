@@ -62,7 +62,7 @@ render::PointBuffer make_marks(const grid::NodeArray& nodes, const geometry::Bez
 }
 
 GridBuffers
-make_grid_buffers(const grid::NodeArray& nodes, const project::Workpiece& workpiece, const GridLines& shown) {
+make_grid_buffers(const grid::NodeArray& nodes, const plan::Workpiece& workpiece, const GridLines& shown) {
     const std::vector<int> rows = line_numbers(nodes.rows, shown.each_row);
     const std::vector<int> columns = line_numbers(nodes.columns, shown.each_column);
     const int down = nodes_a_piece(shown.each_row, columns.size(), nodes.rows);
@@ -83,7 +83,7 @@ class ShownGrid {
 public:
     void update(std::shared_ptr<const void> owner,
                 const grid::NodeArray* nodes,
-                const std::shared_ptr<const project::Workpiece>& workpiece) {
+                const std::shared_ptr<const plan::Workpiece>& workpiece) {
         if (owner == owner_ && workpiece == workpiece_) {
             return;
         }
@@ -110,7 +110,7 @@ public:
 
 private:
     std::shared_ptr<const void> owner_; ///< of the nodes
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     const grid::NodeArray* nodes_ = nullptr;
     // Only the picture tells how many lines there are to be.
     mutable GridBuffers buffers_;
@@ -164,8 +164,8 @@ public:
 
 private:
     static void follow(ShownGrid& grid,
-                       const std::shared_ptr<const project::Evaluation>& evaluation,
-                       const std::shared_ptr<const project::Workpiece>& workpiece) {
+                       const std::shared_ptr<const plan::Evaluation>& evaluation,
+                       const std::shared_ptr<const plan::Workpiece>& workpiece) {
         grid.update(evaluation, evaluation ? &evaluation->outcome.grid.array() : nullptr, workpiece);
     }
 

@@ -26,7 +26,7 @@ constexpr float lying_width = 250.0F;
 constexpr float least_lying_width = 120.0F;
 constexpr float beside_scale_bar = 168.0F;
 
-bool reaches(const project::SetUpStudy& study) {
+bool reaches(const plan::SetUpStudy& study) {
     return std::ranges::any_of(study.map.costs, [](double cost) { return std::isfinite(cost); });
 }
 

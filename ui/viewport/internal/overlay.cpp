@@ -1,8 +1,8 @@
 #include "ui/viewport/internal/overlay.h"
 
+#include "core/arm/arm_forward.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/arm_forward.h"
 #include "ui/render/convert.h"
 #include "ui/render/ink.h"
 #include "ui/viewport/internal/boxes.h"
@@ -175,14 +175,14 @@ std::string move_text(const Scene& scene, int move) {
 
 std::string arm_text(const ArmScene& scene, const ArmGrip& grip) {
     if (grip.is_tip()) {
-        const Frame tool = kinematics::base_T_tool(scene.look->arm(), scene.joints);
+        const Frame tool = arm::base_T_tool(scene.look->arm(), scene.joints);
         return coordinates(tool.translation()) + " mm";
     }
     if (grip.is_part()) {
         return "Path   " + (scene.part ? coordinates(scene.part->translation()) + " mm" : std::string());
     }
-    const kinematics::ArmJoint& joint = scene.look->arm().joint(grip.joint);
-    const bool turns = joint.kind == kinematics::JointKind::revolute;
+    const arm::ArmJoint& joint = scene.look->arm().joint(grip.joint);
+    const bool turns = joint.kind == arm::JointKind::revolute;
     const double position = scene.joints[grip.joint];
     return "Joint " + joint.name + "   " + fixed(turns ? to_degrees(position) : position, 2) +
            (turns ? "\u00B0" : " mm");

@@ -2,7 +2,7 @@
 // for, those first that matter most on the screen.
 #pragma once
 
-#include "core/gcode/reader/preview_path.h"
+#include "core/gcode/preview_path.h"
 #include "ui/render/path_drawer.h"
 #include "ui/viewport/internal/layer.h"
 

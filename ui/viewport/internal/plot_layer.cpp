@@ -70,7 +70,7 @@ render::MeshBuffer mesh_of(const HeightField& field, const plot::GrayImage& ligh
 }
 
 /// Below the deepest cut, so that the path lies over it.
-render::MeshBuffer mesh_of(const project::ShownPicture& shown, double z) {
+render::MeshBuffer mesh_of(const plan::ShownPicture& shown, double z) {
     const plot::Picture& picture = shown.picture;
     std::vector<render::MeshVertex> vertices;
     for (int row = 0; row < picture.height; ++row) {
@@ -204,7 +204,7 @@ private:
         air_.draw(scene, canvas, style, rough, -1, share);
         for (std::size_t n = 0; n < cuts_.size() && n < scene.plot->cuts.size(); ++n) {
             const float opacity = shown_ && covers_picture(scene) ? rows_opacity : 1.0F;
-            const project::PlotResult::LevelPath& cut = scene.plot->cuts[n];
+            const plan::PlotResult::LevelPath& cut = scene.plot->cuts[n];
             const glm::vec3 color = cut.depth ? render::color_of(depth_colors(scene), *cut.depth)
                                               : pen_color(cut.pen, canvas.colors.theme);
             style.color = only_feeds(color, opacity);
@@ -216,7 +216,7 @@ private:
     PathBuffers air_;
     std::shared_ptr<const HeightField> look_;
     render::MeshBuffer mesh_;
-    std::shared_ptr<const project::ShownPicture> shown_;
+    std::shared_ptr<const plan::ShownPicture> shown_;
     double picture_z_ = 0.0;
     render::MeshBuffer picture_;
     ToolMark tool_;

@@ -172,8 +172,8 @@ private:
         }
     }
 
-    std::shared_ptr<const project::Evaluation> shown_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::Evaluation> shown_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     render::MeshBuffer mesh_;
     render::LineBuffer along_, across_;
     std::vector<Vec3> outline_;

@@ -120,7 +120,7 @@ private:
         }
     }
 
-    std::shared_ptr<const project::ReferenceMesh> reference_;
+    std::shared_ptr<const plan::ReferenceMesh> reference_;
     render::MeshBuffer fitted_, rest_;
     render::PointBuffer fitted_points_, rest_points_; ///< measured points
     std::vector<Vec3> outline_;

@@ -44,8 +44,8 @@ public:
     }
 
 private:
-    std::shared_ptr<const project::CutStudy> cut_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CutStudy> cut_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     render::MeshBuffer surface_;
 };
 

@@ -182,8 +182,8 @@ private:
                               canvas.view);
     }
 
-    std::shared_ptr<const project::SetUpResult> made_from_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::SetUpResult> made_from_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     SetUpPlace place_ = SetUpPlace::Zero();
     SetUpPlace now_ = SetUpPlace::Zero();
     bool shown_ = false;

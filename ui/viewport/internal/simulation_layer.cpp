@@ -59,7 +59,7 @@ private:
         return scene.layers.trace && scene.now && scene.now->move >= 0 && !scene.layers.error_path;
     }
 
-    static PathLines trace_of(const project::Workpiece& workpiece, const project::Evaluation& shown) {
+    static PathLines trace_of(const plan::Workpiece& workpiece, const plan::Evaluation& shown) {
         const int moves = static_cast<int>(shown.field.moves.size());
         const int steps = std::max(smooth_steps(moves), 2);
         return PathLines(moves, [&](int move) -> PathLines::Move {
@@ -87,9 +87,9 @@ private:
     }
 
     std::optional<SolidBuffers> tool_;
-    std::shared_ptr<const project::Workpiece> tool_of_; // whose tool that is
-    std::shared_ptr<const project::Evaluation> shown_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::Workpiece> tool_of_; // whose tool that is
+    std::shared_ptr<const plan::Evaluation> shown_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     PathLines trace_;
 };
 

@@ -191,8 +191,8 @@ private:
                               canvas.view);
     }
 
-    std::shared_ptr<const project::Evaluation> shown_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::Evaluation> shown_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     Buffers buffers_;
 };
 

@@ -1,6 +1,6 @@
 #include "ui/viewport/internal/view_pane.h"
 
-#include "core/kinematics/arm_forward.h"
+#include "core/arm/arm_forward.h"
 #include "ui/render/convert.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/viewport/internal/axis_gizmo.h"
@@ -283,8 +283,8 @@ void ViewPane::record_arm(const Frame3D& frame, const Pane& pane) const {
                              size});
         }
     };
-    const std::vector<Frame> joints = kinematics::base_T_joints(scene.look->arm(), scene.joints);
-    const Vec3 tip = kinematics::base_T_tool(scene.look->arm(), scene.joints).translation();
+    const std::vector<Frame> joints = arm::base_T_joints(scene.look->arm(), scene.joints);
+    const Vec3 tip = arm::base_T_tool(scene.look->arm(), scene.joints).translation();
     record("tip", tip);
     if (scene.part) {
         record("part", scene.part->translation());

@@ -34,8 +34,8 @@ public:
     }
 
 private:
-    std::shared_ptr<const project::WeightMap> weight_;
-    std::shared_ptr<const project::Workpiece> workpiece_;
+    std::shared_ptr<const plan::WeightMap> weight_;
+    std::shared_ptr<const plan::Workpiece> workpiece_;
     render::MeshBuffer surface_;
 };
 

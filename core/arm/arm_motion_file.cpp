@@ -1,0 +1,194 @@
+#include "core/arm/arm_motion_file.h"
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/kinematics/file_bounds.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace millwright::arm {
+
+namespace {
+
+constexpr std::string_view arm_word_letters = "GXYZIJKABCRFMS";
+
+struct Word {
+    char letter = 0;
+    double value = 0.0;
+    Place place;
+};
+
+class Reader {
+public:
+    Reader(std::string_view text, const std::filesystem::path& file) : text_(without_byte_order_mark(text)) {
+        refuse_wide_text(text, file);
+        place_.file = file;
+    }
+
+    /// The words up to the next ';'; nothing at the end of the text.
+    [[nodiscard]] std::optional<std::vector<Word>> next_block() {
+        std::vector<Word> words;
+        for (skip_blanks(); at_ < text_.size(); skip_blanks()) {
+            if (text_[at_] == ';') {
+                advance(1);
+                return words;
+            }
+            words.push_back(next_word());
+        }
+        if (!words.empty()) {
+            fail(place_, "the last block has no ';'");
+        }
+        return std::nullopt;
+    }
+    [[nodiscard]] Place place() {
+        skip_blanks();
+        return place_;
+    }
+
+    [[noreturn]] static void fail(const Place& place, std::string message) {
+        throw Error(Diagnostic{.place = place, .message = std::move(message), .hint = {}});
+    }
+
+private:
+    void advance(std::size_t count) {
+        for (; count > 0; --count, ++at_) {
+            const bool ends = text_[at_] == '\n';
+            place_.line += ends ? 1 : 0;
+            place_.column = ends ? 1 : place_.column + 1;
+        }
+    }
+    void skip_blanks() {
+        if (place_.line == 0) {
+            place_.line = place_.column = 1;
+        }
+        while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) {
+            advance(1);
+        }
+    }
+    [[nodiscard]] Word next_word() {
+        Word word;
+        word.place = place_;
+        const char found = text_[at_];
+        word.letter = found >= 'a' && found <= 'z' ? static_cast<char>(found - 'a' + 'A') : found;
+        if (arm_word_letters.find(word.letter) == std::string_view::npos) {
+            const bool printable = found > ' ' && found < 127;
+            fail(place_,
+                 printable ? fmt::format("'{}' is no word of a motion file", found)
+                           : fmt::format("byte {} is no text", static_cast<unsigned char>(found)));
+        }
+        advance(1);
+        skip_blanks();
+        const std::size_t plus = at_ < text_.size() && text_[at_] == '+' ? 1 : 0;
+        const char* begin = text_.data() + at_ + plus;
+        const auto [end, failure] = std::from_chars(begin, text_.data() + text_.size(), word.value);
+        if (failure != std::errc() || !std::isfinite(word.value) ||
+            std::abs(word.value) > kinematics::farthest_mm) {
+            const bool line_is_over = place_.line != word.place.line;
+            fail(line_is_over ? word.place : place_,
+                 fmt::format("{} needs a number from -{:g} to {:g}",
+                             word.letter,
+                             kinematics::farthest_mm,
+                             kinematics::farthest_mm));
+        }
+        advance(plus + static_cast<std::size_t>(end - begin));
+        return word;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    Place place_;
+};
+
+int whole(const Word& word, int low, int high) {
+    const double value = word.value;
+    if (value < low || value > high || std::floor(value) < value) {
+        Reader::fail(word.place,
+                     fmt::format("{} needs a whole number from {} to {}", word.letter, low, high));
+    }
+    return static_cast<int>(value);
+}
+
+/// The words of one block by letter.
+class Words {
+public:
+    explicit Words(const std::vector<Word>& words) {
+        for (const Word& word : words) {
+            const Word*& seat = by_letter_[arm_word_letters.find(word.letter)];
+            if (seat != nullptr) {
+                Reader::fail(word.place, fmt::format("{} stands twice in this block", word.letter));
+            }
+            seat = &word;
+        }
+    }
+    [[nodiscard]] const Word* find(char letter) const { return by_letter_[arm_word_letters.find(letter)]; }
+    [[nodiscard]] std::optional<double> value(char letter) const {
+        const Word* word = find(letter);
+        return word != nullptr ? std::optional(word->value) : std::nullopt;
+    }
+    /// Three words as a vector, those that are not there 0; nothing if none is there.
+    [[nodiscard]] std::optional<Vec3> vector(const char (&names)[4]) const {
+        Vec3 found = Vec3::Zero();
+        bool any = false;
+        for (int n = 0; n < 3; ++n) {
+            const auto component = value(names[n]);
+            found[n] = component.value_or(0.0);
+            any = any || component;
+        }
+        return any ? std::optional(found) : std::nullopt;
+    }
+
+private:
+    std::array<const Word*, arm_word_letters.size()> by_letter_{};
+};
+
+ArmBlock block_of(const Words& words, const Place& place, ArmMotion modal) {
+    ArmBlock block;
+    block.line = place.line;
+    const Word* g = words.find('G');
+    block.motion = g != nullptr ? static_cast<ArmMotion>(whole(*g, 1, 3)) : modal;
+    block.way = words.vector("XYZ").value_or(Vec3::Zero());
+    block.center = words.vector("IJK");
+    block.radius = words.value('R');
+    block.tool_axis = words.vector("ABC");
+    block.feed = words.value('F');
+    block.spindle = words.value('S');
+    if (const Word* m = words.find('M')) {
+        block.auxiliary = whole(*m, 0, 999);
+    }
+    if (block.tool_axis) {
+        if (!(block.tool_axis->norm() > 1e-9)) {
+            Reader::fail(place, "the tool axis A B C has no direction");
+        }
+        block.tool_axis->normalize();
+    }
+    if (block.motion != ArmMotion::line && block.center.has_value() == block.radius.has_value()) {
+        Reader::fail(place, "an arc needs either its center (I J K) or its radius (R)");
+    }
+    return block;
+}
+
+} // namespace
+
+std::vector<ArmBlock> parse_arm_motion(std::string_view text, const std::filesystem::path& file) {
+    Reader reader(text, file);
+    std::vector<ArmBlock> blocks;
+    ArmMotion modal = ArmMotion::line;
+    for (Place place = reader.place();; place = reader.place()) {
+        const auto words = reader.next_block();
+        if (!words) {
+            return blocks;
+        }
+        if (words->empty()) {
+            continue;
+        }
+        blocks.push_back(block_of(Words(*words), place, modal));
+        modal = blocks.back().motion;
+    }
+}
+
+} // namespace millwright::arm

@@ -1,0 +1,35 @@
+// The motion files of Saengsasri, Nittayachin 1996, KMITL: blocks of words that end with ';', every
+// coordinate counted from where the tool stands. docs/reference/arm.md tells the words.
+#pragma once
+
+#include "core/geometry/vectors.h"
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace millwright::arm {
+
+enum class ArmMotion { line = 1, clockwise = 2, counter_clockwise = 3 };
+
+/// One block. Lengths mm.
+struct ArmBlock {
+    ArmMotion motion = ArmMotion::line;
+    Vec3 way = Vec3::Zero();       ///< from where the tool stands to the target
+    std::optional<Vec3> center;    ///< of an arc, from where the tool stands (I J K)
+    std::optional<double> radius;  ///< of an arc; negative: the long way round
+    std::optional<Vec3> tool_axis; ///< unit (A B C); where it is not told it stays
+    std::optional<double> feed;    ///< F, as written
+    std::optional<double> spindle; ///< S
+    std::optional<int> auxiliary;  ///< M
+    int line = 0;                  ///< where the block begins
+};
+
+/// Letters of either case; G is modal and 1 at the beginning; an axis that is not named does not move. Throws
+/// Error with line and column for anything else, for numbers that are none, repeated words, arcs without a
+/// center, and for a last block without its ';'.
+[[nodiscard]] std::vector<ArmBlock> parse_arm_motion(std::string_view text,
+                                                     const std::filesystem::path& file);
+
+} // namespace millwright::arm

@@ -1,0 +1,187 @@
+// What a person or a job wants of a session.
+#include "core/base/error.h"
+#include "core/drivers/grbl/internal/session.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace millwright::drivers::grbl {
+
+void Session::require_rest(std::string_view what) const {
+    if (stage_ == Stage::ready || stage_ == Stage::stopped) {
+        return;
+    }
+    if (stage_ == Stage::foreign) {
+        throw Error(fmt::format("{} takes no {}: {}", name(), what, message_),
+                    {},
+                    "wait until it stands; the window can hold and stop it meanwhile");
+    }
+    throw Error(fmt::format("{} is {} and takes no {}", name(), in_words(status().state), what),
+                {},
+                stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
+}
+
+void Session::start(ProgramLines program, double now, std::function<int(int)> ahead) {
+    require_rest("program");
+    if (const std::string_view mode = unfollowed_mode(readout_.modes.text); !mode.empty()) {
+        throw Error(
+            fmt::format(
+                "{} has {} in force, which bends every path in a way that is not checked here", name(), mode),
+            {},
+            mode == "G51" ? "cancel it with G50" : "cancel it with G8");
+    }
+    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
+    ahead_.begin(std::move(ahead), program.blocks);
+    begin(std::move(program), Activity::program, now);
+}
+
+int Session::command(ProgramLines lines, double now) {
+    require_rest("command");
+    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    ahead_.begin(nullptr, lines.blocks);
+    begin(std::move(lines), Activity::command, now);
+    return answer_.number;
+}
+
+void Session::begin(ProgramLines program, Activity activity, double now) {
+    program_ = std::move(program);
+    at_ = activity;
+    proof_ = Proof(program_, readout_.planner_blocks, readout_.segment_blocks);
+    window_ = Window(readout_.buffer_bytes,
+                     settings_.one_by_one || activity == Activity::command ||
+                         (activity == Activity::check && facts().errors_stick));
+    proof_closed_ = false;
+    next_line_ = 0;
+    stage_ = Stage::running;
+    hold_wanted_ = held_ = block_wait_ = false;
+    resume_sent_ = -1.0;
+    spare_welcomes_ = 0;
+    message_.clear();
+    readout_.modes.text.clear();
+    readout_.modes.work_system = 0;
+    last_answer_ = last_heard_ = now;
+    idle_unanswered_ = 0;
+    next_poll_ = now;
+    pump();
+}
+
+void Session::set_single_block(bool on) {
+    single_block_ = on;
+    if (on && stage_ == Stage::running && at_ == Activity::program) {
+        block_wait_ = true;
+    }
+}
+
+/// Everything that was sent so far is done and the next line waits for resume().
+bool Session::waits_between_blocks() const {
+    return block_wait_ && window_.empty() && proof_.settled() && next_line_ < std::ssize(program_.lines);
+}
+
+void Session::hold(double now) {
+    if (checks()) {
+        return; // nothing moves
+    }
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && !hold_wanted_) {
+        hold_wanted_ = true;
+        held_ = false;
+        hold_sent_ = now;
+        output_ += hold_byte();
+    } else if (stage_ == Stage::jogging) {
+        stop_jog(now);
+    }
+}
+
+void Session::resume(double now) {
+    if (stage_ == Stage::running && waits_between_blocks()) {
+        block_wait_ = false;
+        last_answer_ = now;
+        idle_unanswered_ = 0;
+        pump();
+        return;
+    }
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && (hold_wanted_ || held_)) {
+        hold_wanted_ = held_ = false;
+        resume_sent_ = now;
+        message_.clear();
+        output_ += resume_byte();
+        pump();
+    }
+}
+
+void Session::stop(double now) {
+    const bool homing = stage_ == Stage::homing;
+    if (active()) {
+        end(false, {}, now);
+    }
+    if (homing) { // a homing cycle knows no hold
+        doubt_.arise("homing was broken off");
+        stage_ = Stage::flushing;
+        send_reset(now);
+    }
+}
+
+void Session::leave(double now) {
+    if (stage_ != Stage::foreign) {
+        stop(now);
+    }
+}
+
+void Session::break_off(std::string why, double now) {
+    if (stage_ == Stage::ready || stage_ == Stage::stopped) {
+        stage_ = Stage::alarm;
+        message_ = std::move(why);
+    } else {
+        fail(why, now);
+    }
+}
+
+void Session::emergency_stop(double now) {
+    if (stage_ == Stage::closed) {
+        return;
+    }
+    output_.clear();
+    if (link_lost_) {
+        return;
+    }
+    if (((active() || stage_ == Stage::braking) && !checks()) || (report_ && report_->moving())) {
+        doubt_.arise("an emergency stop cut the motion off");
+    }
+    stage_ = Stage::flushing;
+    ending_in_fault_ = true;
+    ending_message_ = message_ = "emergency stop";
+    ending_since_ = now;
+    send_reset(now);
+}
+
+void Session::reset(double now) {
+    if (stage_ != Stage::alarm || link_lost_) {
+        return;
+    }
+    if (report_ && report_->moving()) { // its reset would cut the motion off
+        throw Error("the machine moves", {}, "wait until it stands, or stop it");
+    }
+    begin_asking(now, true);
+}
+
+void Session::home(double now) {
+    if (stage_ != Stage::alarm || link_lost_) {
+        require_rest("homing");
+    }
+    proof_closed_ = true;
+    window_ = Window(readout_.buffer_bytes, true);
+    window_.push({LineKind::home, "$H\n", -1, 0.0});
+    output_ += "$H\n";
+    stage_ = Stage::homing;
+    message_.clear();
+    last_heard_ = now;
+}
+
+void Session::set_overrides(const Overrides& wanted) {
+    if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
+        throw Error(fmt::format("{} is {} and takes no overrides", name(), in_words(status().state)));
+    }
+    overrides_.want(wanted);
+}
+
+} // namespace millwright::drivers::grbl

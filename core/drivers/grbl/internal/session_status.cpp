@@ -1,0 +1,125 @@
+// What a session knows, in the words of the Driver interface.
+#include "core/drivers/grbl/internal/axis_units.h"
+#include "core/drivers/grbl/internal/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::drivers::grbl {
+
+DriverState Session::state() const {
+    switch (stage_) {
+    case Stage::closed:
+    case Stage::greeting:
+    case Stage::asking:
+        return DriverState::disconnected;
+    case Stage::ready:
+        return DriverState::idle;
+    case Stage::running:
+        return hold_wanted_ || held_ || waits_between_blocks() ? DriverState::holding : DriverState::running;
+    case Stage::foreign:
+        return hold_wanted_ || held_ ? DriverState::holding : DriverState::running;
+    case Stage::asking_again:
+        return after_asking_ == Stage::stopped ? DriverState::stopping : DriverState::running;
+    case Stage::jogging:
+    case Stage::homing:
+        return DriverState::running;
+    case Stage::braking:
+        return DriverState::stopping;
+    case Stage::flushing:
+        return message_.empty() ? DriverState::stopping : DriverState::alarm;
+    case Stage::stopped:
+        return DriverState::stopped;
+    case Stage::alarm:
+        return DriverState::alarm;
+    }
+    return DriverState::alarm;
+}
+
+Activity Session::activity() const {
+    switch (stage_) {
+    case Stage::running:
+    case Stage::asking_again:
+        return at_;
+    case Stage::foreign:
+        return Activity::program;
+    case Stage::jogging:
+        return Activity::jog;
+    case Stage::homing:
+        return Activity::homing;
+    default:
+        return Activity::none;
+    }
+}
+
+std::optional<Diagnostic> Session::stranger() const {
+    if (stage_ != Stage::alarm || !readout_.settings.empty()) {
+        return std::nullopt;
+    }
+    return Diagnostic{{}, message_, "is it the right port, and switched on?"};
+}
+
+DriverStatus Session::status() const {
+    DriverStatus status;
+    status.message = message_;
+    status.link_lost = link_lost_;
+    status.state = state();
+    if (status.state == DriverState::disconnected) {
+        return status;
+    }
+    status.activity = activity();
+    status.position_doubt = doubt_.why();
+    status.position_lost = doubt_.lost();
+    status.position_confirmed = doubt_.confirmed();
+    status.answer = answer_;
+    show_machine(status);
+    show_program(status);
+    return status;
+}
+
+void Session::show_machine(DriverStatus& status) const {
+    const auto vector = [this](const Axes& axes) { return positions_of(axes, readout_.axes); };
+    status.position = vector(readout_.machine_position);
+    status.velocity = kinematics::AxisPositions::Zero(std::ssize(readout_.axes));
+    status.work_offset = vector(readout_.offset);
+    status.feed = feed();
+    status.spindle_rpm = readout_.spindle_rpm;
+    status.overrides = overrides_.now();
+    const Modes& modes = readout_.modes;
+    status.modes = modes.text;
+    status.work_system = modes.work_system;
+    status.spindle = modes.spindle;
+    status.mist = modes.mist;
+    status.flood = modes.flood;
+    status.tool = modes.tool;
+    const auto pin = [this](char letter) { return readout_.pins.find(letter) != std::string::npos; };
+    for (const char axis : readout_.axes) {
+        status.inputs.limits.append(pin(axis) ? 1 : 0, axis);
+    }
+    status.inputs.probe = pin('P');
+    status.inputs.door = pin('D');
+    status.inputs.hold = pin('H');
+    status.inputs.reset = pin('R');
+    status.inputs.start = pin('S');
+    if (readout_.probings > 0 && readout_.probe) {
+        status.probe = Probing{readout_.probings, readout_.probe->touched, vector(readout_.probe->position)};
+    }
+}
+
+void Session::show_program(DriverStatus& status) const {
+    if (at_ != Activity::program || (program_.lines.empty() && program_.blocks == 0)) {
+        return;
+    }
+    const int executed = proof_.executed_lines();
+    status.sent_blocks =
+        next_line_ > 0 ? program_.lines[static_cast<std::size_t>(next_line_ - 1)].block + 1 : 0;
+    status.executed_blocks = executed > 0 || program_.lines.empty() ? program_.blocks_before(executed) : 0;
+    status.block = std::min(program_.blocks_before(proof_.line_at_hand()), program_.blocks - 1);
+    if (waits_between_blocks() && status.message.empty()) {
+        status.message = fmt::format("single block: line {} comes next",
+                                     program_.lines[static_cast<std::size_t>(next_line_)].line);
+    }
+}
+
+} // namespace millwright::drivers::grbl

@@ -1,0 +1,70 @@
+#include "core/emulators/grbl/internal/input.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace millwright::emulators::internal {
+
+bool Input::push(char byte, double arrived) {
+    if (free_bytes() == 0) {
+        return false;
+    }
+    bytes_.push_back({byte, arrived});
+    return true;
+}
+
+int Input::lose(const std::function<bool(double arrived)>& lost) {
+    return static_cast<int>(std::erase_if(bytes_, [&](const Byte& byte) { return lost(byte.arrived); }));
+}
+
+std::optional<InputLine> Input::take_line() {
+    while (!bytes_.empty()) {
+        const auto [byte, arrived] = bytes_.front();
+        bytes_.pop_front();
+        if (byte == '\n' || byte == '\r') {
+            comment_ = Comment::none;
+            line_.arrived = arrived;
+            return std::exchange(line_, {});
+        }
+        add(byte);
+    }
+    return std::nullopt;
+}
+
+void Input::add(char byte) {
+    if (comment_ != Comment::none) {
+        comment_ = comment_ == Comment::parentheses && byte == ')' ? Comment::none : comment_;
+        return;
+    }
+    if (byte == '(' || byte == ';') {
+        comment_ = byte == '(' ? Comment::parentheses : Comment::to_end;
+        return;
+    }
+    const bool read_over = byte == '/' && !(slashes_ && line_.text.starts_with('$'));
+    if (byte <= ' ' || read_over) {
+        return;
+    }
+    if (line_.text.size() >= longest_line_) {
+        line_.too_long = true;
+        return;
+    }
+    line_.text += static_cast<char>(std::toupper(static_cast<unsigned char>(byte)));
+}
+
+bool Input::in_system_line() const {
+    const auto end_of_line = [](const Byte& byte) { return byte.value == '\n' || byte.value == '\r'; };
+    const auto last = std::find_if(bytes_.rbegin(), bytes_.rend(), end_of_line);
+    const bool whole = last == bytes_.rend(); // what was taken already belongs to it
+    const std::string& begun = line_.text;
+    return whole && !begun.empty() ? begun.front() == '$'
+                                   : last.base() != bytes_.end() && last.base()->value == '$';
+}
+
+void Input::clear() {
+    bytes_.clear();
+    line_ = {};
+    comment_ = Comment::none;
+}
+
+} // namespace millwright::emulators::internal

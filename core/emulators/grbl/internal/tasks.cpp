@@ -1,0 +1,258 @@
+// What a line makes an emulated Grbl do, piece by piece; each piece is tried until there is room for it.
+#include "core/base/numbers.h"
+#include "core/emulators/grbl/internal/controller.h"
+
+#include <utility>
+
+namespace millwright::emulators::internal {
+
+namespace {
+
+/// Nothing moves in check mode ($C). The real one looks at its soft limits all the same, stores offsets, and
+/// ends programs.
+bool acts_in_check_mode(const Task& task) {
+    return task.action == Action::move || task.action == Action::store || task.action == Action::end;
+}
+
+} // namespace
+
+void Controller::take_over(const Parsed& parsed) {
+    modes_ = parsed.modes;
+    for (const Task& task : parsed.tasks) {
+        if (state_ == State::check && !acts_in_check_mode(task)) {
+            continue;
+        }
+        tasks_.push_back(task);
+        if (task.action == Action::store) {
+            pending_eeprom_ = parsed.eeprom; // nothing is read before this line is done
+        }
+    }
+}
+
+/// Whether the line is done; then it is acknowledged.
+bool Controller::do_tasks() {
+    while (!tasks_.empty()) {
+        if (writing()) {
+            return false;
+        }
+        if (!do_task(tasks_.front())) {
+            start_cycle();
+            return false;
+        }
+        if (tasks_.empty()) { // an alarm has taken them away
+            return true;
+        }
+        tasks_.pop_front();
+    }
+    if (writing()) {
+        return false;
+    }
+    if (answer_due_) {
+        acknowledge(0);
+    }
+    block_done(line_owner_);
+    line_owner_ = -1;
+    return true;
+}
+
+bool Controller::do_task(Task& task) {
+    switch (task.action) {
+    case Action::move:
+        return do_move(task);
+    case Action::probe:
+        return do_probe(task);
+    case Action::dwell:
+        return do_dwell(task);
+    case Action::store:
+        if (!at_rest()) {
+            return false;
+        }
+        if (pending_eeprom_) {
+            store(*std::exchange(pending_eeprom_, std::nullopt));
+        }
+        return true;
+    case Action::offset: // the real one counts by it from its parsing on, and says so when it is at rest
+        if (!at_rest()) {
+            return false;
+        }
+        report_.show_offset_next();
+        return true;
+    case Action::pause:
+        if (!at_rest()) {
+            return false;
+        }
+        paused_ = !paused_;
+        state_ = paused_ ? State::hold : state_;
+        return !paused_;
+    case Action::tool:
+        if (!at_rest()) {
+            return false;
+        }
+        paused_ = !paused_;
+        state_ = paused_ ? State::tool : state_;
+        return !paused_;
+    case Action::restart:
+        say(message("Restoring defaults", build_));
+        acknowledge(0);
+        reset();
+        return true;
+    case Action::end:
+        if (!at_rest()) {
+            return false;
+        }
+        end_program();
+        return true;
+    case Action::spindle:
+    case Action::coolant:
+        if (!at_rest()) {
+            return false;
+        }
+        report_.show_overrides_next();
+        return true;
+    }
+    return true;
+}
+
+bool Controller::writing() const {
+    constexpr double rounding = 1e-9;
+    return time_ < writing_until_ - rounding;
+}
+
+bool Controller::at_rest() {
+    return planner_.empty() && stepper_.at_rest();
+}
+
+bool Controller::inside_travel(const Axes& target) const {
+    constexpr int travel = 130;
+    for (std::size_t axis = 0; axis < build_.axis_count(); ++axis) {
+        const double at = target[axis];
+        const double length = eeprom_.axis_setting(travel, axis);
+        if (axis >= 3 && !build_.is(EmulatedFirmware::grbl) && !(length > 0.0)) {
+            continue; // without end
+        }
+        if (!(at <= 0.0 && at >= -length)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool Controller::do_move(Task& task) {
+    const double points = static_cast<double>(task.points.size());
+    while (task.next < task.points.size()) {
+        if (eeprom_.is_on(soft_limits_setting) && state_ != State::jog &&
+            !inside_travel(task.points[task.next])) {
+            constexpr int soft_limit = 2;
+            if (stepper_.at_rest()) {
+                alarm(soft_limit);
+                return true;
+            }
+            trip_ = soft_limit;
+            stepper_.hold();
+            return false;
+        }
+        if (state_ == State::check) {
+            ++task.next;
+            continue;
+        }
+        if (planner_.free_blocks() == 0) {
+            return false;
+        }
+        const Move move{.target = task.points[task.next],
+                        .rapid = task.rapid,
+                        .overridable = state_ != State::jog,
+                        .rate = task.rate / seconds_per_minute * (task.inverse_time ? points : 1.0),
+                        .inverse_time = task.inverse_time,
+                        .line_number = line_number_,
+                        .owner = line_owner_};
+        if (planner_.add(move) && line_owner_ >= 0) {
+            ++blocks_left_[line_owner_];
+        }
+        ++task.next;
+    }
+    return true;
+}
+
+bool Controller::do_dwell(const Task& task) {
+    if (!dwell_) {
+        if (!at_rest()) {
+            return false;
+        }
+        dwell_ = time_ + task.seconds;
+    }
+    constexpr double rounding = 1e-9;
+    if (time_ < *dwell_ - rounding) {
+        return false;
+    }
+    dwell_.reset();
+    return true;
+}
+
+bool Controller::do_probe(const Task& task) {
+    if (probing_ || !at_rest()) {
+        return false;
+    }
+    const Axes& at = stepper_.position();
+    const bool toward = task.probe == 382 || task.probe == 383;
+    const bool touching = options_.surface && at[2] <= options_.surface(at[0], at[1]);
+    probe_.touched = false; // where it touched last is kept
+    if (touching == toward) {
+        constexpr int wrong_beginning = 4;
+        probe_alarm(wrong_beginning);
+        return true;
+    }
+    probing_ = planner_.add({.target = task.points.front(),
+                             .overridable = false,
+                             .rate = task.rate / seconds_per_minute,
+                             .inverse_time = task.inverse_time,
+                             .line_number = line_number_,
+                             .owner = -1});
+    return !probing_;
+}
+
+void Controller::finish_probe(bool touched) {
+    probing_ = false;
+    stepper_.halt();
+    const bool must = modes_.motion == 382 || modes_.motion == 384;
+    modes_.position = stepper_.position();
+    if (!touched) {
+        if (must) {
+            constexpr int nothing_touched = 5;
+            probe_alarm(nothing_touched);
+        } else {
+            probe_.position = stepper_.position();
+        }
+    }
+    say(probe_report(probe_, eeprom_, build_));
+    if (!tasks_.empty()) {
+        tasks_.pop_front();
+    }
+    state_ = state_ == State::run ? State::idle : state_;
+}
+
+/// M2 and M30 set some modes back.
+void Controller::end_program() {
+    modes_.motion = 10;
+    modes_.plane = 170;
+    modes_.absolute = true;
+    modes_.inverse_time = false;
+    modes_.coordinates = 0;
+    modes_.spindle = 50;
+    modes_.flood = modes_.mist = false;
+    overrides_.feed = overrides_.rapid = overrides_.spindle = 100;
+    planner_.set_overrides({});
+    report_.show_overrides_next();
+    report_.show_offset_next();
+    say(message(build_.is(EmulatedFirmware::fluidnc) ? "Program End" : "Pgm End", build_));
+}
+
+void Controller::block_done(std::int64_t owner) {
+    const auto left = blocks_left_.find(owner);
+    if (left == blocks_left_.end() || --left->second > 0) {
+        return;
+    }
+    blocks_left_.erase(left);
+    truth_[static_cast<std::size_t>(owner)].executed = time_;
+}
+
+} // namespace millwright::emulators::internal

@@ -1,0 +1,75 @@
+// Runs a job through a driver: checks before, watches, logs, and says afterwards what was executed for
+// certain.
+#pragma once
+
+#include "core/base/clock.h"
+#include "core/base/progress.h"
+#include "core/drivers/driver.h"
+#include "core/jobs/job.h"
+#include "core/jobs/job_log.h"
+#include "core/jobs/job_report.h"
+
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace millwright::jobs {
+
+namespace internal {
+class PathEstimate;
+class Reach;
+} // namespace internal
+
+class Dispatcher {
+public:
+    /// `driver` and `clock` must outlive it. Logs go to `log_folder`.
+    Dispatcher(drivers::Driver& driver, Clock& clock, std::filesystem::path log_folder);
+
+    using Listener = std::function<void(const JobReport&)>;
+
+    /// Runs the job to its end and returns how it ended; blocks, so call it from a thread that may wait.
+    /// `listener` is called from that thread. Cancelling `progress` stops the machine. Throws Error before
+    /// any motion if something is wrong with job, log folder or driver, or another job is running; if the log
+    /// cannot be written any more or the listener throws, stops the machine and passes that on. Reports
+    /// JobEnd::done only if the driver executed every block.
+    JobOutcome run(const Job& asked, const Progress& progress, const Listener& listener = {});
+
+    /// From any thread, at once; entered in the log of the running job.
+    void hold();
+    void resume();
+    void stop();
+    /// Throw Error if the driver cannot do it.
+    void set_overrides(const drivers::Overrides& wanted);
+    void set_single_block(bool on);
+    void set_optional_stop(bool on);
+
+private:
+    struct Request {
+        LogEvent event = LogEvent::hold;
+        double clock_time = 0.0;
+        drivers::DriverStatus status; ///< when it was made
+        std::string text;             ///< what was wanted
+    };
+    class Watch;
+    class Turn;
+
+    void request(LogEvent event, std::string text, const std::function<void()>& command);
+    [[nodiscard]] internal::Reach check(const Job& job,
+                                        const drivers::Capabilities& able,
+                                        const drivers::DriverStatus& before,
+                                        internal::PathEstimate& estimate) const;
+    void check_position(const Job& job, const drivers::DriverStatus& status) const;
+    [[nodiscard]] std::vector<Request> take_requests();
+    void bring_to_rest() noexcept;
+
+    drivers::Driver& driver_;
+    Clock& clock_;
+    std::filesystem::path log_folder_;
+    std::mutex mutex_; ///< guards what follows
+    bool running_ = false;
+    std::vector<Request> requests_;
+};
+
+} // namespace millwright::jobs

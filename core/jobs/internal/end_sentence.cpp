@@ -1,0 +1,52 @@
+#include "core/jobs/internal/end_sentence.h"
+
+#include "core/base/counted.h"
+#include "core/base/sentences.h"
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+namespace millwright::jobs::internal {
+
+std::string done_text(int executed_blocks, int blocks, bool answers) {
+    return fmt::format("{} of {} {} {}",
+                       executed_blocks,
+                       counted(blocks, "block"),
+                       executed_blocks == 1 ? "was" : "were",
+                       answers ? "executed for certain" : "sent");
+}
+
+std::string all_blocks_text(int blocks) {
+    return blocks == 1 ? "the only block was" : fmt::format("all {} blocks were", blocks);
+}
+
+std::string end_sentence(
+    JobEnd end, const drivers::DriverStatus& status, const JobOutcome& outcome, int line, bool answers) {
+    const std::string time = short_time(outcome.elapsed);
+    const std::string executed = done_text(outcome.executed_blocks, outcome.blocks, answers) + " in " + time +
+                                 (answers && line > 0 && status.block > outcome.executed_blocks
+                                      ? fmt::format(", up to about line {}", line)
+                                      : std::string());
+    switch (end) {
+    case JobEnd::done:
+        return capitalised(all_blocks_text(outcome.blocks)) +
+               (answers
+                    ? fmt::format(" executed in {}.", time)
+                    : fmt::format(" sent in {}. The machine gives no answers: whether it executed {} is not "
+                                  "known.",
+                                  time,
+                                  outcome.blocks == 1 ? "it" : "them"));
+    case JobEnd::stopped:
+        return fmt::format("The machine was stopped: {}.", executed);
+    case JobEnd::cancelled:
+        return fmt::format("The job was cancelled: {}.", executed);
+    case JobEnd::fault:
+        break;
+    }
+    const std::string why = status.state == drivers::DriverState::disconnected ? "the link was lost"
+                            : status.message.empty() ? "the program did not get to its end"
+                                                     : status.message;
+    return with_clause("Fault: " + why, executed + ".");
+}
+
+} // namespace millwright::jobs::internal

@@ -1,0 +1,38 @@
+// Whether a machine is where its program can have sent it: a number that was changed on the way to a
+// controller shows in what the controller reports. Lengths mm, angles rad, times s.
+#pragma once
+
+#include "core/jobs/survey.h"
+
+#include <optional>
+#include <string>
+
+namespace millwright::jobs::internal {
+
+/// The box around everything that a program sends, and the watch over it.
+class Reach {
+public:
+    /// Knows of nothing.
+    Reach() = default;
+    /// `before` and `offsets` as the controller reports them, `found` surveyed with them. What cannot be
+    /// known beforehand is not watched: programs that probe, and controllers that report no modes or no
+    /// offsets.
+    Reach(const Survey& found,
+          std::vector<program::ProgramAxis> axes,
+          const drivers::DriverStatus& before,
+          const std::vector<drivers::StoredOffset>& offsets);
+
+    /// What is wrong, a part of a sentence, once a running machine has been beyond the box for longer than
+    /// one wrong report can last, or rests there; else empty.
+    [[nodiscard]] std::string watch(const drivers::DriverStatus& status, double now);
+
+private:
+    [[nodiscard]] std::string beyond(const drivers::DriverStatus& status) const;
+
+    std::optional<Survey> found_;
+    std::vector<program::ProgramAxis> axes_;
+    std::string doubt_; ///< of the position, before
+    std::optional<double> since_;
+};
+
+} // namespace millwright::jobs::internal

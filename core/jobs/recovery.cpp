@@ -1,0 +1,111 @@
+#include "core/jobs/recovery.h"
+
+#include "core/base/files.h"
+#include "core/base/sentences.h"
+#include "core/base/text.h"
+#include "core/jobs/internal/end_sentence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace millwright::jobs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What went wrong, as the log has it; "" without a fault.
+std::string fault_in(const ReadLog& log) {
+    const auto fault = std::ranges::find(log.records, LogEvent::fault, &LogRecord::event);
+    return fault == log.records.end() ? std::string() : fault->text;
+}
+
+std::string sentence_of(const JobStory& story, const std::string& fault) {
+    const int blocks = story.start.blocks;
+    const std::string done = internal::done_text(story.executed_blocks, blocks, story.start.answers);
+    if (story.running) {
+        return "running: " + done + ".";
+    }
+    if (!story.broken_off()) {
+        return fmt::format(
+            "{} after {}: {}", to_text(*story.end), short_time(story.time), with_clause(fault, done + "."));
+    }
+    if (story.executed_blocks == blocks) {
+        return fmt::format("Millwright ended before it could write the end: {} {}.",
+                           internal::all_blocks_text(blocks),
+                           story.start.answers ? "executed" : "sent");
+    }
+    const int open = std::max(0, story.allowed_blocks - story.executed_blocks);
+    const std::string where =
+        story.next_line > 0 ? fmt::format(" (line {} comes next)", story.next_line) : std::string();
+    return fmt::format(
+        "Millwright ended while the job ran, after {} or later: {}{}; the next {} may have been, too{}.",
+        short_time(story.time),
+        done,
+        where,
+        open,
+        story.allowed_blocks < blocks ? "; the others were never sent" : "");
+}
+
+fs::path mark_of(fs::path log_file) {
+    return log_file += ".seen";
+}
+
+} // namespace
+
+void mark_seen(const fs::path& log_file) {
+    write_file(mark_of(log_file), "");
+}
+
+JobStory job_story(const fs::path& log_file) {
+    JobStory story;
+    story.running = is_being_written(log_file); // before it is read, so that an end is never overlooked
+    const ReadLog log = read_job_log(log_file);
+    story.log_file = log_file;
+    std::error_code none;
+    story.seen = fs::exists(mark_of(log_file), none);
+    story.start = log.start;
+    story.end = log.end();
+    story.running = story.running && !story.end;
+    story.executed_blocks = log.executed_blocks();
+    story.allowed_blocks = log.allowed_blocks();
+    story.next_line = log.next_line();
+    if (story.next_line > 0) { // what stands above is an approach, which is not of the file
+        story.next_line = std::max(story.next_line, log.start.from_line);
+    }
+    if (!log.records.empty()) {
+        story.time = log.records.back().time;
+        story.position = log.records.back().position;
+        story.position_doubt = log.records.back().position_doubt;
+    }
+    story.sentence = sentence_of(story, fault_in(log));
+    if (!story.position_doubt.empty() && story.executed_blocks < story.start.blocks) {
+        story.sentence += " " + drivers::doubt_sentence(story.position_doubt);
+    }
+    return story;
+}
+
+JobFolder read_job_folder(const fs::path& folder) {
+    JobFolder result;
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+        if (entry.path().extension() == ".jsonl") {
+            files.emplace_back(entry.last_write_time(none), entry.path());
+        }
+    }
+    std::ranges::sort(files, std::ranges::greater());
+    for (const auto& [time, file] : files) {
+        try {
+            result.jobs.push_back(job_story(file));
+        } catch (const Error& error) {
+            result.unreadable.push_back(error.diagnostic());
+        }
+    }
+    return result;
+}
+
+} // namespace millwright::jobs

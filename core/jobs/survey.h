@@ -1,0 +1,81 @@
+// What a G-code file would do, read with the interpreter before a controller gets it: how far it goes, how
+// fast, with which tools. Lengths mm, angles rad, times s.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/drivers/driver.h"
+#include "core/gcode/axes.h"
+#include "core/gcode/dialect.h"
+#include "core/geometry/vectors.h"
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::jobs {
+
+struct Survey {
+    struct Range {
+        double min = std::numeric_limits<double>::infinity();
+        double max = -std::numeric_limits<double>::infinity();
+        int min_line = 0, max_line = 0; ///< where they are reached
+        int moved_line = 0;             ///< where the axis is first elsewhere than at 0; 0: nowhere
+
+        [[nodiscard]] bool empty() const { return max < min; }
+    };
+
+    /// Where a move or a piece of an arc ends: X Y Z, machine coordinates.
+    struct PathPoint {
+        int line = 0;
+        Vec3 at = Vec3::Zero();
+    };
+
+    std::array<Range, gcode::axis_count> ranges; ///< of moves, arcs by their whole way, machine coordinates
+    std::array<Range, gcode::axis_count> cuts;   ///< the same of feed moves alone, from where they begin
+    /// Where the machine stands before, mm and rad; only for axes whose place SurveySettings::start tells.
+    std::array<std::optional<double>, gcode::axis_count> start;
+    bool probes = false;        ///< so that nobody knows beforehand where some of its moves end
+    double greatest_feed = 0.0; ///< mm/s, per minute feeds alone
+    int greatest_feed_line = 0;
+    double greatest_spindle_rpm = 0.0;
+    std::vector<int> tools;         ///< numbers that are called, in their order, each once
+    int first_cut_line = 0;         ///< the first feed move, 0: none
+    bool spindle_before_cut = true; ///< it turned at the first feed move
+    std::vector<PathPoint> path;    ///< of all moves, if it is wanted
+    std::string missing_axes; ///< letters of axes that the program moves and the controller does not have
+    /// What breaks the rules of the dialect; before that the missing axes, all in one.
+    std::vector<Diagnostic> errors;
+};
+
+/// `start`, `offsets` and `modes` are what the controller reports: where the machine stands, its work
+/// systems, and what is in force (DriverStatus::modes). Without them the program is taken to begin at zero,
+/// all offsets to be zero, and the modes to be those of the dialect.
+struct SurveySettings {
+    gcode::Dialect dialect = gcode::Dialect::linuxcnc;
+    std::vector<program::ProgramAxis> axes; ///< of the controller, `start` and `offsets`; empty: not known
+    kinematics::AxisPositions start;        ///< machine coordinates; may be empty
+    std::vector<drivers::StoredOffset> offsets;
+    std::string modes{};
+    bool mist = true;                   ///< Capabilities::mist
+    bool keep_path = false;             ///< Survey::path
+    std::string_view firmware = "Grbl"; ///< Capabilities::firmware
+};
+
+/// For diagnostics the text is called `file`; subroutines in other files are looked for in its folder.
+[[nodiscard]] Survey
+survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings);
+
+/// What stands against running it: errors, ways beyond the travel, and ways longer than a travel of which
+/// only the length is known.
+[[nodiscard]] std::vector<Diagnostic>
+faults_of(const Survey& survey, const drivers::MachineLimits& limits, const std::filesystem::path& file);
+/// What a person should know before: tools, feeds and speeds that the machine cannot reach, a cut without
+/// spindle.
+[[nodiscard]] std::vector<Diagnostic>
+warnings_of(const Survey& survey, const drivers::MachineLimits& limits, const std::filesystem::path& file);
+
+} // namespace millwright::jobs

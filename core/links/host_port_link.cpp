@@ -1,0 +1,100 @@
+#include "core/links/host_port_link.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::links {
+
+namespace {
+
+constexpr int status_register = 2, high_register = 5, middle_register = 6, data_register = 7; // registers
+constexpr unsigned readable_bit = 1, writable_bit = 2; // bits of the status
+constexpr double card_patience = 0.5;                  // s
+
+} // namespace
+
+HostPortLink::HostPortLink(std::unique_ptr<PortRegisters> registers, std::unique_ptr<Clock> clock)
+    : registers_(std::move(registers)), clock_(std::move(clock)) {}
+
+void HostPortLink::open() {
+    const std::scoped_lock lock(mutex_);
+    registers_->open();
+    if (registers_->read(status_register) == no_card) {
+        registers_->close();
+        throw Error(
+            "no card answers at " + registers_->name(), {}, "the address is set by jumpers of the card");
+    }
+    registers_->write(high_register, 0);
+    registers_->write(middle_register, 0);
+    out_.clear();
+    in_.clear();
+    taken_at_ = clock_->now();
+    lost_.reset();
+}
+
+void HostPortLink::close() noexcept {
+    const std::scoped_lock lock(mutex_);
+    registers_->close();
+    lost_ = "it is not open";
+}
+
+/// As much as the card takes and gives now.
+void HostPortLink::pump() {
+    constexpr int most = 4096; // characters, so that nobody waits for a card that talks without end
+    const double now = clock_->now();
+    for (int n = 0; n < most && !lost_; ++n) {
+        const std::uint8_t ready = registers_->read(status_register);
+        if (ready == no_card) {
+            lost_ = "no card answers any more";
+        } else if ((ready & readable_bit) != 0) {
+            in_ += static_cast<char>(registers_->read(data_register));
+        } else if (!out_.empty() && (ready & writable_bit) != 0) {
+            registers_->write(data_register, static_cast<std::uint8_t>(out_.front()));
+            out_.pop_front();
+            taken_at_ = now;
+        } else {
+            break;
+        }
+    }
+    taken_at_ = out_.empty() ? now : taken_at_;
+    if (!lost_ && now - taken_at_ > card_patience) {
+        lost_ = "the card takes no characters";
+    }
+}
+
+void HostPortLink::write(std::string_view bytes) {
+    const std::scoped_lock lock(mutex_);
+    if (!lost_) {
+        out_.insert(out_.end(), bytes.begin(), bytes.end());
+        pump();
+    }
+}
+
+std::string HostPortLink::read() {
+    const std::scoped_lock lock(mutex_);
+    pump();
+    return std::exchange(in_, {});
+}
+
+void HostPortLink::wait(double seconds) {
+    constexpr double glance = 0.0005;
+    for (const double end = clock_->now() + seconds; clock_->now() < end;) {
+        {
+            const std::scoped_lock lock(mutex_);
+            pump();
+            if (!in_.empty() || lost_) {
+                return;
+            }
+        }
+        clock_->wait(std::min(glance, seconds));
+    }
+}
+
+std::optional<std::string> HostPortLink::lost() const {
+    const std::scoped_lock lock(mutex_);
+    return lost_;
+}
+
+} // namespace millwright::links

@@ -1,0 +1,138 @@
+#include "core/links/serial_link.h"
+
+#include "core/base/error.h"
+#include "core/links/internal/open_files.h"
+#include "core/links/internal/pump_link.h"
+
+#include <boost/asio/serial_port.hpp>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <termios.h>
+
+#include <array>
+#include <cerrno>
+#include <vector>
+
+namespace millwright::links {
+
+struct SerialLink::Port : internal::PumpLink<boost::asio::serial_port> {};
+
+namespace {
+
+/// Two senders on one machine are one too many. The system takes the lock back when the program ends.
+void lock(int handle) {
+    if (::flock(handle, LOCK_EX | LOCK_NB) != 0) {
+        throw boost::system::system_error(boost::system::error_code(EBUSY, boost::system::system_category()));
+    }
+}
+
+[[noreturn]] void throw_last_error() {
+    throw boost::system::system_error(boost::system::error_code(errno, boost::system::system_category()));
+}
+
+/// Closing a port takes DTR back, and many boards (Arduino) are wired to reset when DTR comes again: whoever
+/// opened the port next would cut a moving machine off. It stays on instead, so that only the first opening
+/// after the plug was put in can do so.
+void keep_dtr(int handle) {
+    termios settings{};
+    if (::tcgetattr(handle, &settings) != 0) {
+        throw_last_error();
+    }
+    settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
+    if (::tcsetattr(handle, TCSANOW, &settings) != 0) {
+        throw_last_error();
+    }
+}
+
+/// Whether the system has set the port so: what a port does not have, it may leave out without a word.
+bool is_set_so(int handle, const SerialLine& line) {
+    termios now{};
+    if (::tcgetattr(handle, &now) != 0) {
+        throw_last_error();
+    }
+    const auto has = [&](tcflag_t flag) { return (now.c_cflag & flag) != 0; };
+    return (now.c_cflag & CSIZE) == (line.data_bits == 7 ? tcflag_t{CS7} : tcflag_t{CS8}) &&
+           has(PARENB) == (line.parity != SerialParity::none) &&
+           has(PARODD) == (line.parity == SerialParity::odd) && has(CSTOPB) == (line.stop_bits == 2);
+}
+
+/// A port may not have all that lines can be: a pseudo-terminal knows no parity.
+void set_line(boost::asio::serial_port& port, const SerialAddress& address) {
+    const SerialLine& line = address.line;
+    using Base = boost::asio::serial_port_base;
+    constexpr std::array parities{Base::parity::none, Base::parity::even, Base::parity::odd};
+    try {
+        port.set_option(Base::baud_rate(line.baud));
+        port.set_option(Base::character_size(static_cast<unsigned>(line.data_bits)));
+        port.set_option(Base::parity(parities[static_cast<std::size_t>(line.parity)]));
+        port.set_option(Base::stop_bits(line.stop_bits == 2 ? Base::stop_bits::two : Base::stop_bits::one));
+        port.set_option(Base::flow_control(Base::flow_control::none));
+    } catch (const boost::system::system_error& failure) {
+        throw Error(fmt::format("the serial port does not take {}", to_text(line)),
+                    address.path,
+                    failure.code().message());
+    }
+    if (!is_set_so(port.native_handle(), line)) {
+        throw Error(fmt::format("the serial port does not take {}", to_text(line)),
+                    address.path,
+                    "it has other data bits, parity or stop bits");
+    }
+}
+
+std::string held_sentence(const std::string& path) {
+    const std::vector<std::string> others = internal::others_with(path);
+    if (others.empty()) {
+        return "the serial port is held already, and the system does not tell by whom";
+    }
+    return fmt::format("{} the serial port: {}",
+                       others.size() == 1 ? "another program holds" : "one of these programs holds",
+                       fmt::join(others, ", "));
+}
+
+} // namespace
+
+SerialLink::SerialLink(SerialAddress address)
+    : address_(std::move(address)), port_(std::make_unique<Port>()) {}
+
+SerialLink::~SerialLink() = default;
+
+void SerialLink::open() {
+    try {
+        port_->close();
+        port_->open([this](boost::asio::serial_port& port) {
+            port.open(address_.path);
+            set_line(port, address_);
+            lock(port.native_handle());
+            keep_dtr(port.native_handle());
+            (void)::tcflush(port.native_handle(), TCIFLUSH);
+        });
+    } catch (const boost::system::system_error& failure) {
+        const bool held = failure.code() == boost::system::errc::device_or_resource_busy;
+        throw Error(held ? held_sentence(address_.path)
+                         : "cannot open the serial port: " + failure.code().message(),
+                    address_.path,
+                    held ? "end that first" : "is it plugged in, and may you use it (group dialout)?");
+    }
+}
+
+void SerialLink::write(std::string_view bytes) {
+    port_->write(bytes);
+}
+
+std::string SerialLink::read() {
+    return port_->read();
+}
+
+void SerialLink::wait(double seconds) {
+    port_->wait(seconds);
+}
+
+std::optional<std::string> SerialLink::lost() const {
+    return port_->lost();
+}
+
+void SerialLink::close() noexcept {
+    port_->close();
+}
+
+} // namespace millwright::links

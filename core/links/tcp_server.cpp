@@ -1,0 +1,246 @@
+#include "core/links/tcp_server.h"
+
+#include "core/base/error.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace millwright::links {
+
+using boost::asio::ip::tcp;
+using Failure = boost::system::error_code;
+
+/// Everything of Asio happens in its one thread; the mutex guards what is handed over.
+class TcpServer::Listener {
+public:
+    Listener(const std::string& address, std::uint16_t port)
+        : acceptor_(context_, tcp::endpoint(boost::asio::ip::make_address(address), port)), client_(context_),
+          visitor_(context_) {
+        accept_more();
+        thread_ = std::jthread([this] { context_.run(); });
+    }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+    ~Listener() { context_.stop(); }
+
+    [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+    [[nodiscard]] std::string holder() const {
+        const std::scoped_lock lock(mutex_);
+        return holder_;
+    }
+    void write(std::string_view bytes) {
+        boost::asio::post(context_, [this, copy = std::string(bytes)] {
+            if (client_.is_open()) {
+                waiting_ += copy;
+                if (waiting_.size() > most_waiting) { // of one who does not listen
+                    Failure ignored;
+                    waiting_.clear();
+                    client_.shutdown(tcp::socket::shutdown_both, ignored);
+                }
+                write_more();
+            }
+        });
+    }
+    [[nodiscard]] int visits() const {
+        const std::scoped_lock lock(mutex_);
+        return visits_;
+    }
+    [[nodiscard]] std::string read() {
+        const std::scoped_lock lock(mutex_);
+        if (std::exchange(full_, false)) {
+            boost::asio::post(context_, [this] { read_more(); });
+        }
+        return std::exchange(received_, {});
+    }
+    void wait(double seconds) {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(
+            lock, std::chrono::duration<double>(seconds), [this] { return !received_.empty(); });
+    }
+
+private:
+    static constexpr std::size_t most_waiting = std::size_t{1} << 20U;  ///< bytes, 1 MiB
+    static constexpr std::size_t most_received = std::size_t{1} << 20U; ///< then the client has to wait
+
+    void accept_more() {
+        acceptor_.async_accept(visitor_, [this](const Failure& failure) {
+            if (failure == boost::asio::error::operation_aborted) {
+                return;
+            }
+            if (!failure) {
+                welcome_or_refuse();
+            }
+            visitor_ = tcp::socket(context_);
+            accept_more();
+        });
+    }
+
+    void welcome_or_refuse() {
+        Failure ignored;
+        if (client_.is_open()) {
+            const std::string sorry = fmt::format("busy: {} holds this port\r\n", holder());
+            boost::asio::write(visitor_, boost::asio::buffer(sorry), ignored);
+            visitor_.shutdown(tcp::socket::shutdown_send, ignored);
+            let_go(std::make_shared<Refused>(context_, std::move(visitor_)));
+            return;
+        }
+        client_ = std::move(visitor_);
+        client_.set_option(tcp::no_delay(true), ignored);
+        waiting_.clear();
+        const auto far_end = client_.remote_endpoint(ignored);
+        {
+            const std::scoped_lock lock(mutex_);
+            ++visits_;
+            holder_ = fmt::format("{}:{}", far_end.address().to_string(), far_end.port());
+        }
+        read_more();
+    }
+
+    /// A visitor that was told why it has to leave. What it says is read until it does: a socket closed over
+    /// unread bytes would take that line away from it.
+    struct Refused {
+        Refused(boost::asio::io_context& context, tcp::socket visitor)
+            : socket(std::move(visitor)), patience(context, std::chrono::seconds(2)) {}
+        tcp::socket socket;
+        boost::asio::steady_timer patience;
+        std::array<char, 256> chunk{};
+    };
+
+    static void let_go(const std::shared_ptr<Refused>& refused) {
+        refused->patience.async_wait([refused](const Failure&) {
+            Failure ignored;
+            refused->socket.close(ignored);
+        });
+        read_on(refused);
+    }
+
+    static void read_on(const std::shared_ptr<Refused>& refused) {
+        refused->socket.async_read_some(boost::asio::buffer(refused->chunk),
+                                        [refused](const Failure& failure, std::size_t) {
+                                            if (failure) {
+                                                refused->patience.cancel();
+                                            } else {
+                                                read_on(refused);
+                                            }
+                                        });
+    }
+
+    void read_more() {
+        client_.async_read_some(boost::asio::buffer(chunk_), [this](const Failure& failure, std::size_t n) {
+            if (failure) {
+                drop_client();
+                return;
+            }
+            bool full = false;
+            {
+                const std::scoped_lock lock(mutex_);
+                received_.append(chunk_.data(), n);
+                full = full_ = received_.size() >= most_received;
+            }
+            changed_.notify_all();
+            if (!full) {
+                read_more();
+            }
+        });
+    }
+
+    void write_more() {
+        if (!sending_.empty() || waiting_.empty()) {
+            return;
+        }
+        std::swap(sending_, waiting_);
+        boost::asio::async_write(
+            client_, boost::asio::buffer(sending_), [this](const Failure& failure, std::size_t) {
+                sending_.clear();
+                if (!failure) {
+                    write_more();
+                }
+            });
+    }
+
+    void drop_client() {
+        Failure ignored;
+        client_.close(ignored);
+        const std::scoped_lock lock(mutex_);
+        holder_.clear();
+    }
+
+    boost::asio::io_context context_;
+    tcp::acceptor acceptor_;
+    tcp::socket client_, visitor_;
+    std::string waiting_, sending_;
+    std::array<char, 4096> chunk_{};
+    mutable std::mutex mutex_; ///< guards holder_, received_, full_ and visits_
+    int visits_ = 0;
+    std::condition_variable changed_;
+    bool full_ = false; ///< nothing is read until what came is taken
+    std::string holder_, received_;
+    std::jthread thread_; ///< last: ends before what it uses
+};
+
+TcpServer::TcpServer(std::uint16_t port, std::string address) : port_(port), address_(std::move(address)) {}
+
+TcpServer::~TcpServer() = default;
+
+std::uint16_t TcpServer::port() const {
+    return listener_ ? listener_->port() : port_;
+}
+
+std::string TcpServer::holder() const {
+    return listener_ ? listener_->holder() : std::string();
+}
+
+int TcpServer::visits() const {
+    return listener_ ? listener_->visits() : 0;
+}
+
+std::string TcpServer::name() const {
+    return fmt::format("tcp:{}:{}", address_, port());
+}
+
+void TcpServer::open() {
+    close();
+    try {
+        listener_ = std::make_unique<Listener>(address_, port_);
+    } catch (const boost::system::system_error& failure) {
+        throw Error(fmt::format("cannot listen on {}: {}", name(), failure.code().message()));
+    }
+}
+
+void TcpServer::write(std::string_view bytes) {
+    if (listener_) {
+        listener_->write(bytes);
+    }
+}
+
+std::string TcpServer::read() {
+    return listener_ ? listener_->read() : std::string();
+}
+
+void TcpServer::wait(double seconds) {
+    if (listener_) {
+        listener_->wait(seconds);
+    }
+}
+
+std::optional<std::string> TcpServer::lost() const {
+    return listener_ ? std::nullopt : std::optional<std::string>("nobody listens");
+}
+
+void TcpServer::close() noexcept {
+    listener_.reset();
+}
+
+} // namespace millwright::links

@@ -1,0 +1,42 @@
+// The listening end of a TCP connection. One client at a time holds it; another one is told who that is and
+// sent away.
+#pragma once
+
+#include "core/links/link.h"
+
+#include <cstdint>
+
+namespace millwright::links {
+
+class TcpServer final : public Link {
+public:
+    /// Port 0: any free one. The address is this computer's own unless another one is named.
+    explicit TcpServer(std::uint16_t port, std::string address = "127.0.0.1");
+    TcpServer(const TcpServer&) = delete;
+    TcpServer& operator=(const TcpServer&) = delete;
+    ~TcpServer() override;
+
+    /// Listened on, once open.
+    [[nodiscard]] std::uint16_t port() const;
+    /// Who holds it, as 127.0.0.1:40512; empty if nobody does.
+    [[nodiscard]] std::string holder() const;
+
+    [[nodiscard]] std::string name() const override;
+    void open() override;
+    /// To the client, if there is one.
+    void write(std::string_view bytes) override;
+    [[nodiscard]] std::string read() override;
+    void wait(double seconds) override;
+    /// Clients come and go; the link is lost only when nobody listens any more.
+    [[nodiscard]] std::optional<std::string> lost() const override;
+    void close() noexcept override;
+    [[nodiscard]] int visits() const override;
+
+private:
+    class Listener;
+    std::uint16_t port_;
+    std::string address_;
+    std::unique_ptr<Listener> listener_;
+};
+
+} // namespace millwright::links

@@ -1,0 +1,158 @@
+#include "core/plan/evaluation.h"
+
+#include "core/geometry/outline_tree.h"
+#include "core/plan/planned_time.h"
+#include "core/toolpath/tool_poses.h"
+#include "core/toolpath/trimmed_path.h"
+#include "core/toolpath/turning_over.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace millwright::plan {
+
+using toolpath::Distance;
+using toolpath::MoveKind;
+
+namespace {
+
+/// The costs of a way know of no accelerations: of several the planner finds the fastest.
+toolpath::SequencedPath
+fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progress& progress) {
+    using toolpath::SequencingGoal;
+    constexpr std::array goals{SequencingGoal::time, SequencingGoal::travel, SequencingGoal::nearest};
+    toolpath::SequencedPath best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < goals.size(); ++n) {
+        const auto share = [&](double at) {
+            return (static_cast<double>(n) + at) / static_cast<double>(goals.size());
+        };
+        toolpath::SequencingSettings settings = workpiece.sequencing;
+        settings.goal = goals[n];
+        toolpath::SequencedPath way = toolpath::sequenced(
+            workpiece.patch, workpiece.machine, path, settings, progress.part(share(0.0), share(0.8)));
+        const std::optional<double> time = planned_time(way.toolpath,
+                                                        way.axes,
+                                                        workpiece.machine,
+                                                        workpiece.timing,
+                                                        progress.part(share(0.8), share(1.0)));
+        if (n == 0 || (time && *time < least)) {
+            best = std::move(way);
+            least = time.value_or(least);
+        }
+    }
+    return best;
+}
+
+/// Before it is trimmed.
+toolpath::Toolpath contacts_of(const Workpiece& workpiece,
+                               const grid::Grid& grid,
+                               const toolpath::StrategySettings& strategy,
+                               const Progress& progress) {
+    const geometry::OutlineTree outline(workpiece.trim);
+    const toolpath::Covering all{workpiece.patch,
+                                 workpiece.machine,
+                                 workpiece.tool,
+                                 grid,
+                                 workpiece.direction,
+                                 workpiece.flipped,
+                                 workpiece.trim.everything() ? nullptr : &outline};
+    return toolpath::make_strategy(strategy)->contacts(all, progress);
+}
+
+toolpath::SequencedPath path_of(const Workpiece& workpiece,
+                                const grid::Grid& grid,
+                                const toolpath::StrategySettings& strategy,
+                                const Progress& progress) {
+    constexpr double covering = 0.5; // share of the work
+    toolpath::Toolpath contacts = contacts_of(workpiece, grid, strategy, progress.part(0.0, covering));
+    toolpath::refuse_turning_over(workpiece.patch, workpiece.trim, grid, contacts);
+    contacts = toolpath::trimmed(workpiece.patch, workpiece.trim, std::move(contacts), workpiece.flipped);
+    toolpath::Toolpath path =
+        toolpath::with_tool(workpiece.patch, workpiece.machine, workpiece.tool, std::move(contacts));
+    const bool consistent = workpiece.angle_mode == kinematics::AngleMode::consistent;
+    if (consistent && workpiece.sequencing.goal == toolpath::SequencingGoal::time) {
+        return fastest(workpiece, path, progress.part(covering, 1.0));
+    }
+    if (consistent) {
+        return toolpath::sequenced(workpiece.patch,
+                                   workpiece.machine,
+                                   std::move(path),
+                                   workpiece.sequencing,
+                                   progress.part(covering, 1.0));
+    }
+    toolpath::AxisPath axes = toolpath::sequence_by_formulas(workpiece.machine, path, workpiece.angle_mode);
+    return {std::move(path), std::move(axes)};
+}
+
+grid::TrackDirection across(grid::TrackDirection direction) {
+    return direction == grid::TrackDirection::along_v ? grid::TrackDirection::along_u
+                                                      : grid::TrackDirection::along_v;
+}
+
+std::optional<double>
+track_gap(const Workpiece& workpiece, const grid::Grid& grid, toolpath::StrategyKind strategy) {
+    const toolpath::KinematicError model = workpiece.error_model();
+    switch (strategy) {
+    case toolpath::StrategyKind::zigzag:
+        return model.track_gap(grid, workpiece.direction);
+    case toolpath::StrategyKind::spiral: // two sides of each round go across
+        return std::max(model.track_gap(grid, workpiece.direction),
+                        model.track_gap(grid, across(workpiece.direction)));
+    case toolpath::StrategyKind::fewest_points:
+        return model.track_gap(grid::Grid::uniform(grid.nu(), grid.nv()), workpiece.direction);
+    case toolpath::StrategyKind::constant_scallop:
+        break;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+toolpath::KinematicError Workpiece::error_model() const {
+    const bool consistent = angle_mode == kinematics::AngleMode::consistent;
+    return {patch, machine, flipped, tool, consistent ? sequencing : toolpath::SequencingSettings{}};
+}
+
+Evaluation evaluate(const Workpiece& workpiece,
+                    GridOutcome outcome,
+                    toolpath::MoveSampling sampling,
+                    const Progress& progress) {
+    return evaluate(workpiece, std::move(outcome), {}, sampling, progress);
+}
+
+Evaluation evaluate(const Workpiece& workpiece,
+                    GridOutcome outcome,
+                    const toolpath::StrategySettings& strategy,
+                    toolpath::MoveSampling sampling,
+                    const Progress& progress) {
+    progress.check();
+    constexpr double sequencing = 0.3; // share of the work
+    toolpath::SequencedPath path = path_of(workpiece, outcome.grid, strategy, progress.part(0.0, sequencing));
+    toolpath::ErrorField field = toolpath::error_field(workpiece.patch,
+                                                       workpiece.machine,
+                                                       path.toolpath,
+                                                       path.axes,
+                                                       sampling,
+                                                       progress.part(sequencing, 1.0));
+    const grid::ErrorSummary closest = toolpath::summary(field, Distance::closest, MoveKind::track);
+    const grid::ErrorSummary param = toolpath::summary(field, Distance::param, MoveKind::track);
+    const grid::ErrorSummary cross = toolpath::summary(field, Distance::closest, MoveKind::cross);
+    const std::optional<double> gap = track_gap(workpiece, outcome.grid, strategy.kind);
+    const double length = toolpath::length(path.toolpath);
+    return {std::move(outcome),
+            std::move(path.toolpath),
+            std::move(path.axes),
+            std::move(field),
+            closest,
+            param,
+            cross,
+            gap,
+            length,
+            workpiece.sequencing.goal};
+}
+
+} // namespace millwright::plan

@@ -1,0 +1,245 @@
+#include "core/plan/pipeline.h"
+
+#include "core/plan/internal/background.h"
+#include "core/plan/internal/failure.h"
+#include "core/plan/internal/plan_stages.h"
+
+#include <utility>
+
+namespace millwright::plan {
+
+/// The plan's worker, with what it published last.
+class Pipeline::Planner {
+public:
+    explicit Planner(const std::function<void()>& wake) : wake_(wake), background_(wake) {}
+
+    void derive(const project::Project& project, const Folders& folders) {
+        background_.replace([this, project, folders](const Progress& progress) {
+            const auto publish = [&](const Plan& plan, const std::optional<Diagnostic>& failure, bool exact) {
+                progress.check();
+                set({project, plan, failure, 0, exact});
+            };
+            if (const auto failure =
+                    failure_of([&] { stages_.derive(project, folders, publish, progress); })) {
+                publish({}, failure, false);
+            }
+        });
+    }
+    void stop() { background_.clear(); }
+
+    [[nodiscard]] std::shared_ptr<const PublishedPlan> latest() const {
+        const std::scoped_lock lock(mutex_);
+        return latest_;
+    }
+    [[nodiscard]] Activity activity() const { return background_.activity(); }
+    void wait_idle() const { background_.wait_idle(); }
+
+private:
+    void set(PublishedPlan plan) {
+        {
+            const std::scoped_lock lock(mutex_);
+            plan.revision = ++revision_;
+            latest_ = std::make_shared<const PublishedPlan>(std::move(plan));
+        }
+        wake_();
+    }
+
+    std::function<void()> wake_;
+    mutable std::mutex mutex_;
+    std::shared_ptr<const PublishedPlan> latest_;
+    std::uint64_t revision_ = 0;
+    PlanStages stages_;     // of the worker
+    Background background_; // last: its thread uses all of the above
+};
+
+/// The worker of a watched adaptation. A session is made by its first step, in the worker.
+class Pipeline::Adapter {
+public:
+    explicit Adapter(const std::function<void()>& wake) : wake_(wake), background_(wake) {}
+
+    void start(project::GridMethod method, const project::Project& project, const Folders& folders) {
+        background_.clear();
+        auto session = std::make_shared<Session>(Session{method, project, folders, nullptr, nullptr});
+        session_ = std::move(session); // the arguments may be the old one's
+        set(session_.get(), {method, false, nullptr, 0, std::nullopt});
+    }
+    void play() {
+        if (session_) {
+            background_.clear();
+            mark_playing(true);
+            background_.append([this, session = session_](const Progress& progress) {
+                while (step(*session, progress)) {
+                }
+            });
+        }
+    }
+    void pause() {
+        if (session_) {
+            background_.clear();
+            mark_playing(false);
+        }
+    }
+    void step() {
+        if (session_) {
+            if (watched()->playing) {
+                pause();
+            }
+            background_.append(
+                [this, session = session_](const Progress& progress) { (void)step(*session, progress); });
+        }
+    }
+    void reset() {
+        if (session_) {
+            start(session_->method, session_->project, session_->folders);
+        }
+    }
+    void end() {
+        background_.clear();
+        session_ = nullptr;
+        const std::scoped_lock lock(mutex_);
+        watched_ = nullptr;
+        current_ = nullptr;
+    }
+
+    /// What the session, if there is one, is about.
+    [[nodiscard]] bool is_about(const project::Project& project, const Folders& folders) const {
+        return session_ && session_->folders == folders && session_->project.surface == project.surface &&
+               session_->project.machine == project.machine && session_->project.grid == project.grid;
+    }
+    [[nodiscard]] std::shared_ptr<const WatchedAdaptation> watched() const {
+        const std::scoped_lock lock(mutex_);
+        return watched_;
+    }
+    [[nodiscard]] Activity activity() const { return background_.activity(); }
+    void wait_idle() const { background_.wait_idle(); }
+
+private:
+    /// All that the worker needs; the improver refers to the error model.
+    struct Session {
+        project::GridMethod method;
+        project::Project project;
+        Folders folders;
+        std::unique_ptr<const toolpath::KinematicError> error;
+        std::unique_ptr<grid::GridImprover> improver;
+    };
+
+    /// One step in the worker; true while there is more to do.
+    bool step(Session& session, const Progress& progress) {
+        bool more = false;
+        const auto failure = failure_of([&] {
+            if (!session.improver) {
+                session.error = std::make_unique<const toolpath::KinematicError>(
+                    workpiece_of(session.project, session.folders).error_model());
+                session.improver = make_improver(session.method, session.project.grid, *session.error);
+            }
+            more = session.improver->advance(progress);
+        });
+        WatchedAdaptation now{session.method, false, nullptr, 0, failure};
+        if (session.improver) {
+            now.state = std::make_shared<const grid::ImproverState>(session.improver->state());
+        }
+        publish(session, std::move(now), more);
+        return more;
+    }
+
+    void publish(const Session& session, WatchedAdaptation now, bool more) {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (current_ != &session) {
+                return;
+            }
+            now.playing = more && watched_->playing;
+            now.revision = ++revision_;
+            watched_ = std::make_shared<const WatchedAdaptation>(std::move(now));
+        }
+        wake_();
+    }
+
+    void set(const Session* session, WatchedAdaptation now) {
+        const std::scoped_lock lock(mutex_);
+        current_ = session;
+        now.revision = ++revision_;
+        watched_ = std::make_shared<const WatchedAdaptation>(std::move(now));
+    }
+
+    void mark_playing(bool playing) {
+        const std::scoped_lock lock(mutex_);
+        WatchedAdaptation now = *watched_;
+        now.playing = playing;
+        now.revision = ++revision_;
+        watched_ = std::make_shared<const WatchedAdaptation>(std::move(now));
+    }
+
+    std::function<void()> wake_;
+    std::shared_ptr<Session> session_; // of the owner; its content is the worker's
+    mutable std::mutex mutex_;
+    const Session* current_ = nullptr; // whose steps are still wanted
+    std::shared_ptr<const WatchedAdaptation> watched_;
+    std::uint64_t revision_ = 0;
+    Background background_; // last: its thread uses all of the above
+};
+
+Pipeline::Pipeline(Folders folders, std::function<void()> wake)
+    : folders_(std::move(folders)), planner_(std::make_unique<Planner>(wake)),
+      adapter_(std::make_unique<Adapter>(wake)) {}
+
+Pipeline::~Pipeline() = default;
+
+void Pipeline::request(const project::Project& project, const Folders& folders) {
+    if (!cancelled_ && requested_ == project && folders_ == folders) {
+        return;
+    }
+    cancelled_ = false;
+    requested_ = project;
+    folders_ = folders;
+    if (!adapter_->is_about(project, folders)) {
+        adapter_->end();
+    }
+    planner_->derive(project, folders);
+}
+
+void Pipeline::cancel() {
+    planner_->stop();
+    adapter_->pause();
+    cancelled_ = true;
+}
+
+std::shared_ptr<const PublishedPlan> Pipeline::latest() const {
+    return planner_->latest();
+}
+
+Activity Pipeline::activity() const {
+    const Activity planning = planner_->activity();
+    return planning.busy ? planning : adapter_->activity();
+}
+
+void Pipeline::start_adaptation(project::GridMethod method) {
+    expects(method != project::GridMethod::uniform, "the uniform grid is not adapted");
+    expects(requested_.has_value(), "a project was asked for before its grid is adapted");
+    adapter_->start(method, *requested_, folders_);
+}
+
+void Pipeline::play_adaptation() {
+    adapter_->play();
+}
+void Pipeline::pause_adaptation() {
+    adapter_->pause();
+}
+void Pipeline::step_adaptation() {
+    adapter_->step();
+}
+
+void Pipeline::reset_adaptation() {
+    adapter_->reset();
+}
+
+std::shared_ptr<const WatchedAdaptation> Pipeline::adaptation() const {
+    return adapter_->watched();
+}
+
+void Pipeline::wait_idle() const {
+    planner_->wait_idle();
+    adapter_->wait_idle();
+}
+
+} // namespace millwright::plan

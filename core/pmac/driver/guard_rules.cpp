@@ -1,0 +1,223 @@
+#include "core/pmac/driver/guard_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace millwright::pmac {
+
+namespace {
+
+constexpr int guard_plc = 31;
+
+/// `I5=2`, `P1..9=0`, `M1000->*`: an assignment, or the definition of an M-variable.
+struct Assignment {
+    char letter = 'I';
+    int first = 0, last = 0;
+    bool computed = false;       ///< the number of the variable is an expression
+    std::optional<double> value; ///< nothing: an expression, a default, or a definition
+
+    [[nodiscard]] bool covers(int from, int to) const { return !computed && first <= to && last >= from; }
+};
+
+bool is_digit_of(char c, bool hexadecimal) {
+    return (c >= '0' && c <= '9') || (hexadecimal && c >= 'A' && c <= 'F');
+}
+
+/// The card takes no notice of blanks and of the case.
+std::string without_blanks(std::string_view line) {
+    std::string text;
+    for (const char c : line) {
+        const bool small = c >= 'a' && c <= 'z';
+        text += c == ' ' || c == '\t' ? "" : std::string(1, small ? static_cast<char>(c - 'a' + 'A') : c);
+    }
+    return text;
+}
+
+/// A number without a sign at the front of `rest`, which loses it: `1001`, `5.0`, `$3E9`.
+std::optional<double> take_number(std::string_view& rest) {
+    const bool hexadecimal = rest.starts_with('$');
+    std::size_t end = hexadecimal ? 1 : 0;
+    while (end < rest.size() && (is_digit_of(rest[end], hexadecimal) ||
+                                 (!hexadecimal && rest[end] == '.' && rest.substr(end, 2) != ".."))) {
+        ++end;
+    }
+    double value = 0.0;
+    bool read = false;
+    if (hexadecimal) {
+        constexpr int base = 16;
+        std::uint64_t bits = 0;
+        read = std::from_chars(rest.data() + 1, rest.data() + end, bits, base).ec == std::errc{};
+        value = static_cast<double>(bits);
+    } else {
+        read = std::from_chars(rest.data(), rest.data() + end, value).ec == std::errc{};
+    }
+    rest.remove_prefix(read ? end : 0);
+    return read ? std::optional(value) : std::nullopt;
+}
+
+std::optional<int> take_index(std::string_view& rest) {
+    constexpr double most = 1e6;
+    const auto number = take_number(rest);
+    return number && *number < most ? std::optional(static_cast<int>(*number)) : std::nullopt;
+}
+
+/// What is in parentheses at the front of `rest`, which loses it.
+std::string_view take_parentheses(std::string_view& rest) {
+    int depth = 0;
+    std::size_t end = 0;
+    do {
+        depth += rest[end] == '(' ? 1 : rest[end] == ')' ? -1 : 0;
+        ++end;
+    } while (end < rest.size() && depth > 0);
+    const std::string_view inside = rest.substr(1, depth == 0 ? end - 2 : end - 1);
+    rest.remove_prefix(end);
+    return inside;
+}
+
+/// A value that is a number and no expression.
+std::optional<double> literal(std::string_view rest) {
+    const bool minus = rest.starts_with('-');
+    rest.remove_prefix(minus || rest.starts_with('+') ? 1 : 0);
+    const auto number = take_number(rest);
+    const bool goes_on =
+        !rest.empty() && std::string_view("+-*/%&|^").find(rest.front()) != std::string_view::npos;
+    return number && !goes_on ? std::optional(minus ? -*number : *number) : std::nullopt;
+}
+
+/// The one whose letter is at the front of `rest`.
+std::optional<Assignment> assignment_at(std::string_view rest) {
+    Assignment found;
+    found.letter = rest.front();
+    rest.remove_prefix(1);
+    if (rest.starts_with('(')) {
+        std::string_view inside = take_parentheses(rest);
+        const auto number = take_index(inside);
+        found.computed = !number || !inside.empty();
+        found.first = found.last = number.value_or(0);
+    } else if (const auto first = take_index(rest)) {
+        found.first = found.last = *first;
+        if (rest.starts_with("..")) {
+            rest.remove_prefix(2);
+            found.last = take_index(rest).value_or(found.first);
+        }
+    } else {
+        return std::nullopt;
+    }
+    if (rest.starts_with("->")) {
+        return found.letter == 'M' && rest.size() > 2 ? std::optional(found)
+                                                      : std::nullopt; // else a question
+    }
+    if (!rest.starts_with('=')) {
+        return std::nullopt;
+    }
+    found.value = literal(rest.substr(1));
+    return found;
+}
+
+/// All of them in a line. What is in parentheses compares.
+std::vector<Assignment> assignments_of(std::string_view text) {
+    std::vector<Assignment> all;
+    int depth = 0;
+    for (std::size_t n = 0; n < text.size(); ++n) {
+        depth = std::max(0, depth + (text[n] == '(' ? 1 : text[n] == ')' ? -1 : 0));
+        if (depth == 0 && std::string_view("IPQM").find(text[n]) != std::string_view::npos) {
+            if (const auto found = assignment_at(text.substr(n))) {
+                all.push_back(*found);
+            }
+        }
+    }
+    return all;
+}
+
+std::string refused_setting(const Assignment& one) {
+    constexpr int plcs = 5, interrupts = 8, servo_time = 10;
+    if (one.computed) {
+        return "which I-variable it sets is computed, and could be one that the guard needs";
+    }
+    if (one.covers(plcs, plcs)) {
+        constexpr int background = 2, values = 4;
+        const bool whole = one.value && *one.value >= 0.0 && *one.value < 1e6;
+        if (!whole || (static_cast<int>(*one.value) % values & background) == 0) {
+            return "the guard is PLC 31, which runs with I5 = 2 or 3 only";
+        }
+    }
+    if (one.covers(interrupts, interrupts)) {
+        constexpr double most = 15.0; // 7 ms between two looks, with the factory's servo time
+        if (!one.value || !(*one.value >= 0.0 && *one.value <= most)) {
+            return "the guard must run every few milliseconds: I8 = 0 to 15";
+        }
+    }
+    return one.covers(servo_time, servo_time)
+               ? "the guard counts servo cycles, which last as long as I10 says"
+               : "";
+}
+
+/// Of DISABLE PLC {list}, behind those words.
+bool names_guard(std::string_view list) {
+    do {
+        const auto first = take_index(list);
+        if (!first) {
+            return true; // an expression, or nothing: the value is unknown
+        }
+        int last = *first;
+        if (list.starts_with("..")) {
+            list.remove_prefix(2);
+            last = take_index(list).value_or(guard_plc);
+        }
+        if (*first <= guard_plc && last >= guard_plc) {
+            return true;
+        }
+        if (!list.starts_with(',')) {
+            return false;
+        }
+        list.remove_prefix(1);
+    } while (true);
+}
+
+bool stops_guard(std::string_view text) {
+    for (const std::string_view words : {"DISABLEPLC", "DISPLC", "OPENPLC", "OPEPLC"}) {
+        for (std::size_t at = text.find(words); at != std::string_view::npos; at = text.find(words, at + 1)) {
+            if (names_guard(text.substr(at + words.size()))) {
+                return true;
+            }
+        }
+    }
+    return text.find("^D") != std::string_view::npos; // of all PLC programs
+}
+
+} // namespace
+
+std::string guard_refusal(std::string_view line) {
+    constexpr int first_own = 1000, last_own_p = 1006, last_own_m = 1008;
+    const std::string text = without_blanks(line);
+    if (stops_guard(text)) {
+        return "the guard is PLC 31";
+    }
+    for (const Assignment& one : assignments_of(text)) {
+        if (one.letter == 'I') {
+            if (std::string why = refused_setting(one); !why.empty()) {
+                return why;
+            }
+        } else if (one.letter == 'P' && one.covers(first_own, last_own_p)) {
+            return "P1000 to P1006 are the guard's";
+        } else if (one.letter == 'M' && one.covers(first_own, last_own_m)) {
+            return "M1000 to M1008 are the guard's";
+        }
+    }
+    return "";
+}
+
+bool sets_handshake(std::string_view line) {
+    const std::vector<Assignment> all = assignments_of(without_blanks(line));
+    return std::ranges::any_of(all, [](const Assignment& one) {
+        constexpr std::array<int, 5> own{1, 3, 4, 6, 9};
+        return one.letter == 'I' &&
+               std::ranges::any_of(own, [&](int variable) { return one.covers(variable, variable); });
+    });
+}
+
+} // namespace millwright::pmac

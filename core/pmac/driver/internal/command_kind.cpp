@@ -1,0 +1,147 @@
+#include "core/pmac/driver/internal/command_kind.h"
+
+#include <cctype>
+#include <cstdlib>
+#include <regex>
+#include <string>
+
+namespace millwright::pmac::internal {
+
+namespace {
+
+bool is(std::string_view line, const std::regex& whole) {
+    return std::regex_match(line.begin(), line.end(), whole);
+}
+
+} // namespace
+
+bool only_asks(std::string_view line) {
+    static const std::regex questions(
+        " *(([#&][0-9]+ *)?(P[0-9]+[.][.][0-9]+|P[0-9]*|[IMQ][0-9]+([.][.][0-9]+)?|[VF?]) *)+",
+        std::regex::icase);
+    return is(line, questions);
+}
+
+bool only_stops(std::string_view line) {
+    static const std::regex stops(R"( *(([#&][0-9]+ *)?(J */|[AHQS\\/]) *)+)", std::regex::icase);
+    return is(line, stops);
+}
+
+bool only_aborts(std::string_view line) {
+    static const std::regex aborts(R"( *(([#&][0-9]+ *)?[AHQS\\/] *)+)", std::regex::icase);
+    return is(line, aborts);
+}
+
+bool only_kills(std::string_view line) {
+    static const std::regex kills(" *(([#&][0-9]+ *)?K *)+", std::regex::icase);
+    return is(line, kills);
+}
+
+bool jogs(std::string_view line) {
+    static const std::regex jog("J *[:=^]", std::regex::icase);
+    return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), jog);
+}
+
+bool jogs_without_end(std::string_view line) {
+    static const std::regex jog("J *[-+]", std::regex::icase);
+    return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), jog);
+}
+
+bool sets_p0(std::string_view line) {
+    static const std::regex number(R"( *[-+]?([0-9]+\.?[0-9]*|\.[0-9]+) *)");
+    return is(line, number);
+}
+
+bool only_sets(std::string_view line) {
+    static const std::regex settings(
+        " *([IPQM][0-9]+ *= *[-+]?[$0-9.][0-9A-F.]* *)+| *M[0-9]+ *-> *[*A-Z0-9:$,]+ *", std::regex::icase);
+    return is(line, settings);
+}
+
+std::optional<MotorStep> step_of(std::string_view line) {
+    static const std::regex step(" *#([1-8]) *J *: *([-+]?[0-9]{1,6})( +M[0-9]+)? *", std::regex::icase);
+    std::cmatch found;
+    if (!std::regex_match(line.data(), line.data() + line.size(), found, step)) {
+        return std::nullopt;
+    }
+    return MotorStep{std::stoi(found[1]), std::stod(found[2])};
+}
+
+std::vector<MotorGoal> goals_of(std::string_view line, int& motor) {
+    static const std::regex piece("# *([1-8])|J *([:=^]) *([-+]?[0-9]+[.]?[0-9]*|[-+]?[.][0-9]+)",
+                                  std::regex::icase);
+    std::vector<MotorGoal> goals;
+    if (line.find('"') != std::string_view::npos) {
+        return goals;
+    }
+    for (std::cregex_iterator at(line.data(), line.data() + line.size(), piece), end; at != end; ++at) {
+        if ((*at)[1].matched) {
+            motor = std::stoi((*at)[1]);
+        } else {
+            goals.push_back({motor, std::strtod((*at)[3].str().c_str(), nullptr), *(*at)[2].first != '='});
+        }
+    }
+    return goals;
+}
+
+std::vector<PowerChange> power_changes_of(std::string_view line, int& motor) {
+    static const std::regex piece("# *([1-8])|(J *[-+/=:^]|HM(?!Z)|HOME(?!Z)|^ *[$] *$)|"
+                                  "(K)(?![A-Z])|(A)(?![-+A-Z0-9.(=])",
+                                  std::regex::icase);
+    std::vector<PowerChange> changes;
+    if (line.find('"') != std::string_view::npos || line.find("->") != std::string_view::npos) {
+        return changes; // of a buffer, or the definition of an axis A
+    }
+    for (std::cregex_iterator at(line.data(), line.data() + line.size(), piece), end; at != end; ++at) {
+        const char before = (*at).position() > 0 ? line[static_cast<std::size_t>((*at).position()) - 1] : ' ';
+        if ((*at)[1].matched) {
+            motor = std::stoi((*at)[1]);
+        } else if (std::isalpha(static_cast<unsigned char>(before)) != 0) {
+            continue; // the end of another word
+        } else if ((*at)[4].matched) {
+            changes.push_back({std::nullopt, true});
+        } else {
+            changes.push_back({motor, !(*at)[3].matched});
+        }
+    }
+    return changes;
+}
+
+bool opens_buffer(std::string_view line) {
+    static const std::regex open(" *OPEN.*", std::regex::icase);
+    return is(line, open);
+}
+
+bool closes_buffer(std::string_view line) {
+    static const std::regex close(" *CLOSE.*", std::regex::icase);
+    return is(line, close);
+}
+
+bool begins_nothing(std::string_view line) {
+    static const std::regex quiet(
+        " *(CLOSE|CLS|CLEAR|CLR|DEL(ETE)? .*|UNDEF(INE)?.*|(& *[0-9]+ *)?#[0-9]+ *->.*|"
+        "([#&][0-9]+ *)+) *",
+        std::regex::icase);
+    return only_asks(line) || only_sets(line) || is(line, quiet);
+}
+
+bool may_move_later(std::string_view line, int system) {
+    static const std::regex plc("ENA(BLE)? *PLC", std::regex::icase);
+    static const std::regex address("& *([0-9]+)");
+    if (std::regex_search(line.begin(), line.end(), plc)) {
+        return true;
+    }
+    for (std::cregex_iterator at(line.data(), line.data() + line.size(), address), end; at != end; ++at) {
+        if ((*at)[1].str() != std::to_string(system)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool opens_loop(std::string_view line) {
+    static const std::regex output("(^|[^A-Z])O *[-+]?[0.]*([1-9(]|[IPQM][0-9])", std::regex::icase);
+    return line.find('"') == std::string_view::npos && std::regex_search(line.begin(), line.end(), output);
+}
+
+} // namespace millwright::pmac::internal

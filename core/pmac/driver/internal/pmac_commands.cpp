@@ -1,0 +1,255 @@
+// Lines that a person types, or has in a file: what may be sent of them, and when.
+#include "core/base/error.h"
+#include "core/pmac/driver/guard_rules.h"
+#include "core/pmac/driver/internal/command_kind.h"
+#include "core/pmac/driver/internal/pmac_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace millwright::pmac::internal {
+
+void PmacSession::check_command(const std::vector<std::string>& lines) const {
+    if (lines.empty()) {
+        throw Error("there is nothing in the command");
+    }
+    for (const std::string& line : lines) {
+        constexpr std::size_t longest = 240;
+        const bool plain = std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~'; });
+        if (!plain || line.empty() || line.size() > longest) {
+            throw Error(fmt::format("a command is plain text of 1 to {} characters", longest));
+        }
+        if (!sets_p0(line) && (line.front() == '.' || (line.front() >= '0' && line.front() <= '9'))) {
+            throw Error(fmt::format("'{}' begins with a number, and is more than that", line),
+                        {},
+                        "a number alone sets P0; anything else begins with a letter, # or &");
+        }
+        if (line.front() == '^') {
+            throw Error(fmt::format("'{}' means a control character, which has no place in a line", line),
+                        {},
+                        "stop, emergency stop and unlock do what ^A, ^K and others would; what the reports "
+                        "would tell (^B, ^C, ^F, ^G, ^P, ^V) the driver asks for and shows all the time");
+        }
+        if (jogs_without_end(line)) {
+            throw Error(fmt::format("'{}' would jog until somebody thinks of stopping it", line),
+                        {},
+                        "the jog buttons stop when they are let go of; J:500 goes 500 counts");
+        }
+        if (opens_loop(line)) {
+            throw Error(fmt::format("'{}' would drive a motor without its loop: no speed, no limit and no "
+                                    "watchdog holds it",
+                                    line),
+                        {},
+                        "J:500 goes 500 counts");
+        }
+        check_guard(line);
+    }
+}
+
+/// A line of a person, or of a program.
+void PmacSession::check_guard(const std::string& line) {
+    if (const std::string why = guard_refusal(line); !why.empty()) {
+        throw Error(
+            fmt::format("'{}' would weaken the guard that stops the motors when the link is lost", line),
+            {},
+            why);
+    }
+    if (sets_handshake(line)) {
+        throw Error(fmt::format("'{}' would change the hand-shake, which is the driver's", line));
+    }
+}
+
+/// While a buffer is open nobody is heard, and the guard is disarmed: nothing may move then.
+void PmacSession::check_buffers(const std::vector<std::string>& lines) const {
+    bool stored = false, may_move = false;
+    for (const std::string& line : lines) {
+        if (opens_buffer(line) && may_move && any_power()) {
+            throw Error(fmt::format("'{}' would disarm the guard while motors may move", line),
+                        {},
+                        "send it when the lines before it are done");
+        }
+        may_move = may_move || (!stored && !opens_buffer(line) && !begins_nothing(line));
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
+    }
+}
+
+/// Goals are known before anything moves; what a program does is watched.
+void PmacSession::check_goals(const std::vector<std::string>& lines) const {
+    int motor = addresses_.size() > 1 ? addresses_[1] - '0' : 0;
+    std::vector<double> from;
+    for (const MotorState& state : motors_) {
+        from.push_back(state.counts);
+    }
+    std::vector<double> targets = from;
+    for (const std::string& line : lines) {
+        for (const MotorGoal& goal : goals_of(line, motor)) {
+            const auto axis = std::ranges::find(settings_.axes, goal.motor, &PmacAxis::motor);
+            const auto n = static_cast<std::size_t>(axis - settings_.axes.begin());
+            if (n < targets.size()) {
+                targets[n] = goal.counts + (goal.from_here ? targets[n] : 0.0);
+            }
+        }
+        if (const std::string why = leaves_limits(from, targets); !why.empty()) {
+            throw Error(fmt::format("'{}' is not sent: {}", line, why));
+        }
+    }
+}
+
+/// Whether that is all there is to do about `lines`.
+bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
+    if (!active() || stage_ == Stage::loading) {
+        return false;
+    }
+    if (std::all_of(lines.begin(), lines.end(), only_kills)) {
+        fail("a command took the power away");
+    } else if (std::all_of(lines.begin(), lines.end(), only_stops)) {
+        halt();
+    } else {
+        return false;
+    }
+    answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
+    return true;
+}
+
+/// The first motor without power that `lines` would give it to.
+std::optional<std::size_t> PmacSession::given_power(const std::vector<std::string>& lines) const {
+    int addressed = addresses_.size() > 1 ? addresses_[1] - '0' : 0;
+    std::vector<char> powered;
+    for (const MotorState& motor : motors_) {
+        powered.push_back(motor.enabled() ? 1 : 0);
+    }
+    bool stored = false;
+    for (const std::string& line : lines) {
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
+        if (stored) {
+            continue;
+        }
+        for (const PowerChange& change : power_changes_of(line, addressed)) {
+            for (std::size_t n = 0; n < powered.size(); ++n) {
+                if (change.motor && *change.motor != settings_.axes[n].motor) {
+                    continue;
+                }
+                if (change.given && powered[n] == 0) {
+                    return n;
+                }
+                powered[n] = change.given ? 1 : 0;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// Stops that were typed would give power to motors without: those that have it brake, and that is all. Where
+/// nothing moves nothing is sent. Throws Error for lines that do more, and for a J/ where nothing moves,
+/// which is meant to give power.
+bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
+    const auto to = given_power(lines);
+    if (!to || lines_may_power_ || stage_ == Stage::alarm) { // which takes none of them anyway
+        return false;
+    }
+    const bool moves = stage_ == Stage::astir || stage_ == Stage::commanding || (rests() && !standing());
+    if (!moves && std::all_of(lines.begin(), lines.end(), only_aborts)) {
+        answer_ = {answer_.number + 1,
+                   drivers::CommandAnswer::State::done,
+                   fmt::format("nothing moves; {} has no power and was given none", name_of(*to))};
+        return true;
+    }
+    if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
+        throw Error(
+            fmt::format("'{}' would give power to {}, which has none", fmt::join(lines, " "), name_of(*to)),
+            {},
+            "look at the machine, then give its motors power: --power on the command line");
+    }
+    command_lines_.clear();
+    finish(Stage::stopping);
+    unbraked_ = true; // the next report tells which move
+    answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
+    return true;
+}
+
+int PmacSession::load(const std::vector<std::string>& lines) {
+    if (any_power()) {
+        throw Error("the motors have power, and a wrong gain or limit would move them at once",
+                    {},
+                    "take it away first, and give it again when the settings were looked at");
+    }
+    return command(lines, true);
+}
+
+int PmacSession::command(const std::vector<std::string>& typed, bool all) {
+    check_command(typed);
+    const bool only_kept =
+        !all && answer_.state != drivers::CommandAnswer::State::pending && typed_.keeps(typed);
+    if (only_kept) {
+        const std::size_t count = typed_.kept().size() - 1;
+        answer_ = {answer_.number + 1,
+                   drivers::CommandAnswer::State::done,
+                   fmt::format("{}: {} {} kept until CLOSE",
+                               typed_.kept().front(),
+                               count,
+                               count == 1 ? "line is" : "lines are")};
+        tell(false, drivers::ConsoleKind::report, answer_.text);
+        return answer_.number;
+    }
+    const std::vector<std::string> lines = all ? typed : typed_.completed(typed);
+    check_goals(lines);
+    check_buffers(lines);
+    if (stopped_by_command(lines) || brakes_instead(lines)) {
+        return answer_.number;
+    }
+    const bool waits = answer_.state == drivers::CommandAnswer::State::pending;
+    const bool asks = std::all_of(lines.begin(), lines.end(), only_asks);
+    if (!asks && rests()) {
+        give_jog_speeds_back();
+    }
+    const bool stops = std::all_of(
+        lines.begin(), lines.end(), [](const auto& line) { return only_stops(line) || only_kills(line); });
+    if (stage_ == Stage::astir && stops) {
+        finish(Stage::commanding);
+    } else if (stage_ == Stage::alarm && !waits && !link_lost_ &&
+               std::all_of(lines.begin(), lines.end(), only_sets)) {
+        // nothing has power: what a test of a motor had borrowed is given back
+    } else if (waits || !asks || !(active() || stage_ == Stage::astir) || stage_ == Stage::loading) {
+        require_rest("command");
+        finish(Stage::commanding);
+    }
+    begin_command(lines, all);
+    typed_.sent(typed);
+    return answer_.number;
+}
+
+void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {
+    answer_ = {answer_.number + 1, drivers::CommandAnswer::State::pending, {}};
+    command_goes_on_ = all;
+    command_refused_ = false;
+    command_lines_.assign(lines.begin(), lines.end());
+    only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
+    stays_armed_ = stays_armed_ || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+                       return may_move_later(line, settings_.system);
+                   });
+    int addressed = 0;
+    closes_loops_ = false;
+    for (const std::string& line : lines) {
+        for (const PowerChange& change : power_changes_of(line, addressed)) {
+            closes_loops_ = closes_loops_ || change.given;
+            for (std::size_t n = 0; n < motors_.size() && change.given; ++n) {
+                const bool other = change.motor && *change.motor != settings_.axes[n].motor;
+                motors_[n].gets_power = motors_[n].gets_power || !other;
+                motors_[n].was_given_power = motors_[n].was_given_power || !other;
+            }
+        }
+    }
+    gave_power_ = gave_power_ || closes_loops_;
+    commanded_.clear();
+    for (const std::string& line : lines) {
+        commanded_ += line + "\n";
+    }
+    commanded_from_.clear();
+    for (const MotorState& motor : motors_) {
+        commanded_from_.push_back(motor.counts);
+    }
+    next_command();
+}
+
+} // namespace millwright::pmac::internal

@@ -1,0 +1,238 @@
+// What a person wants of the machine as a whole.
+#include "core/base/error.h"
+#include "core/pmac/driver/internal/pmac_session.h"
+#include "core/pmac/driver/internal/watchdog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+namespace millwright::pmac::internal {
+
+namespace {
+
+/// Loops, conditions, jumps, and what is sent as a command: as far as one can see.
+bool may_leave_order(const std::string& line) {
+    constexpr std::array<std::string_view, 6> words{"WHILE", "IF", "GOTO", "GOSUB", "CALL", "\""};
+    std::string upper(line);
+    std::ranges::transform(
+        upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return std::ranges::any_of(words,
+                               [&](std::string_view word) { return upper.find(word) != std::string::npos; });
+}
+
+} // namespace
+
+bool PmacSession::active() const {
+    return stage_ == Stage::running || stage_ == Stage::loading || stage_ == Stage::jogging ||
+           stage_ == Stage::homing || stage_ == Stage::stopping;
+}
+
+bool PmacSession::rests() const {
+    return stage_ == Stage::ready || stage_ == Stage::stopped;
+}
+
+void PmacSession::require_rest(std::string_view what) const {
+    if (rests() && standing()) {
+        return;
+    }
+    if (rests()) {
+        throw Error(fmt::format("the motors are moving, and take no {}", what));
+    }
+    throw Error(fmt::format("the PMAC is {} and takes no {}", drivers::in_words(status().state), what),
+                {},
+                stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
+}
+
+void PmacSession::require_enabled(std::string_view what) const {
+    if (!enabled()) {
+        throw Error(fmt::format("the motors have no power, so there is no {}", what),
+                    {},
+                    "look at the machine, then enable them");
+    }
+}
+
+std::string PmacSession::every_motor(std::string_view command) const {
+    std::string line;
+    for (const PmacAxis& axis : settings_.axes) {
+        line += fmt::format("#{}{}", axis.motor, command);
+    }
+    return line;
+}
+
+void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
+    require_rest("program");
+    require_enabled("program");
+    if (!position_known()) {
+        throw Error("the position is not known, so there is no program", {}, "home first");
+    }
+    for (const std::string& line : lines) {
+        check_guard(line);
+    }
+    answer_ = {answer_.number, drivers::CommandAnswer::State::none, {}}; // of a line before it
+    finish(Stage::loading);
+    program_lines_ = static_cast<int>(lines.size());
+    executed_ = 0;
+    mark_ = 0.0;
+    marks_tell_ = std::none_of(lines.begin(), lines.end(), may_leave_order);
+    armed_ = false; // nobody is heard while a buffer is open
+    for (const std::string& line : {std::string(disarm_watchdog),
+                                    std::string("CLOSE"),
+                                    fmt::format("OPEN PROG {}", settings_.program),
+                                    std::string("CLEAR"),
+                                    std::string("P1000=0")}) {
+        ask(line, Kind::program);
+    }
+    for (int n = 0; n < program_lines_; ++n) {
+        if (marks_tell_) {
+            ask(fmt::format("P1000={}", n + 1), Kind::program);
+        }
+        ask(lines[static_cast<std::size_t>(n)], Kind::program);
+    }
+    ask("DWELL0", Kind::program); // waits for all motion
+    ask(fmt::format("P1000={}", program_lines_ + 1), Kind::program);
+    ask("CLOSE", Kind::program);
+    ask("P1000=0");
+    arm();
+    ask(fmt::format("&{}B{}R", settings_.system, settings_.program), Kind::run);
+}
+
+void PmacSession::hold(double now) {
+    if (stage_ == Stage::running && !held_) {
+        ask(fmt::format("&{}H", settings_.system));
+        held_ = true;
+    } else if (stage_ == Stage::jogging) {
+        stop_jog(now);
+    }
+}
+
+void PmacSession::resume(double /*now*/) {
+    if (stage_ == Stage::running && held_) {
+        ask(fmt::format("&{}R", settings_.system));
+        held_ = false;
+        message_.clear();
+    }
+}
+
+void PmacSession::stop(double /*now*/) {
+    halt();
+}
+
+void PmacSession::halt() {
+    if (stage_ == Stage::loading) {
+        queue_.clear();
+        ask("CLOSE");
+        finish(Stage::stopped);
+    } else if (stage_ == Stage::running) {
+        ask(fmt::format("&{}H", settings_.system));
+        finish(Stage::stopping);
+    } else if (stage_ == Stage::jogging) {
+        halt_jog();
+        stage_ = Stage::stopping;
+    } else if (stage_ == Stage::homing) {
+        forget_queue();
+        ask(every_motor("J/"));
+        finish(Stage::stopping);
+    } else if (stage_ == Stage::commanding || stage_ == Stage::astir ||
+               (rests() && (armed_ || !queue_.empty()))) {
+        command_lines_.clear();
+        finish(Stage::stopping);
+        unbraked_ = true; // the next report tells what the command set going
+    }
+}
+
+/// What a command set going: the motors with power alone, since J/ would give it to the others, too.
+void PmacSession::brake() {
+    unbraked_ = false;
+    if ((system_1_ & 1U) != 0) { // a program runs
+        ask(fmt::format("&{}{}", settings_.system, enabled() ? "A" : "H"));
+    }
+    std::string line;
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (motors_[n].enabled()) {
+            line += fmt::format("#{}J/", settings_.axes[n].motor);
+        }
+    }
+    if (!line.empty()) {
+        ask(std::move(line));
+    }
+}
+
+/// All that was to be asked, but for what a person wants to know.
+void PmacSession::forget_queue() {
+    std::erase_if(queue_, [](const Request& request) {
+        return request.kind != Kind::command && request.kind != Kind::address;
+    });
+}
+
+void PmacSession::emergency_stop(double /*now*/) {
+    if (stage_ != Stage::closed && !link_lost_) {
+        fail("emergency stop");
+    }
+}
+
+void PmacSession::reset(double /*now*/) {
+    if (stage_ == Stage::alarm && !link_lost_) {
+        finish(Stage::ready);
+        was_home_ = position_known();
+    }
+}
+
+void PmacSession::home(double now) {
+    require_rest("homing");
+    require_enabled("homing");
+    if (motors_.empty()) {
+        throw Error("there is no axis that could be homed");
+    }
+    finish(Stage::homing);
+    was_home_ = false;
+    arm();
+    home_axis(0);
+    next_poll_ = now;
+}
+
+/// A motor looks for its flag in one direction only: where it is known to stand behind it, it goes back
+/// first.
+void PmacSession::home_axis(std::size_t n) {
+    constexpr double before_flag_deg = 5.0;
+    const PmacAxis& axis = settings_.axes[n];
+    const double way = readings_.way_home(n);
+    double place = -way * before_flag_deg;
+    place = std::clamp(
+        place, std::min(0.0, axis.min_deg.value_or(place)), std::max(0.0, axis.max_deg.value_or(place)));
+    homing_axis_ = n;
+    homing_from_ = motors_[n].counts;
+    homing_backs_off_ = motors_[n].home() && way * (motors_[n].counts / axis.counts_per_degree - place) > 0.0;
+    quiet_polls_ = 0;
+    if (homing_backs_off_) {
+        set_jog_speed(n, most_jog_speed(n));
+        ask(fmt::format("#{}J={:.0f}", axis.motor, place * axis.counts_per_degree));
+    } else {
+        ask(fmt::format("#{}HM", axis.motor));
+    }
+}
+
+void PmacSession::enable(double /*now*/) {
+    require_rest("power");
+    if (!guard_.runs()) {
+        throw Error(guard_is_off, {}, "connect again: that writes it anew");
+    }
+    gave_power_ = true;
+    ask(every_motor("J/"));
+    power_polls_ = patient_polls;
+}
+
+void PmacSession::set_overrides(const drivers::Overrides& wanted) {
+    if (stage_ == Stage::closed || link_lost_ || !greeted()) {
+        throw Error("the PMAC is not connected and takes no overrides");
+    }
+    constexpr int most = 100; // faster than programmed is no business of a hand
+    overrides_.feed = std::clamp(wanted.feed, 0, most);
+    ask(fmt::format("&{}%{}", settings_.system, overrides_.feed));
+}
+
+} // namespace millwright::pmac::internal

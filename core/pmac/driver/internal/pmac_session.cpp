@@ -1,0 +1,511 @@
+#include "core/pmac/driver/internal/pmac_session.h"
+
+#include "core/base/error.h"
+#include "core/links/link.h"
+#include "core/pmac/driver/internal/card_numbers.h"
+#include "core/pmac/driver/internal/command_kind.h"
+#include "core/pmac/driver/internal/watchdog.h"
+#include "core/pmac/driver/pmac_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace millwright::pmac::internal {
+
+namespace {
+
+constexpr double poll_interval = 0.02;    // s
+constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
+constexpr int most_tries = 3;             // of a line that moves, each after a look at the card
+constexpr char repeats_or_not = '\x14';   // ^T
+constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
+
+bool starts_with_word(const std::string& line, std::string_view word) {
+    std::string tight;
+    for (const char c : line) {
+        tight += c == ' ' ? "" : std::string(1, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
+    }
+    return tight.starts_with(word);
+}
+
+} // namespace
+
+void PmacSession::opened(double now) {
+    stage_ = Stage::greeting;
+    link_lost_ = heard_ = false;
+    message_.clear();
+    queue_.clear();
+    sent_.reset();
+    talk_.forget();
+    greet_step_ = 0;
+    greeting_heard_.clear();
+    greet_at_ = opened_at_ = now;
+    own_pause_.begin(now);
+    buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
+    found_power_ = gave_power_ = stays_armed_ = false;
+    guard_.forget();
+    end_leaving();
+    own_jog_speeds_.assign(motors_.size(), std::nullopt);
+    addresses_ = fmt::format("#1&{}", settings_.system);
+    answer_ = {};
+    typed_.clear();
+}
+
+void PmacSession::lost(const std::string& why) {
+    const bool spoke = stage_ != Stage::greeting; // else nothing was sent that moves a motor
+    finish(Stage::alarm, links::loss_sentence(why) + (spoke ? "; the card stops its motors by itself" : ""));
+    link_lost_ = unseen_ = true;
+    if (leaving_) {
+        farewell_ = "the link was lost before the card told that its motors have no power";
+        end_leaving();
+    }
+    talk_.forget();
+    queue_.clear();
+    sent_.reset();
+    output_.clear();
+}
+
+void PmacSession::closed() {
+    stage_ = Stage::closed;
+    link_lost_ = false;
+    queue_.clear();
+    sent_.reset();
+    talk_.forget();
+    output_.clear();
+}
+
+std::string PmacSession::take_output() {
+    output_ += talk_.take_output();
+    return std::exchange(output_, {});
+}
+
+std::vector<drivers::ConsoleLine> PmacSession::take_console() {
+    return std::exchange(told_, {});
+}
+
+void PmacSession::tell(bool sent, drivers::ConsoleKind kind, std::string text) {
+    told_.push_back({.sent = sent, .kind = kind, .text = std::move(text)});
+}
+
+/// Whether a request comes from the driver alone, so often that a person does not want to read it.
+bool PmacSession::is_ours(Kind kind) {
+    return kind == Kind::poll || kind == Kind::reading || kind == Kind::rating || kind == Kind::address ||
+           kind == Kind::watch || kind == Kind::jog_speeds || kind == Kind::greet ||
+           kind == Kind::definitions;
+}
+
+/// What moves nothing, and lines of a buffer, which a card that was reset refuses.
+bool PmacSession::may_repeat(Kind kind) const {
+    return buffer_open_ || stage_ == Stage::greeting ||
+           !(kind == Kind::step || kind == Kind::run || kind == Kind::command);
+}
+
+void PmacSession::receive(std::string_view bytes, double now) {
+    heard_ = heard_ || !bytes.empty();
+    if (stage_ == Stage::greeting && talk_.idle()) {
+        greeting_heard_ += bytes;
+    }
+    talk_.receive(bytes, now);
+}
+
+/// For a person, to whom the driver's own questions say nothing.
+std::string PmacSession::asked(const Request& request) {
+    switch (request.kind) {
+    case Kind::poll:
+        return "the question how its motors stand";
+    case Kind::rating:
+    case Kind::reading:
+    case Kind::jog_speeds:
+        return "the question for its motors' values";
+    case Kind::address:
+        return "the question which motor it addresses";
+    case Kind::watch:
+        return "one of this program's own settings";
+    case Kind::step:
+        return request.line.starts_with('I') ? "a jog's speed" : "'" + request.line + "'";
+    default:
+        return "'" + request.line + "'";
+    }
+}
+
+/// In whatever mode the card is, brings it into ours; then asks who it is.
+void PmacSession::greet(double now) {
+    constexpr std::array<std::string_view, 5> steps{"\x18", "CLOSE\r", "I3=2\r", "I6=1\r", "I4=1\r"};
+    if (now < greet_at_) {
+        return;
+    }
+    greet_at_ = now + greeting_pause;
+    constexpr std::size_t behind_close = 2;
+    if (greet_step_ == behind_close && greeting_heard_.find("CLOSE\r") != std::string::npos) {
+        output_ += repeats_or_not; // else each line would be taken for its answer
+        tell(true,
+             drivers::ConsoleKind::realtime,
+             "^T: the card repeated what it was sent, and does so no more");
+    }
+    if (greet_step_ < steps.size()) {
+        output_ += steps[greet_step_++];
+    } else if (greet_step_ == steps.size()) {
+        ++greet_step_;
+        ask("TYPE", Kind::greet);
+        ask("I9=0", Kind::greet);
+        ask("I10", Kind::greet);
+        ask_ratings();
+        ask(poll_line(), Kind::poll);
+    }
+}
+
+/// Its lines, before what else is to be asked.
+void PmacSession::make_guard(const std::vector<std::string>& servo_time) {
+    const auto number = servo_time.size() == 1 ? card_number(servo_time.front()) : std::nullopt;
+    try {
+        std::vector<std::string> lines = watchdog_lines(settings_, number.value_or(0.0));
+        for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+            queue_.push_front({std::move(*line), Kind::greet, 0});
+        }
+    } catch (const Error& error) {
+        queue_.clear();
+        finish(Stage::alarm, error.what());
+    }
+}
+
+void PmacSession::tick(double now) {
+    if (stage_ == Stage::closed || link_lost_) {
+        return;
+    }
+    if (stage_ == Stage::greeting) {
+        greet(now);
+    }
+    talk_.leave_out(own_pause_.taken(now), now);
+    if (const GuardedLine::Reply reply = talk_.poll(now); reply.outcome != GuardedLine::Outcome::none) {
+        handle(reply, now);
+    }
+    if (jog_until_ && now > *jog_until_) {
+        stop_jog(now);
+    }
+    watch_time(now);
+    part(now);
+    if (!talk_.idle()) {
+        return;
+    }
+    ask_something(now);
+}
+
+/// A line that is too slow, or motors that do not brake, must not be waited for for ever.
+void PmacSession::watch_time(double now) {
+    constexpr double braking = 10.0; // s
+    const double greeting = 10.0 + 3.0 * settings_.patience;
+    if (stage_ == Stage::stopping && !brake_by_) {
+        brake_by_ = now + braking;
+    } else if (stage_ == Stage::stopping && now > *brake_by_) {
+        fail("the motors do not come to rest, or the line is too slow to tell it");
+    } else if (stage_ == Stage::greeting && now > opened_at_ + greeting) {
+        queue_.clear();
+        finish(Stage::alarm, fmt::format("its answers take too long: the greeting took {:.0f} s", greeting));
+    }
+}
+
+void PmacSession::ask_something(double now) {
+    // A command and the question for its addresses belong together; else the report comes first, but not
+    // twice where the line is so slow that the next one is due when it comes.
+    const bool turn = queue_.empty() || (queue_.front().kind == Kind::command && !asked_poll_);
+    if (look_first_ && polled_ && !buffer_open_) {
+        look_first_ = false;
+        next_poll_ = now;
+        queue_.push_front({poll_line(), Kind::poll, 0});
+    }
+    const bool may_poll = turn && polled_ && !buffer_open_ && stage_ != Stage::greeting;
+    if (may_poll && now >= next_poll_) {
+        sent_ = Request{poll_line(), Kind::poll, 0};
+        next_poll_ = now + poll_interval;
+    } else if (std::string line = readings_.reading_line();
+               may_poll && queue_.empty() && now >= next_reading_ && !line.empty()) {
+        sent_ = Request{sign_of_life + std::move(line), Kind::reading, 0};
+        next_reading_ = now + reading_interval;
+    } else if (!queue_.empty()) {
+        sent_ = std::move(queue_.front());
+        queue_.pop_front();
+    } else {
+        return;
+    }
+    asked_poll_ = sent_->kind == Kind::poll;
+    const bool addressed = sent_->kind == Kind::command && !buffer_open_;
+    buffer_open_ = buffer_open_ || starts_with_word(sent_->line, "OPEN");
+    tell(true, is_ours(sent_->kind) ? drivers::ConsoleKind::query : drivers::ConsoleKind::line, sent_->line);
+    const bool lively = shows_life(*sent_);
+    // A number behind the addresses would be read as a part of the last one.
+    talk_.send(addressed ? sign_of_life + addresses_ + (sets_p0(sent_->line) ? "P0=" : "") + sent_->line
+               : lively  ? std::string(sign_of_life) + " " + sent_->line
+                         : sent_->line,
+               may_repeat(sent_->kind),
+               now);
+}
+
+/// Whether a line gets a sign of life of its own: as long as the guard is armed every line does that has
+/// nothing to do with a buffer. Reports come only behind what is queued, and each word may be on its way for
+/// long. An & behind it would be an operator of its expression.
+bool PmacSession::shows_life(const Request& request) const {
+    const bool jogs_on = request.kind == Kind::step && stage_ == Stage::jogging;
+    const std::string& line = request.line;
+    const bool of_buffers = buffer_open_ || starts_with_word(line, "OPEN") || starts_with_word(line, "CLOSE");
+    return (jogs_on || (armed_ && stage_ != Stage::alarm)) && !of_buffers && !line.starts_with('&') &&
+           !line.starts_with(sign_of_life);
+}
+
+void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
+    if (!sent_) {
+        return;
+    }
+    const Request request = *std::exchange(sent_, std::nullopt);
+    switch (reply.outcome) {
+    case GuardedLine::Outcome::answered:
+        for (const std::string& line : reply.lines) {
+            tell(false,
+                 is_ours(request.kind) ? drivers::ConsoleKind::report : drivers::ConsoleKind::answer,
+                 line);
+        }
+        answered(request, reply.lines, now);
+        break;
+    case GuardedLine::Outcome::refused:
+        refused(request, reply.error);
+        break;
+    case GuardedLine::Outcome::unsent:
+        if (request.tries < most_tries) {
+            queue_.push_front(request);
+            ++queue_.front().tries;
+            look_first_ = true;
+            break;
+        }
+        [[fallthrough]];
+    default:
+        if (stage_ == Stage::greeting) {
+            queue_.clear();
+            finish(Stage::alarm,
+                   heard_ ? "what answers is not what a PMAC would" : "nobody answers as a PMAC");
+        } else if (request.kind == Kind::command && request.line.starts_with("$$$")) {
+            fail(
+                "the card was reset: the settings that it had saved are in force, and it does not know where "
+                "the arm stands");
+        } else {
+            unseen_ = true;
+            fail(reply.heard ? fmt::format("the card answers {} in another way than it was set up to: was it "
+                                           "reset, or is the line disturbed?",
+                                           asked(request))
+                             : fmt::format("the card did not answer {}", asked(request)));
+        }
+    }
+}
+
+void PmacSession::answered(const Request& request, const std::vector<std::string>& lines, double now) {
+    if (starts_with_word(request.line, "CLOSE")) {
+        buffer_open_ = false;
+    }
+    switch (request.kind) {
+    case Kind::poll:
+        read_poll(lines, now);
+        break;
+    case Kind::rating:
+        readings_.read_rating(request.axis, lines);
+        break;
+    case Kind::reading:
+        readings_.read(lines);
+        read_at_ = now;
+        break;
+    case Kind::jog_speeds:
+        slow_down(lines);
+        break;
+    case Kind::greet:
+        if (request.line == "TYPE" && (lines.size() != 1 || !lines.front().starts_with("PMAC"))) {
+            queue_.clear();
+            finish(Stage::alarm, "this is no PMAC");
+        } else if (request.line == "I10") {
+            make_guard(lines);
+        }
+        break;
+    case Kind::command:
+        for (const std::string& line : lines) {
+            answer_.text += (answer_.text.empty() ? "" : "\n") + line;
+        }
+        if (buffer_open_) {
+            next_command();
+        } else {
+            ask("#&", Kind::address);
+        }
+        break;
+    case Kind::address:
+        if (lines.size() == 2) {
+            addresses_ = "#" + lines[0] + "&" + lines[1];
+        }
+        next_command();
+        break;
+    case Kind::definitions:
+        explain_open_loop(run_refusal_ + loop_advice(lines));
+        break;
+    case Kind::watch:
+        mark_is_ours_ = mark_is_ours_ || request.line == arm_watchdog;
+        break;
+    case Kind::run:
+        stage_ = stage_ == Stage::loading ? Stage::running : stage_;
+        break;
+    default:
+        break;
+    }
+}
+
+void PmacSession::refused(const Request& request, int error) {
+    if (starts_with_word(request.line, "CLOSE")) {
+        buffer_open_ = false;
+    }
+    constexpr int no_command = 3; // what the card also says of a motor that is switched off
+    const bool of_motors = error == no_command && request.line.ends_with("J/");
+    tell(false, drivers::ConsoleKind::fault, fmt::format("ERR{:03}, {}", error, pmac_error(error)));
+    const std::string why = fmt::format(
+        "{} is refused: ERR{:03}, {}{}",
+        asked(request),
+        error,
+        pmac_error(error),
+        of_motors ? "; so it answers where a motor is not active (Ix00 = 0): load the settings of the card"
+                  : "");
+    if (request.kind == Kind::rating || request.kind == Kind::reading) {
+        readings_.give_up();
+        return;
+    }
+    if (request.kind == Kind::command && command_goes_on_) {
+        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        command_refused_ = true;
+        next_command();
+        return;
+    }
+    constexpr int loop_is_open = 12;
+    if (request.kind == Kind::command && error == loop_is_open) {
+        command_lines_.clear();
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        ask_whose_loop_is_open(why);
+        return;
+    }
+    if (request.kind == Kind::definitions) { // a card that does not tell
+        explain_open_loop(run_refusal_);
+        return;
+    }
+    if (request.kind == Kind::command) {
+        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        command_lines_.clear();
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        finish_command(drivers::CommandAnswer::State::refused);
+        return;
+    }
+    if (stage_ == Stage::greeting && request.kind == Kind::greet) {
+        if (request.line != "CLOSE") {
+            queue_.clear();
+            finish(Stage::alarm, why);
+        }
+        return;
+    }
+    if (request.kind == Kind::run && error == loop_is_open && stage_ == Stage::loading) {
+        ask_whose_loop_is_open(why);
+        return;
+    }
+    if (request.kind == Kind::program || stage_ == Stage::loading) {
+        queue_.clear();
+        ask("CLOSE");
+        finish(Stage::ready, why);
+        return;
+    }
+    fail(why);
+}
+
+void PmacSession::next_command() {
+    if (command_lines_.empty()) {
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        finish_command(command_refused_ ? drivers::CommandAnswer::State::refused
+                                        : drivers::CommandAnswer::State::done);
+        return;
+    }
+    const bool opens = starts_with_word(command_lines_.front(), "OPEN");
+    if (armed_ && opens) { // nobody is heard while a buffer is open
+        ask(disarm_watchdog, Kind::watch);
+        armed_ = false;
+    } else if (!armed_ && !buffer_open_ && !opens && stage_ != Stage::alarm &&
+               !only_asks(command_lines_.front())) {
+        arm(); // what a person types may begin motion
+    }
+    if (!buffer_open_ && jogs(command_lines_.front()) && !is_step(command_lines_.front())) {
+        std::string question;
+        for (const PmacAxis& axis : settings_.axes) {
+            question += fmt::format("I{}22", axis.motor);
+        }
+        ask(std::move(question), Kind::jog_speeds);
+    }
+    ask(command_lines_.front(), Kind::command);
+    command_lines_.pop_front();
+}
+
+/// A short way of one motor: its speed is the card's.
+bool PmacSession::is_step(const std::string& line) const {
+    const auto step = step_of(line);
+    return step && std::any_of(settings_.axes.begin(), settings_.axes.end(), [&](const PmacAxis& axis) {
+               return axis.motor == step->motor &&
+                      std::abs(step->counts) <= pmac_step_deg * axis.counts_per_degree;
+           });
+}
+
+void PmacSession::finish_command(drivers::CommandAnswer::State state) {
+    if (answer_.state == drivers::CommandAnswer::State::pending) {
+        answer_.state = state;
+    }
+    for (MotorState& motor : motors_) {
+        motor.lag_is_old = motor.lag_is_old && !motor.gets_power; // what it tells from here on is of this
+        motor.gets_power = false;
+    }
+    if (stage_ == Stage::commanding) {
+        finish(armed_ ? Stage::astir : Stage::ready);
+        ask_ratings(); // it may have set some
+    }
+}
+
+/// A sign of life, and everything that is watched.
+std::string PmacSession::poll_line() const {
+    std::string line = sign_of_life;
+    for (const PmacAxis& axis : settings_.axes) {
+        line += fmt::format("#{}?P", axis.motor);
+    }
+    return line + fmt::format("&{}??P1000P1003", settings_.system);
+}
+
+void PmacSession::ask_ratings() {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        queue_.push_back({readings_.rating_line(n), Kind::rating, n});
+    }
+}
+
+std::optional<std::vector<std::string>> PmacSession::protections_off() const {
+    const auto is_rating = [](const Request& request) { return request.kind == Kind::rating; };
+    const bool asks =
+        (sent_ && is_rating(*sent_)) || std::ranges::any_of(queue_, is_rating) || stage_ == Stage::commanding;
+    if (asks) {
+        return std::nullopt;
+    }
+    std::vector<std::string> off = readings_.protections_off();
+    if (!guard_.runs()) {
+        off.emplace_back(guard_is_off);
+    }
+    return off;
+}
+
+/// From now on the card stops by itself when it no longer hears us.
+void PmacSession::arm() {
+    ask(arm_watchdog, Kind::watch);
+    armed_ = true;
+    mark_is_ours_ = false;
+    quiet_polls_ = 0;
+}
+
+} // namespace millwright::pmac::internal

@@ -1,0 +1,253 @@
+// How what is under way goes on, and ends: by the last round of answers.
+#include "core/base/units.h"
+#include "core/pmac/driver/internal/pmac_session.h"
+#include "core/pmac/driver/internal/watchdog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::pmac::internal {
+
+bool PmacSession::standing() const {
+    constexpr std::uint32_t running_bit = 1;
+    return (system_1_ & running_bit) == 0 &&
+           std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.standing(); });
+}
+
+void PmacSession::watch_stage() {
+    const bool in_place =
+        std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.in_place(); });
+    astray_polls_ = standing() && !in_place ? astray_polls_ + 1 : 0;
+    if (astray_polls_ > patient_polls) {
+        fail(astray_sentence());
+        return;
+    }
+    quiet_polls_ = standing() && in_place && queue_.empty() ? quiet_polls_ + 1 : 0;
+    const bool settled = quiet_polls_ >= 2; // the first may have been asked before a command arrived
+    switch (stage_) {
+    case Stage::running:
+        watch_program(settled);
+        break;
+    case Stage::jogging:
+        if (settled && (!jog_until_ || jog_stopping_)) {
+            finish(jog_stopping_ ? Stage::stopped : Stage::ready);
+        }
+        break;
+    case Stage::homing:
+        if (settled) {
+            watch_homing();
+        }
+        break;
+    case Stage::stopping:
+        unbraked_ ? brake() : watch_stopping();
+        break;
+    case Stage::astir:
+        if (settled) {
+            const std::string limit = commanded_limit();
+            finish(limit.empty() ? Stage::ready : Stage::stopped, limit);
+            rest();
+        }
+        break;
+    case Stage::ready:
+    case Stage::stopped:
+        if (settled && armed_ && !stays_armed_) {
+            rest();
+        }
+        break;
+    default:
+        break;
+    }
+}
+
+/// Of the first motor that stands with power and is not in its place; by the following error that the card
+/// told last.
+std::string PmacSession::astray_sentence() const {
+    const auto astray =
+        std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.in_place(); });
+    const auto n = static_cast<std::size_t>(astray - motors_.begin());
+    const double at = axes_deg()[n];
+    const std::vector<drivers::MotorReading>& readings = readings_.motors();
+    return fmt::format(
+        "{} has power and is not where it was sent: it stands at {:.2f} degrees{}; has its "
+        "amplifier power, is its brake off and the way free?",
+        name_of(n),
+        at,
+        readings.size() == motors_.size()
+            ? fmt::format(" and was sent to {:.2f}", at + to_degrees(readings[n].following_error))
+            : "");
+}
+
+bool PmacSession::at_limit(std::size_t n) const {
+    constexpr std::uint32_t at_limit = 1U << 11;
+    return (motors_[n].word_2 & at_limit) != 0;
+}
+
+/// Which motor the card stopped at one of its limits; "" if none.
+std::string PmacSession::limit_sentence() const {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        if (at_limit(n)) {
+            return fmt::format("motor {} ran into a limit of the card", settings_.axes[n].motor);
+        }
+    }
+    return {};
+}
+
+/// The same of a command: of motors that moved, or that it names. Others may stand there since long.
+std::string PmacSession::commanded_limit() const {
+    for (std::size_t n = 0; n < motors_.size(); ++n) {
+        const int motor = settings_.axes[n].motor;
+        const bool moved =
+            n < commanded_from_.size() && std::abs(motors_[n].counts - commanded_from_[n]) > 1.0;
+        if (!at_limit(n)) {
+            continue;
+        }
+        if (moved) {
+            return fmt::format("motor {} ran into a limit of the card", motor);
+        }
+        if (commanded_.find(fmt::format("#{}", motor)) != std::string::npos) {
+            return fmt::format("motor {} stands at a limit of the card", motor);
+        }
+    }
+    return {};
+}
+
+/// Why the card's own watch has stopped the motion; empty: it has not.
+std::string PmacSession::unheard() const {
+    return mark_ > 0.5 * heard_nothing
+               ? ""
+               : fmt::format(
+                     "it heard nothing from this computer for {:.0f} ms, which was busy, or the line is slow",
+                     1e3 * settings_.abort_after);
+}
+
+/// Nothing moves: the card need not watch, and no character that was garbled into ^R finds a program.
+void PmacSession::rest() {
+    if (!stays_armed_) {
+        ask(disarm_watchdog, Kind::watch);
+        armed_ = false;
+    }
+    ask(fmt::format("&{}B0", settings_.system), Kind::watch);
+    give_jog_speeds_back();
+}
+
+void PmacSession::watch_program(bool settled) {
+    constexpr std::uint32_t errors = 3U << 21, held_bit = 1U << 23;
+    constexpr int ahead = 4; // a program is calculated before its moves are made
+    if (marks_tell_) {
+        executed_ = std::clamp(static_cast<int>(std::min(mark_, 1e6)) - ahead, executed_, program_lines_);
+    }
+    const bool all_sent = queue_.empty(); // else the report may be older than our resume
+    if ((system_2_ & held_bit) != 0 && !held_ && all_sent) {
+        held_ = true;
+        message_ = "held, and nobody here asked for it";
+    }
+    if ((system_2_ & errors) != 0) {
+        fail("the card ended the program with a run-time error");
+    } else if (settled && mark_ > program_lines_ + 0.5) {
+        executed_ = program_lines_;
+        finish(Stage::ready);
+    } else if (settled) {
+        const std::string limit = limit_sentence();
+        fail(!unheard().empty() ? "the card ended the program: " + unheard()
+             : !limit.empty()   ? limit
+                                : "the program was ended by somebody else");
+    }
+}
+
+void PmacSession::watch_homing() {
+    if (homing_backs_off_) {
+        homing_backs_off_ = false;
+        homing_from_ = motors_[homing_axis_].counts;
+        quiet_polls_ = 0;
+        ask(fmt::format("#{}HM", settings_.axes[homing_axis_].motor));
+        return;
+    }
+    const bool found = motors_[homing_axis_].home();
+    if (!found && quiet_polls_ <= patient_polls) {
+        return; // it stands for a moment where it turns back to its flag
+    }
+    if (!found) {
+        fail(fmt::format("motor {} did not find its home flag", settings_.axes[homing_axis_].motor));
+    } else if (homing_axis_ + 1 < motors_.size()) {
+        home_axis(homing_axis_ + 1);
+    } else {
+        finish(Stage::ready);
+    }
+}
+
+void PmacSession::watch_stopping() {
+    constexpr std::uint32_t held_bit = 1U << 23;
+    if ((system_2_ & held_bit) != 0 && queue_.empty()) {
+        // at rest: an abort forgets the program; it would close open loops, so all have to be closed
+        if (enabled()) {
+            ask(fmt::format("&{}A", settings_.system));
+        } else {
+            kill();
+        }
+    } else if (quiet_polls_ >= 2 && armed_ && !stays_armed_) {
+        rest();
+    } else if (quiet_polls_ >= 2 &&
+               queue_.empty()) { // the link may be dropped then, and the guard is disarmed
+        if (armed_) {
+            rest();
+        }
+        finish(Stage::stopped, message_);
+    }
+}
+
+/// Ends whatever is going on: in a state without motion, or on the way there.
+void PmacSession::finish(Stage stage, std::string why) {
+    const bool given_up = stage_ == Stage::commanding || stage == Stage::alarm;
+    stage_ = stage;
+    message_ = std::move(why);
+    jog_until_.reset();
+    jog_stopping_ = held_ = false;
+    quiet_polls_ = astray_polls_ = power_polls_ = 0;
+    unbraked_ = unexplained_ = false;
+    following_.forget();
+    brake_by_.reset();
+    for (MotorState& motor : motors_) {
+        motor.had_power = motor.enabled();
+        motor.was_given_power =
+            motor.was_given_power && (stage == Stage::astir || stage == Stage::commanding);
+    }
+    if (given_up && answer_.state == drivers::CommandAnswer::State::pending && stage != Stage::commanding) {
+        answer_.state = drivers::CommandAnswer::State::refused;
+        answer_.text = message_.empty() ? "stopped" : message_;
+    }
+}
+
+/// The state is not known, or wrong: nothing may have power.
+void PmacSession::fail(std::string why) {
+    if (stage_ == Stage::alarm) {
+        return;
+    }
+    forget_all();
+    kill();
+    tell(false, drivers::ConsoleKind::fault, why);
+    finish(Stage::alarm, std::move(why));
+    ask("CLOSE");
+    give_jog_speeds_back();
+}
+
+/// Before a kill: a line on its way must not arrive behind it, since a jog would give power back.
+void PmacSession::forget_all() {
+    (void)talk_.take_output();
+    talk_.forget();
+    sent_.reset();
+    output_ = "\x18";
+    queue_.clear();
+    command_lines_.clear();
+    buffer_open_ = look_first_ = false;
+}
+
+/// The one command that nothing refuses; three times, since a character may be lost.
+void PmacSession::kill() {
+    output_ += "\x0B\x0B\x0B";
+    tell(true, drivers::ConsoleKind::realtime, "^K: every motor without power");
+}
+
+} // namespace millwright::pmac::internal

@@ -1,0 +1,70 @@
+// A PMAC with its motors behind the Driver interface: jogs, homing, motion programs, on-line commands. What
+// ends motion when, and what is claimed: docs/reference/pmac.md.
+#pragma once
+
+#include "core/drivers/session_driver.h"
+#include "core/pmac/driver/pmac_settings.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace millwright::pmac {
+
+namespace internal {
+class PmacSession;
+}
+
+class PmacDriver final : public drivers::SessionDriver {
+public:
+    /// `clock` must outlive it. Throws Error for axes or motors that no PMAC has, or that are told twice.
+    PmacDriver(std::unique_ptr<links::Link> link, const Clock& clock, PmacSettings settings = arm_settings());
+    PmacDriver(const PmacDriver&) = delete;
+    PmacDriver& operator=(const PmacDriver&) = delete;
+    ~PmacDriver() override;
+
+    // connect() throws Error if nobody answers as a PMAC. The motors keep the power that they have. A program
+    // and homing need motors with power; a program needs a known position, too. Jog::speed is rad/s, and no
+    // more than PmacAxis::jog_deg_per_s.
+
+    [[nodiscard]] std::string name() const override { return "pmac"; }
+    [[nodiscard]] drivers::Capabilities capabilities() const override;
+    /// By the card's I-variables, rad; axes with a motor's whole table.
+    [[nodiscard]] drivers::MachineLimits limits() const override;
+    /// The listing's lines are those of a motion program, without OPEN and CLOSE.
+    void start(drivers::Work work) override;
+    /// On-line commands, and buffers from OPEN to CLOSE, which may come in several calls: their lines are
+    /// sent with CLOSE. Throws Error for jogs without an end (J+), and while motors move for lines that need
+    /// rest.
+    int command(const std::string& lines) override;
+    /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
+    [[nodiscard]] std::vector<std::string> kept_lines() const;
+    /// Whether `lines` are more than questions and stops.
+    [[nodiscard]] static bool needs_rest(const std::string& lines);
+    int load(const std::vector<std::string>& lines) override;
+    /// Closes the loops of all motors where they stand. Throws Error unless at rest.
+    void enable() override;
+    /// From now on lines may close loops of motors without power, which are refused else: a person has
+    /// looked.
+    void let_lines_give_power();
+    /// What close() does about power, in place of what the settings say.
+    void set_parting(Parting parting);
+    /// Every motor has found its zero since the card started.
+    [[nodiscard]] bool position_known() const;
+    [[nodiscard]] bool enabled() const;
+    /// Which of its own protections the card has off (protections.h), or that it did not tell; nothing while
+    /// it is being asked, as after each command.
+    [[nodiscard]] std::optional<std::vector<std::string>> protections_off() const;
+    /// After close(): what a person should know of motors that may have kept their power; "" if the card told
+    /// that they are as PmacSettings::parting says.
+    [[nodiscard]] std::string farewell() const;
+    [[nodiscard]] bool any_power() const; ///< of its motors, as the card told last
+
+private:
+    [[nodiscard]] internal::PmacSession& talk() const;
+
+    PmacSettings settings_;
+};
+
+} // namespace millwright::pmac

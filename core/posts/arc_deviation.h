@@ -1,0 +1,15 @@
+// How far an arc is from the straight moves that it stands for.
+#pragma once
+
+#include "core/posts/wording.h"
+#include "core/program/program.h"
+
+namespace millwright::posts {
+
+/// The largest distance between the arc and its moves, each measured from the other, as a control goes: from
+/// the first move's begin to the last one's end, radius and third axis changing linearly with the angle. mm;
+/// infinite where the moves turn back, or where the arc ends at another angle than they do.
+[[nodiscard]] double
+arc_deviation(const program::Program& program, const Wording& wording, const FittedArc& arc);
+
+} // namespace millwright::posts

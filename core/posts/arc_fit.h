@@ -1,0 +1,21 @@
+// Runs of short feeds as arcs.
+#pragma once
+
+#include "core/posts/post_format.h"
+#include "core/posts/wording.h"
+#include "core/program/program.h"
+
+#include <vector>
+
+namespace millwright::posts {
+
+/// Arcs of at least three feeds in one of the planes that `format` allows, the third axis being still or
+/// going along evenly, every other axis being still. Nowhere is an arc, with its centre and ends as written,
+/// farther than `tolerance` (mm, > 0) from its feeds. None goes over a change of speed or role, or over
+/// anything between the feeds; none has a radius over 1 m, a sweep below 1 degree or of a whole turn. The
+/// longest arc is taken first from the begin of each run. Throws Error if the control is written without
+/// arcs.
+[[nodiscard]] std::vector<FittedArc>
+fit_arcs(const program::Program& program, const Wording& wording, const PostFormat& format, double tolerance);
+
+} // namespace millwright::posts

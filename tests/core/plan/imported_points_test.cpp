@@ -1,0 +1,117 @@
+#include "core/base/files.h"
+#include "core/plan/plan.h"
+#include "core/project/imported_surface.h"
+#include "tests/support/reason.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace millwright::project {
+namespace {
+
+using ::testing::HasSubstr;
+
+class ImportedPoints : public ::testing::Test {
+protected:
+    [[nodiscard]] ImportedSurface imported(const std::string& text, const ImportChoice& choice = {}) const {
+        write_file(folder_ / "probe.csv", text);
+        return import_surface(folder_ / "probe.csv", choice, {});
+    }
+    [[nodiscard]] std::string why_not(const std::string& text, const ImportChoice& choice = {}) const {
+        return test::reason([&] { (void)imported(text, choice); });
+    }
+
+    test::ScratchFolder folder_;
+};
+
+/// A saddle over 60 x 60 mm; a line each point, no blank lines.
+std::string saddle(int rows, int columns) {
+    std::string text = "x,y,z\n";
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const double x = -30.0 + 60.0 * i / (rows - 1), y = -30.0 + 60.0 * j / (columns - 1);
+            text += std::to_string(x) + "," + std::to_string(y) + "," +
+                    std::to_string(0.01 * x * y + 2.0 * std::cos(0.1 * x)) + "\n";
+        }
+    }
+    return text;
+}
+
+TEST_F(ImportedPoints, FewRowsAreOnePatchThroughThem) {
+    const ImportedSurface made = imported(saddle(4, 6));
+    ASSERT_EQ(made.surface.patches.size(), 1U);
+    EXPECT_EQ(made.surface.patches[0].rows, 4);
+    EXPECT_EQ(made.surface.patches[0].columns, 6);
+    ASSERT_TRUE(made.points);
+    EXPECT_EQ(made.points->rows, 4);
+    EXPECT_EQ(made.points->columns, 6);
+    EXPECT_LT(made.points->deviation.max, 1e-9);
+    EXPECT_TRUE(made.notes.empty());
+    ImportChoice inches;
+    inches.mm_per_unit = 25.4;
+    EXPECT_NEAR(imported(saddle(4, 6), inches).surface.patches[0].point(0, 0).x(), -762.0, 1e-6);
+    ImportChoice higher;
+    higher.degrees = FitDegrees{5, 7};
+    const ImportedSurface elevated = imported(saddle(4, 6), higher);
+    EXPECT_EQ(elevated.surface.patches[0].rows, 6);
+    EXPECT_EQ(elevated.surface.patches[0].columns, 8);
+    EXPECT_LT(elevated.points->deviation.max, 1e-9) << "of a higher degree it is the same surface";
+}
+
+TEST_F(ImportedPoints, ManyRowsAreARasterOfPatchesOrOnePatchNearThem) {
+    const ImportedSurface made = imported(saddle(9, 12));
+    EXPECT_EQ(made.surface.patches.size(), 6U * 9U);
+    EXPECT_THAT(made.notes, ::testing::ElementsAre(HasSubstr("6 x 9 patches, the first one is cut")));
+    EXPECT_LT(made.points->deviation.max, 1e-9);
+    ImportChoice one;
+    one.degrees = FitDegrees{7, 3};
+    const ImportedSurface near = imported(saddle(9, 12), one);
+    ASSERT_EQ(near.surface.patches.size(), 1U);
+    ASSERT_TRUE(near.fit);
+    EXPECT_EQ(near.points->deviation.at_points.size(), 9U * 12U);
+    EXPECT_GT(near.points->deviation.max, 1e-9);
+    EXPECT_LT(near.points->deviation.max, 0.05);
+    EXPECT_GE(near.points->worst_line(), 2);
+    EXPECT_LE(near.points->worst_line(), 1 + 9 * 12);
+}
+
+TEST_F(ImportedPoints, ACloudIsFittedByOneFairPatch) {
+    ImportChoice cloud;
+    cloud.cloud = true;
+    const ImportedSurface made = imported(saddle(9, 12) + "1,1,99\n1.0,1.00,99\n", cloud);
+    ASSERT_EQ(made.surface.patches.size(), 1U);
+    EXPECT_EQ(made.points->rows, 0);
+    EXPECT_EQ(made.points->points.size(), 9U * 12U + 1U);
+    EXPECT_THAT(made.notes,
+                ::testing::ElementsAre(
+                    HasSubstr("1 point is in the place of an earlier one, the first in line 111")));
+    EXPECT_EQ(made.points->worst_line(), 110) << "the point that is nowhere near";
+}
+
+TEST_F(ImportedPoints, SayWhatIsWrongWithFileAndLine) {
+    EXPECT_THAT(why_not("0 0 0\n0 1 0\n\n1 0 0\n"),
+                AllOf(HasSubstr("probe.csv:4: row 2 has 1 point, the first row 2"), HasSubstr("as a cloud")));
+    EXPECT_THAT(why_not("0 0 0\n1 1 1\n2 2 2\n3 3 3\n"), HasSubstr("probe.csv: the points lie in a line"));
+    EXPECT_THAT(why_not("0 0 0\n1 1 1\n"), HasSubstr("probe.csv: 2 points in different places are too few"));
+    EXPECT_THAT(why_not("0 0 0\n0 1e9 0\n\n1 0 0\n1 1 0\n"), HasSubstr("more than 100000 mm"));
+    EXPECT_THAT(why_not("0 0 0\n0 1e-9 0\n\n1e-9 0 0\n1e-9 1e-9 0\n"), HasSubstr("is the unit right?"));
+}
+
+TEST(PointNames, OpenAsSurfacesOnlyWhereNothingElseHasThem) {
+    for (const char* name : {"a.csv", "a.pts", "a.TXT"}) {
+        EXPECT_TRUE(is_importable(name));
+        EXPECT_FALSE(opens_as_surface(name));
+    }
+    for (const char* name : {"a.xyz", "a.ASC", "a.step", "a.stl"}) {
+        EXPECT_TRUE(is_importable(name));
+        EXPECT_TRUE(opens_as_surface(name));
+    }
+    EXPECT_FALSE(is_importable("a.ngc"));
+}
+
+} // namespace
+} // namespace millwright::project

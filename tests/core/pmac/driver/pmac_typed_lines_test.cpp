@@ -1,0 +1,358 @@
+// Lines that a person types while the driver is connected to the emulated card, in computed time.
+#include "core/pmac/driver/internal/command_kind.h"
+#include "tests/core/pmac/driver/pmac_wire.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace millwright::pmac::internal {
+namespace {
+
+using test::jog_of;
+using test::long_x_feed;
+using test::PmacWire;
+using test::refusal;
+using testing::HasSubstr;
+
+TEST(PmacTypedLines, TakesCommandsAndTellsTheCardsErrors) {
+    PmacWire wire;
+    const auto ask = [&](const std::vector<std::string>& lines, bool all = false) {
+        (void)wire.session.command(lines, all);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+        return wire.session.status().answer;
+    };
+    EXPECT_EQ(ask({"#2P", "&1?"}).text.substr(0, 2), "0\n");
+    EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done);
+    EXPECT_EQ(ask({"#"}).text, "2"); // the person's own address, whatever was asked meanwhile
+    const drivers::CommandAnswer refused = ask({"P1=4", "UNKNOWN", "P1=5"});
+    EXPECT_EQ(refused.state, drivers::CommandAnswer::State::refused);
+    EXPECT_THAT(refused.text, HasSubstr("ERR003, no such command"));
+    EXPECT_EQ(wire.card.variable('P', 1), 4.0);
+    EXPECT_THAT(ask({"OPEN PROG 3", "CLEAR", "X1", "CLOSE", "UNKNOWN", "P1=6"}, true).text,
+                HasSubstr("'UNKNOWN' is refused"));
+    EXPECT_EQ(wire.card.variable('P', 1), 6.0);
+    EXPECT_NE(refusal([&] { (void)wire.session.command({"J\x01+"}, false); }), "");
+}
+
+TEST(PmacTypedLines, FillABufferLineByLine) {
+    PmacWire wire;
+    const auto ask = [&](const std::string& line) {
+        (void)wire.session.command({line}, false);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+        return wire.session.status().answer;
+    };
+    EXPECT_EQ(ask("OPEN PLC 5").text, "OPEN PLC 5: 0 lines are kept until CLOSE");
+    (void)ask("CLEAR");
+    EXPECT_EQ(ask("P20=P20+1").text, "OPEN PLC 5: 2 lines are kept until CLOSE");
+    EXPECT_EQ(ask("#1P").text, "0") << "a question is answered at once";
+    EXPECT_NE(refusal([&] { (void)wire.session.command({"I5=0"}, false); }), "");
+    EXPECT_EQ(ask("LIST PLC 5").text, "OPEN PLC 5: 3 lines are kept until CLOSE");
+    (void)ask("OPEN PLC 5"); // anew
+    for (const char* const line : {"CLEAR", "P20=P20+1", "DISABLE PLC 5"}) {
+        EXPECT_EQ(ask(line).state, drivers::CommandAnswer::State::done) << line;
+    }
+    EXPECT_EQ(wire.card.variable('P', 20), 0.0) << "nothing is sent before CLOSE";
+    EXPECT_EQ(ask("CLOSE").state, drivers::CommandAnswer::State::done);
+    EXPECT_TRUE(wire.session.kept_lines().empty());
+    EXPECT_THAT(ask("LIST PLC 5").text, HasSubstr("P20=P20+1"));
+    (void)ask("ENABLE PLC 5");
+    EXPECT_TRUE(wire.run_until([&] { return wire.card.variable('P', 20) > 0.0; }, 3.0));
+}
+
+// Behind the addresses it was read as a part of the last one.
+TEST(PmacTypedLines, ANumberAloneSetsP0) {
+    PmacWire wire;
+    for (const auto& [line, value] : {std::pair("5", 5.0), std::pair("-2.5", -2.5), std::pair(".5", 0.5)}) {
+        (void)wire.session.command({line}, false);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+        EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done) << line;
+        EXPECT_EQ(wire.card.variable('P', 0), value);
+    }
+    EXPECT_THAT(refusal([&] { (void)wire.session.command({"5P"}, false); }),
+                HasSubstr("begins with a number"));
+}
+
+bool line_is_answered(PmacWire& wire) {
+    return wire.run_until(
+        [&] { return wire.session.status().answer.state != drivers::CommandAnswer::State::pending; }, 3.0);
+}
+
+// A motor that a command set going is no machine at rest.
+TEST(PmacTypedLines, TellsThatACommandMovesAMotorAndAnswersQuestionsMeanwhile) {
+    PmacWire wire;
+    (void)wire.session.command({"#1J:2400"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+    EXPECT_EQ(wire.state(), drivers::DriverState::running);
+    EXPECT_EQ(wire.session.status().activity, drivers::Activity::command);
+    EXPECT_NE(refusal([&] { (void)wire.session.command({"#1P", "P1=4"}, false); }), "");
+    (void)wire.session.command({"#1P", "#1?"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done);
+    EXPECT_EQ(wire.state(), drivers::DriverState::running);
+    EXPECT_LT(wire.card.command(1), 2400.0); // still under way
+    ASSERT_TRUE(wire.run_to_end(60.0));
+    EXPECT_EQ(wire.state(), drivers::DriverState::idle);
+    EXPECT_NEAR(wire.card.command(1), 2400.0, 1.0);
+}
+
+TEST(PmacTypedLines, StopsWhatACommandSetGoing) {
+    for (const std::string line : {"#1J/", "stop()", "#1K", "&1A"}) {
+        PmacWire wire;
+        (void)wire.session.command({"#1J:9000"}, false);
+        ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+        if (line == "stop()") {
+            wire.session.stop(wire.now);
+        } else {
+            (void)wire.session.command({line}, false);
+        }
+        ASSERT_TRUE(wire.run_to_end(5.0)) << line;
+        EXPECT_NE(wire.state(), drivers::DriverState::alarm) << line;
+        EXPECT_LT(wire.card.position(1), 2000.0) << line;
+        wire.pass(1.0);
+        EXPECT_TRUE(wire.standing()) << line;
+        EXPECT_EQ(wire.card.enabled(1), line != "#1K") << line;
+        EXPECT_TRUE(wire.card.enabled(2)) << line;
+    }
+}
+
+TEST(PmacTypedLines, AStopThatIsTypedStopsTheProgram) {
+    PmacWire wire;
+    wire.session.start(long_x_feed, wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 5.0));
+    (void)wire.session.command({"P1000"}, false); // a question, meanwhile
+    ASSERT_TRUE(line_is_answered(wire));
+    EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done);
+    EXPECT_EQ(wire.state(), drivers::DriverState::running);
+    (void)wire.session.command({"&1A"}, false);
+    ASSERT_TRUE(wire.run_to_end(5.0));
+    EXPECT_EQ(wire.state(), drivers::DriverState::stopped);
+    EXPECT_TRUE(wire.standing());
+}
+
+TEST(PmacTypedLines, TakesNoJogWithoutAnEnd) {
+    PmacWire wire;
+    for (const std::string line : {"#1J+", "J-", "#2 j +"}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("until somebody"));
+    }
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.command(1), 0.0);
+}
+
+// What a test of a motor had borrowed is given back.
+TEST(PmacTypedLines, SetsVariablesAloneInAnAlarm) {
+    PmacWire wire;
+    wire.session.emergency_stop(wire.now);
+    (void)wire.session.command({"I122=17", "M1023->X:$0,0,24"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done);
+    EXPECT_EQ(wire.card.variable('I', 122), 17.0);
+    for (const std::string line : {"#1J/", "#1J:5", "&1A", "#1HM", "I122=17 #1J/"}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("alarm")) << line;
+    }
+    wire.pass(0.5);
+    EXPECT_EQ(wire.state(), drivers::DriverState::alarm);
+    EXPECT_FALSE(wire.powered());
+}
+
+TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
+    PmacWire wire({}, false);
+    for (const std::vector<std::string>& lines : std::vector<std::vector<std::string>>{
+             {"#2J/"}, {"#1J:12"}, {"#3", "J=5"}, {"#1HM"}, {"#4J^0"}, {"OPEN PROG 2", "X1", "CLOSE", "a"}}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
+                    HasSubstr("would give power to"))
+            << lines.front();
+    }
+    (void)wire.session.command({"#4->150A", "OPEN PROG 2", "ABS X10A", "HOME1", "CLOSE", "#1HMZ"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    wire.pass(0.5);
+    EXPECT_FALSE(wire.powered());
+    wire.session.let_lines_give_power();
+    (void)wire.session.command({"#1J/"}, false);
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.card.enabled(1));
+}
+
+// A stop was refused, with the advice to give the motors power.
+TEST(PmacTypedLinesF2, AStopOfWhatStandsIsDoneAndGivesNoPower) {
+    PmacWire wire({}, false);
+    for (const std::string line : {"A", "&1A", "H", "Q"}) {
+        (void)wire.session.command({line}, false);
+        ASSERT_TRUE(line_is_answered(wire)) << line;
+        EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done) << line;
+    }
+    wire.pass(0.5);
+    EXPECT_FALSE(wire.powered());
+    EXPECT_EQ(wire.state(), drivers::DriverState::idle);
+    (void)wire.session.command({"A"}, false);
+    EXPECT_THAT(wire.session.status().answer.text, HasSubstr("nothing moves"));
+}
+
+TEST(PmacTypedLinesF2, ThatGivePowerAreNotHeldUpByWhatAMotorToldBeforeTheyCame) {
+    PmacWire wire({}, false, "XYZA", {}, "I111=1\nI129=3000\n#1J/\n");
+    EXPECT_FALSE(wire.card.enabled(1)) << "its following error was too great at once";
+    wire.session.let_lines_give_power();
+    (void)wire.session.command({"#2J/"}, false);
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.card.enabled(2));
+    EXPECT_NE(wire.state(), drivers::DriverState::alarm);
+    (void)wire.session.command({"#1J/"}, false); // and is too great again
+    wire.pass(0.5);
+    EXPECT_EQ(wire.state(), drivers::DriverState::alarm);
+}
+
+TEST(PmacTypedLinesF2, NoneGivesPowerBackBehindAKill) {
+    PmacWire wire;
+    for (const std::vector<std::string>& lines :
+         std::vector<std::vector<std::string>>{{"#1K", "A"}, {"#2K #2J/"}}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
+                    HasSubstr("would give power to"));
+    }
+}
+
+TEST(PmacTypedLinesF2, AStopBrakesWhatMovesAndGivesTheOthersNoPower) {
+    PmacWire wire;
+    (void)wire.session.command({"#2K"}, false);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+    (void)wire.session.command({"#1J:9000"}, false);
+    ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+    (void)wire.session.command({"&1A"}, false);
+    ASSERT_TRUE(wire.run_to_end(5.0));
+    EXPECT_EQ(wire.state(), drivers::DriverState::stopped) << wire.session.status().message;
+    EXPECT_LT(wire.card.position(1), 2000.0);
+    wire.pass(0.5);
+    EXPECT_TRUE(wire.standing());
+    EXPECT_FALSE(wire.card.enabled(2));
+}
+
+// A following error that ended an earlier motion stays in the motor's status.
+TEST(PmacTypedLines, AnOldFaultOfAMotorIsNoNews) {
+    PmacWire wire;
+    (void)wire.session.command({"I111=16"}, false); // a count
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+    wire.session.jog(jog_of(0, 5.0, 5.0), wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 3.0));
+    wire.pass(0.2);
+    wire.session.reset(wire.now);
+    for (const std::string line : {"I111=32000", "#1->120X", "P1"}) {
+        (void)wire.session.command({line}, false);
+        wire.pass(0.5);
+        EXPECT_EQ(wire.state(), drivers::DriverState::idle) << line << ": " << wire.session.status().message;
+    }
+    EXPECT_FALSE(wire.powered());
+}
+
+TEST(PmacTypedLines, TakesNoControlCharacterByItsName) {
+    PmacWire wire;
+    for (const bool moving : {false, true}) {
+        if (moving) {
+            (void)wire.session.command({"#1J:9000"}, false);
+            ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
+        }
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({"^A"}, false); }),
+                    HasSubstr("control character"));
+    }
+}
+
+TEST(PmacTypedLines, OpensNoLoop) {
+    PmacWire wire;
+    for (const std::string line : {"#1O5", "O-0.5", "#2 o 50", "#1O(P1)", "#1O0.01"}) {
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }),
+                    HasSubstr("without its loop"))
+            << line;
+    }
+    for (const std::string line : {"#1O0", "OPEN PROG 7", "GOTO5", "CLOSE"}) {
+        EXPECT_FALSE(opens_loop(line)) << line;
+    }
+    wire.pass(1.0);
+    EXPECT_EQ(wire.card.position(1), 0.0);
+}
+
+TEST(PmacTypedLines, LoadsNoSettingsWhileAMotorHasPower) {
+    PmacWire wire;
+    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
+    (void)wire.session.command({"#1K#2K#3K"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
+    (void)wire.session.command({"#4K"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    wire.pass(0.5);
+    (void)wire.session.load({"I130=3000"});
+    ASSERT_TRUE(line_is_answered(wire));
+    EXPECT_EQ(wire.card.variable('I', 130), 3000.0);
+}
+
+TEST(PmacTypedLines, AMotorThatGoesWhereNobodySentItLosesItsPower) {
+    PmacWire wire;
+    (void)wire.session.command({"I111=0", "I130=-2000", "I129=10"}, false); // the loop's sign is wrong
+    ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 5.0));
+    EXPECT_EQ(wire.session.status().message, "X has power and moves, and nobody sent it");
+    EXPECT_LT(std::abs(wire.degrees(0)), 10.0);
+    wire.pass(1.0);
+    EXPECT_FALSE(wire.powered());
+}
+
+TEST(PmacTypedLines, TellsThePersonsLinesWithTheirAnswers) {
+    PmacWire wire;
+    (void)wire.session.take_console();
+    (void)wire.session.command({"I122", "#1P"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    (void)wire.session.command({"FOO"}, false);
+    ASSERT_TRUE(line_is_answered(wire));
+    std::vector<std::string> texts;
+    for (const drivers::ConsoleLine& line : wire.session.take_console()) {
+        if (line.kind != drivers::ConsoleKind::query && line.kind != drivers::ConsoleKind::report) {
+            texts.push_back((line.sent ? "> " : "") + line.text);
+        }
+    }
+    EXPECT_THAT(texts, testing::IsSupersetOf({"> I122", "32", "> #1P", "> FOO"}));
+    EXPECT_THAT(texts, testing::Contains(HasSubstr("ERR003, no such command")));
+}
+
+TEST(PmacCommandKind, QuestionsChangeNothing) {
+    for (const std::string_view line : {"#1P",
+                                        "P",
+                                        "#1?",
+                                        "&1??",
+                                        "???",
+                                        "#1P M1023",
+                                        "I122 I123",
+                                        "#12 V #3F",
+                                        " Q5 ",
+                                        "#1p",
+                                        "I122..422",
+                                        "P1..4"}) {
+        EXPECT_TRUE(only_asks(line)) << line;
+    }
+    for (const std::string_view line :
+         {"", " ", "#1", "P1=4", "#1J/", "M1->X:0", "I122=3", "#1PK", "K", "1P", "P1 A", "TYPE", "#1J:20"}) {
+        EXPECT_FALSE(only_asks(line)) << line;
+    }
+}
+
+TEST(PmacCommandKind, StopsAndKillsAreKnown) {
+    for (const std::string_view line : {"#1J/", "J/ #2J/", "&1A", "h", "Q", "S", "\\"}) {
+        EXPECT_TRUE(only_stops(line)) << line;
+    }
+    for (const std::string_view line : {"", "#1J+", "#1K", "A R", "R", "#1J=5"}) {
+        EXPECT_FALSE(only_stops(line)) << line;
+    }
+    EXPECT_TRUE(only_kills("#1K #2K"));
+    EXPECT_FALSE(only_kills("K R"));
+    EXPECT_TRUE(jogs_without_end("#1J- #2J="));
+    EXPECT_FALSE(jogs_without_end("#1J=-5 J:-3 J/"));
+}
+
+TEST(PmacTypedLines, AResetThatWasTypedIsToldAsOne) {
+    PmacWire wire;
+    (void)wire.session.command({"$$$"}, false);
+    ASSERT_TRUE(wire.run_to_end(20.0));
+    EXPECT_EQ(wire.state(), drivers::DriverState::alarm);
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the card was reset"));
+    EXPECT_FALSE(wire.powered());
+}
+
+} // namespace
+} // namespace millwright::pmac::internal
