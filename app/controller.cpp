@@ -12,6 +12,7 @@
 #include "core/jobs/box_trace.h"
 #include "core/jobs/dispatcher.h"
 #include "core/jobs/survey.h"
+#include "core/jobs/tool_check.h"
 #include "core/machine/make_driver.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/pmac_driver.h"
@@ -258,7 +259,7 @@ std::optional<jobs::Survey> Controller::survey_of(const jobs::Job& job) const {
         return std::nullopt;
     }
     const drivers::DriverStatus now = driver_->status();
-    return jobs::survey(job.listing->text,
+    return jobs::survey(jobs::controller_text(job),
                         job.project,
                         {.dialect = *able.dialect,
                          .axes = able.axes,
@@ -266,26 +267,96 @@ std::optional<jobs::Survey> Controller::survey_of(const jobs::Job& job) const {
                          .offsets = driver_->stored_offsets(),
                          .modes = now.modes,
                          .mist = able.mist,
-                         .firmware = able.firmware});
+                         .firmware = able.firmware,
+                         .watched = jobs::watched_lines(job)});
 }
 
 void Controller::look_at(const jobs::Job& job) const {
     const auto found = survey_of(job);
-    const auto faults =
-        found ? jobs::faults_of(*found, driver_->limits(), job.project) : std::vector<Diagnostic>{};
+    if (!found) {
+        return;
+    }
+    const drivers::MachineLimits limits = driver_->limits();
+    const drivers::Capabilities able = driver_->capabilities();
+    const drivers::DriverStatus now = driver_->status();
+    const auto offsets = driver_->stored_offsets();
+    auto faults = jobs::faults_of(*found, limits, job.project);
+    const auto of_tools = jobs::tool_change_faults(job, *found, able, {now, offsets, limits, able.laser});
+    faults.insert(faults.end(), of_tools.begin(), of_tools.end());
     if (!faults.empty()) {
         throw Error(faults.front());
     }
 }
 
 void Controller::check_there(const jobs::Job& job, const std::stop_token& stop) {
-    const int number = driver_->check_there(*job.listing);
+    say_what_is_left_out(job);
+    const jobs::Job read = jobs::text_job(jobs::controller_text(job), job.project);
+    const int number = driver_->check_there(*read.listing);
     wait_for([](const drivers::DriverStatus& now) { return !drivers::is_at_work(now.state); }, stop);
     const drivers::CommandAnswer answer = driver_->status().answer;
     if (answer.number != number || answer.state != drivers::CommandAnswer::State::done) {
         throw Error(Diagnostic{{job.project}, "refused in check mode:\n" + answer.text, {}});
     }
     fmt::print("{}: {}.\n", job.project, answer.text);
+}
+
+/// A check and a trace change no tool.
+void Controller::say_what_is_left_out(const jobs::Job& job) const {
+    if (job.tool_change && !jobs::tool_calls(job.listing->text).empty()) {
+        fmt::print("{}: the tool changes (M6) are left out here.\n", job.project);
+        std::fflush(stdout);
+    }
+}
+
+/// No zero can be set here while the job waits.
+void Controller::say_what_is_not_measured(const jobs::Job& job) const {
+    const bool by_hand = job.tool_change->way == drivers::ToolChangeWay::stop;
+    if (by_hand && !jobs::tool_calls(job.listing->text).empty()) {
+        fmt::print(
+            stderr,
+            "millwright: {}: after a tool change the job goes on with the zero of Z that is in force. Use "
+            "tools of the same length (stop collars), or --tool-change probe; the window can set the zero "
+            "of each tool.\n",
+            job.project);
+    }
+}
+
+/// Grbl refuses M6; what a grblHAL does at it is not checked here.
+void Controller::expect_tool_changes(const jobs::Job& job) const {
+    const auto calls = job.tool_change || !driver_->capabilities().tool_changes
+                           ? std::vector<jobs::ToolCall>()
+                           : jobs::tool_calls(job.listing->text);
+    if (!calls.empty()) {
+        throw Error(Diagnostic{{job.project, calls.front().line, calls.front().column, -1},
+                               "the program changes tools (M6), which Grbl refuses (error 20)",
+                               "--tool-change stop waits there for you; probe also measures the tool"});
+    }
+}
+
+/// No word but yes lets a program begin with whatever tool is in the spindle.
+void Controller::ask_for_tool(const jobs::Job& job, const std::stop_token& stop) const {
+    const auto found = job.tool_change ? survey_of(job) : std::nullopt;
+    const std::string sentence = found ? jobs::tool_before_start(job, *found) : std::string();
+    if (sentence.empty()) {
+        return;
+    }
+    look_at(job); // nobody is asked about what cannot be run
+    if (::isatty(STDIN_FILENO) == 0) {
+        fmt::print(stderr, "millwright: {}\n", sentence);
+        if (!choice_.right_tool) {
+            throw Error("nothing was started: the tool in the spindle is not confirmed",
+                        {},
+                        "--right-tool says it, or answer yes at a terminal");
+        }
+        return;
+    }
+    if (!choice_.right_tool &&
+        question(sentence + "\nIs it? Type yes to run the job, anything else to leave it > ", stop) !=
+            "yes") {
+        throw Error("nothing was started: the tool in the spindle is not confirmed",
+                    {},
+                    "--right-tool confirms it, too");
+    }
 }
 
 jobs::Job Controller::box_of(const jobs::Job& job) const {
@@ -323,7 +394,15 @@ jobs::JobOutcome Controller::run(const jobs::Job& wanted, const Interrupt& inter
     if (choice_.check) {
         check_there(wanted, interrupt.token());
     }
+    if (choice_.trace_box) {
+        say_what_is_left_out(wanted);
+    }
+    expect_tool_changes(wanted);
+    if (wanted.tool_change && !choice_.trace_box) {
+        say_what_is_not_measured(wanted);
+    }
     const jobs::Job job = choice_.trace_box ? box_of(wanted) : wanted;
+    ask_for_tool(job, interrupt.token());
     show_warnings(job);
     if (choice_.driver == "pmac") {
         check_joints(job, interrupt.token());

@@ -43,6 +43,11 @@ struct ControllerChoice {
     bool power = false;             ///< a person has looked: the motors may have power
     bool keep_power = false;        ///< and keep it afterwards; of a PMAC
     bool home = false;              ///< find the zero of every axis first
+    // tool_change_options.h
+    std::string tool_change;         ///< stop, probe or macro=FILE; empty: left to the controller
+    std::vector<double> tool_sensor; ///< X, Y, height for travelling, deepest Z, and perhaps the feed
+    double spin_up = 3.0;            ///< s, after a tool change
+    bool right_tool = false; ///< somebody has looked: the spindle has the tool that the first line needs
 };
 
 /// Adds these to `command`; returns --port.
@@ -90,6 +95,10 @@ private:
     [[nodiscard]] jobs::Job box_of(const jobs::Job& job) const;
     [[nodiscard]] std::optional<jobs::Survey> survey_of(const jobs::Job& job) const;
     void show_warnings(const jobs::Job& job) const;
+    void say_what_is_left_out(const jobs::Job& job) const;
+    void say_what_is_not_measured(const jobs::Job& job) const;
+    void expect_tool_changes(const jobs::Job& job) const;
+    void ask_for_tool(const jobs::Job& job, const std::stop_token& stop) const;
     void check_joints(const jobs::Job& job, const std::stop_token& stop) const;
 
     ControllerChoice choice_;

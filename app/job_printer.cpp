@@ -26,7 +26,11 @@ void JobPrinter::tell_waiting(const drivers::DriverStatus& now, bool keys) {
                                 ? "holding" + (now.message.empty() ? "" : ": " + now.message)
                                 : std::string();
     if (why != std::exchange(waits_for_, why) && !why.empty()) {
-        printer_.say(why + (keys ? " (r goes on)" : ""));
+        const auto& change = now.tool_change;
+        const bool for_tool = change && change->waits && !change->held && !change->keeps_zero;
+        const std::string_view goes_on =
+            for_tool ? " (r goes on, with the zero of Z that is in force)" : " (r goes on)";
+        printer_.say(why + (keys ? std::string(goes_on) : ""));
     }
 }
 

@@ -269,7 +269,7 @@ void add_series_options(CLI::App& command, SeriesChoice& choice, const std::stri
 
 std::string options_to_go_on(const CLI::App& command) {
     // Nor is any consent given twice.
-    constexpr std::array<std::string_view, 12> said_otherwise{"--driver",
+    constexpr std::array<std::string_view, 13> said_otherwise{"--driver",
                                                               "--port",
                                                               "--log",
                                                               "--from-line",
@@ -280,6 +280,7 @@ std::string options_to_go_on(const CLI::App& command) {
                                                               "--trust-position",
                                                               "--unlock",
                                                               "--home",
+                                                              "--right-tool",
                                                               "--power"};
     return given_options(command, said_otherwise);
 }

@@ -8,6 +8,7 @@
 #include "app/origin_choice.h"
 #include "app/planned_machine.h"
 #include "app/series.h"
+#include "app/tool_change_options.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -125,6 +126,9 @@ jobs::Job ready(jobs::Job job, const SendOptions& options, int from_line) {
         throw Error("a motion program begins with its first line: what a line does depends on those above");
     }
     check_from_line(options.machine, from_line);
+    if (options.machine.driver == "grbl") {
+        job.tool_change = tool_change_plan(options.machine.controller);
+    }
     if (from_line > 1) {
         jobs::RunFromSettings settings;
         settings.dialect = options.machine.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
@@ -223,6 +227,7 @@ void add_send_command(CLI::App& app, Command& chosen) {
         ->allow_extra_args(false);
     add_origin_option(command, options->origin);
     add_controller_options(command, options->machine.controller);
+    add_tool_change_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
     command
         .add_option("--axes",

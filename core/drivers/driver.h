@@ -9,6 +9,7 @@
 
 #include "core/drivers/driver_status.h"
 #include "core/drivers/point_track.h"
+#include "core/drivers/tool_change.h"
 #include "core/gcode/dialect.h"
 #include "core/motion/trajectory.h"
 #include "core/program/listing.h"
@@ -48,6 +49,8 @@ struct Capabilities {
     bool answers = true;            ///< tells what it executed; false: only the sending of a block is known
     bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
     bool mist = true;               ///< has M7
+    bool tool_changes = false; ///< stops for another tool where its controller does not: Work::tool_changes
+    bool laser = false;        ///< the controller is in the mode of a laser, in which feed moves burn
     std::string_view firmware = "Grbl";        ///< of a controller that speaks Grbl's protocol
     std::optional<gcode::Dialect> dialect{};   ///< in which it reads text
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
@@ -103,6 +106,8 @@ struct Work {
     std::function<int(int wanted)> ahead{};
     /// What a driver plays whose capabilities() say points; then there is no trajectory.
     std::shared_ptr<const PointTrack> points{};
+    /// A driver whose capabilities() say tool_changes makes them; nothing: they are left to the controller.
+    std::optional<ToolChanges> tool_changes{};
 };
 
 /// Whether a person has to confirm the position before a job moves the machine: it is in doubt, and something

@@ -76,6 +76,17 @@ struct CommandAnswer {
     std::string text; ///< what the controller said; of a refusal why, in plain words
 };
 
+/// A tool change that is made by the driver (Work::tool_changes).
+struct ToolChangeStatus {
+    int line = 0, tool = 0; ///< of ToolStop
+    /// Rests until a person goes on by resume(): jogs, commands and homing are taken.
+    bool waits = false;
+    bool held = false;       ///< by hold(): the next resume() ends the hold, and nothing else
+    bool keeps_zero = false; ///< the tool is measured against the first one: the zero of Z has to stay
+
+    friend bool operator==(const ToolChangeStatus&, const ToolChangeStatus&) = default;
+};
+
 struct DriverStatus {
     DriverState state = DriverState::disconnected;
     Activity activity = Activity::none;
@@ -114,6 +125,9 @@ struct DriverStatus {
     Inputs inputs;
     std::optional<Probing> probe;
     CommandAnswer answer;
+    std::optional<ToolChangeStatus> tool_change; ///< under way
+    /// Of the current or last program: lines that are not of it and were sent for its tool changes.
+    std::vector<std::string> own_lines;
     bool link_lost = false; ///< an alarm because nobody answers any more; reset() makes the link again
     std::string message;    ///< why there is an alarm or a hold that nobody here asked for, in a sentence
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "core/base/text.h"
+#include "core/program/listing.h"
 
 #include <cstddef>
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace millwright::gcode {
@@ -26,5 +29,8 @@ namespace millwright::gcode {
 [[nodiscard]] inline std::string_view program_text(std::string_view bytes) {
     return without_filling(without_byte_order_mark(bytes));
 }
+
+/// The lines of a file, each that is not empty being a block. Throws Error if there is none.
+[[nodiscard]] program::Listing listing_of(std::string text, const std::filesystem::path& file);
 
 } // namespace millwright::gcode

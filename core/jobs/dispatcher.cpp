@@ -7,6 +7,7 @@
 #include "core/jobs/internal/reach.h"
 #include "core/jobs/internal/shared_log.h"
 #include "core/jobs/survey.h"
+#include "core/jobs/tool_check.h"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,7 @@ public:
         : dispatcher_(dispatcher), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
           reach_(std::move(reach)), estimate_(std::move(estimate)), able_(dispatcher.driver_.capabilities()),
           start_(dispatcher.clock_.now()), last_(std::move(before)), doubt_before_(last_.position_doubt) {
+        last_.own_lines.clear();
         last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
         last_.block = -1;
         log_ = std::make_shared<internal::SharedLog>(
@@ -105,6 +107,7 @@ public:
             remember(status);
             write_requests();
             write_executed();
+            write_own_lines();
             write_waiting();
             log_->rethrow_failure();
             tell(progress, listener);
@@ -144,6 +147,7 @@ private:
     std::string doubt_before_;
     std::shared_ptr<internal::SharedLog> log_;
     int logged_blocks_ = 0;
+    std::size_t own_lines_ = 0; ///< that are in the log
     bool cancelled_ = false;
     std::string waits_for_; ///< a person, and why; empty: for nobody
 
@@ -235,9 +239,20 @@ private:
         }
     }
 
+    /// What was sent besides the program, as such.
+    void write_own_lines() {
+        for (; own_lines_ < std::size(last_.own_lines); ++own_lines_) {
+            LogRecord line = record(LogEvent::own, elapsed(), last_);
+            line.text = last_.own_lines[own_lines_];
+            log_->write(line);
+        }
+    }
+
     /// Once for each time that the machine begins to wait by itself.
     void write_waiting() {
-        const std::string why = last_.state == drivers::DriverState::holding ? last_.message : std::string();
+        const bool for_tool = last_.tool_change && last_.tool_change->waits; // jogs do not end it
+        const bool waits = for_tool || last_.state == drivers::DriverState::holding;
+        const std::string why = waits ? last_.message : std::string();
         if (why != waits_for_ && !why.empty()) {
             LogRecord line = record(LogEvent::waiting, elapsed(), last_);
             line.text = why;
@@ -273,6 +288,7 @@ private:
     }
 
     JobOutcome outcome(const drivers::DriverStatus& status) {
+        write_own_lines();
         write_requests(); // one that came between the last look at them and the end
         last_.message = beyond_.empty() ? last_.message : beyond_;
         JobOutcome result;
@@ -326,7 +342,8 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
             "the {} driver {}", driver_.name(), able.points ? "plays points only" : "plays no points"));
     }
     internal::PathEstimate estimate;
-    internal::Reach reach = check(job, able, before, estimate);
+    std::optional<drivers::ToolChanges> changes;
+    internal::Reach reach = check(job, able, before, estimate, changes);
     std::shared_ptr<const motion::Trajectory> trajectory;
     if (!text_alone && !job.points) {
         trajectory = std::make_shared<const motion::Trajectory>(motion::plan(
@@ -353,7 +370,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
     progress.check();
     Watch watch(*this, job, log, trajectory, before, std::move(reach), std::move(estimate));
     try {
-        drivers::Work work{job.program, trajectory, job.listing, {}, job.points};
+        drivers::Work work{job.program, trajectory, job.listing, {}, job.points, std::move(changes)};
         if (able.piecewise) {
             work.ahead = watch.ahead();
         }
@@ -417,7 +434,9 @@ void Dispatcher::bring_to_rest() noexcept {
 }
 
 void Dispatcher::hold() {
-    if (driver_.status().state != drivers::DriverState::holding) { // a second one is no event
+    const drivers::DriverStatus now = driver_.status();
+    const bool waits = now.tool_change && now.tool_change->waits && !now.tool_change->held;
+    if (now.state != drivers::DriverState::holding || waits) { // a second one is no event
         request(LogEvent::hold, {}, [this] { driver_.hold(); });
     }
 }
@@ -451,12 +470,13 @@ void Dispatcher::set_optional_stop(bool on) {
 internal::Reach Dispatcher::check(const Job& job,
                                   const drivers::Capabilities& able,
                                   const drivers::DriverStatus& before,
-                                  internal::PathEstimate& estimate) const {
+                                  internal::PathEstimate& estimate,
+                                  std::optional<drivers::ToolChanges>& changes) const {
     if (!able.plans || !able.dialect) {
         return {};
     }
     const std::vector<drivers::StoredOffset> offsets = driver_.stored_offsets();
-    Survey found = survey(job.listing->text,
+    Survey found = survey(controller_text(job),
                           job.project,
                           {*able.dialect,
                            able.axes,
@@ -465,9 +485,15 @@ internal::Reach Dispatcher::check(const Job& job,
                            before.modes,
                            able.mist,
                            able.piecewise,
-                           able.firmware});
+                           able.firmware,
+                           watched_lines(job)});
     if (job.program == nullptr) { // else it was checked block by block
         throw_first_with_count(faults_of(found, driver_.limits(), job.project));
+    }
+    const drivers::MachineLimits limits = driver_.limits();
+    throw_first_with_count(tool_change_faults(job, found, able, {before, offsets, limits, able.laser}));
+    if (job.tool_change) {
+        changes = tool_changes(job, found);
     }
     if (before.position.size() >= 3) {
         estimate = {std::move(found.path), before.position.head<3>()};

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,8 @@ private:
     [[nodiscard]] internal::Reach check(const Job& job,
                                         const drivers::Capabilities& able,
                                         const drivers::DriverStatus& before,
-                                        internal::PathEstimate& estimate) const;
+                                        internal::PathEstimate& estimate,
+                                        std::optional<drivers::ToolChanges>& changes) const;
     void check_position(const Job& job, const drivers::DriverStatus& status) const;
     [[nodiscard]] std::vector<Request> take_requests();
     void bring_to_rest() noexcept;

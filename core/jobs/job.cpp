@@ -2,7 +2,6 @@
 
 #include "core/base/units.h"
 #include "core/gcode/axes.h"
-#include "core/gcode/line_ends.h"
 #include "core/gcode/machine_program.h"
 #include "core/gcode/program_text.h"
 #include "core/gcode/word_column.h"
@@ -118,31 +117,10 @@ Job for_axes_of(const Job& job, const std::vector<program::ProgramAxis>& axes) {
 }
 
 Job text_job(std::string text, const std::filesystem::path& file) {
-    program::Listing listing;
-    text = gcode::with_newlines(std::string(gcode::program_text(text)));
-    if (!text.empty() && text.back() != '\n') {
-        text += '\n';
-    }
-    listing.text = std::move(text);
-    listing.line_starts.push_back(0);
-    for (std::size_t n = 0; n < listing.text.size(); ++n) {
-        if (listing.text[n] != '\n') {
-            continue;
-        }
-        const std::string_view line =
-            std::string_view(listing.text).substr(listing.line_starts.back(), n - listing.line_starts.back());
-        if (line.find_first_not_of(" \t\r") != std::string_view::npos) {
-            listing.line_of_block.push_back(static_cast<int>(listing.line_starts.size()));
-        }
-        listing.line_starts.push_back(n + 1);
-    }
-    if (listing.line_of_block.empty()) {
-        throw Error(Diagnostic{{file, 1, 1, -1}, "there is nothing in the program", {}});
-    }
     Job job;
     job.name = file.stem().string();
     job.project = file.string();
-    job.listing = std::make_shared<const program::Listing>(std::move(listing));
+    job.listing = std::make_shared<const program::Listing>(gcode::listing_of(std::move(text), file));
     return job;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/drivers/driver.h"
+#include "core/drivers/tool_change.h"
 #include "core/motion/planner.h"
 #include "core/program/listing.h"
 
@@ -29,6 +30,12 @@ struct Job {
     std::string options; ///< of the command that asked for it, for its log; may be empty
     std::string hash;    ///< program_hash() of the whole file; empty: of the listing
     std::vector<Diagnostic> notices{}; ///< what of the file is executed in another way, or not at all
+
+    /// Its tool changes are made here; nothing: they are left to the controller.
+    std::optional<drivers::ToolChangePlan> tool_change{};
+    /// Of a job that begins at a line of a program with tool changes that are made here: the tool that has to
+    /// be in the spindle. 0: the one before the first change, or one that the program does not name.
+    std::optional<int> tool_at_start{};
 
     [[nodiscard]] int block_count() const;
 };

@@ -67,6 +67,7 @@ constexpr std::array all_events{LogEvent::ahead,
                                 LogEvent::overrides,
                                 LogEvent::single_block,
                                 LogEvent::optional_stop,
+                                LogEvent::own,
                                 LogEvent::fault,
                                 LogEvent::end};
 constexpr std::array all_ends{JobEnd::done, JobEnd::stopped, JobEnd::cancelled, JobEnd::fault};
@@ -200,6 +201,8 @@ std::string_view to_text(LogEvent event) {
         return "overrides";
     case LogEvent::optional_stop:
         return "optional-stop";
+    case LogEvent::own:
+        return "own-line";
     case LogEvent::waiting:
         return "waiting";
     case LogEvent::single_block:

@@ -41,6 +41,7 @@ enum class LogEvent {
     overrides,
     single_block,
     optional_stop,
+    own, ///< a line that is not of the program was sent, for a tool change: LogRecord::text
     fault,
     end
 };

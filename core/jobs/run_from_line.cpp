@@ -5,6 +5,7 @@
 #include "core/drivers/modal_lines.h"
 #include "core/gcode/interpreter.h"
 #include "core/jobs/internal/program_from_line.h"
+#include "core/jobs/tool_check.h"
 
 #include <fmt/format.h>
 
@@ -383,13 +384,37 @@ RunFrom run_from_line(std::string_view text,
     return result;
 }
 
+namespace {
+
+/// The lines of `approach` above `line`, and from there on those of `whole`, with its tool changes.
+std::string with_lines_of(std::string_view whole, std::string_view approach, int line) {
+    const auto start_of = [line](std::string_view text) {
+        std::size_t at = 0;
+        for (int n = 1; n < line && at < text.size(); ++n) {
+            at = std::min(text.find('\n', at), text.size() - 1) + 1;
+        }
+        return at;
+    };
+    return std::string(approach.substr(0, start_of(approach))) + std::string(whole.substr(start_of(whole)));
+}
+
+} // namespace
+
 Job job_from_line(const Job& job, int line, const RunFromSettings& settings) {
     expects(job.listing != nullptr, "a job has a listing");
     if (job.program != nullptr) {
         return internal::program_from_line(job, line, settings);
     }
-    const RunFrom rest = run_from_line(job.listing->text, job.project, line, settings);
-    Job result = text_job(rest.text, job.project);
+    const RunFrom rest = run_from_line(controller_text(job), job.project, line, settings);
+    Job result = text_job(with_lines_of(job.listing->text, rest.text, line), job.project);
+    result.tool_change = job.tool_change;
+    if (const std::vector<ToolCall> calls = tool_calls(job.listing->text);
+        job.tool_change && !calls.empty()) {
+        result.tool_at_start = 0;
+        for (const ToolCall& call : calls) { // a T alone only selects
+            result.tool_at_start = call.line < line ? call.tool : *result.tool_at_start;
+        }
+    }
     result.name = job.name;
     result.started_at = job.started_at;
     result.from_line = line;

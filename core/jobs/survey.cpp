@@ -80,12 +80,16 @@ public:
         }
     }
 
+    /// Whether a move so far went rapidly to another Z, or up from a lower one of the moves.
+    [[nodiscard]] bool knows_height() const { return knows_height_; }
+
 private:
     Survey& found_;
     gcode::CanonFrame frame_;
     AxisValues at_; ///< machine, mm and degrees
     bool turning_ = false;
     bool keep_path_ = false;
+    bool knows_height_ = false;
 
     void cut(int line) {
         if (found_.first_cut_line == 0) {
@@ -104,7 +108,12 @@ private:
     }
 
     void go(const AxisValues& target, int line, bool cuts) {
+        const double z_before = at_[gcode::Axis::z];
         at_ = frame_.to_machine(target);
+        const double z = at_[gcode::Axis::z];
+        const bool other_z = std::abs(z - z_before) > still;
+        const Survey::Range& range = found_.ranges[static_cast<std::size_t>(gcode::Axis::z)];
+        knows_height_ = knows_height_ || (other_z && !cuts) || (!range.empty() && z > range.min + still);
         if (keep_path_) {
             using gcode::Axis;
             found_.path.push_back({line, Vec3(at_[Axis::x], at_[Axis::y], at_[Axis::z])});
@@ -236,6 +245,27 @@ int first_parameter(std::string_view name) {
     return name == "G28" ? 5161 : name == "G30" ? 5181 : name == "G92" ? 5211 : 0;
 }
 
+/// Line by line, with a look at what is in force before some of them.
+void run_watching(gcode::Interpreter& reader,
+                  const std::vector<int>& lines,
+                  const Surveyor& surveyor,
+                  Survey& found) {
+    gcode::ModalState before = reader.state();
+    Survey::Range z = found.ranges[index_of('Z')];
+    bool knows_height = surveyor.knows_height();
+    for (bool more = true; more;) {
+        more = reader.step();
+        const int line = reader.place().line;
+        const bool again = !found.watched.empty() && found.watched.back().line == line;
+        if (!again && std::ranges::binary_search(lines, line)) {
+            found.watched.push_back({line, before, z, knows_height});
+        }
+        before = reader.state();
+        z = found.ranges[index_of('Z')];
+        knows_height = surveyor.knows_height();
+    }
+}
+
 gcode::ReaderSettings reading_of(const std::filesystem::path& file, const SurveySettings& settings) {
     gcode::ReaderSettings reading;
     reading.dialect = settings.dialect;
@@ -270,10 +300,15 @@ void read_into(Survey& found,
                std::string_view text,
                const std::filesystem::path& file,
                gcode::ReaderSettings reading,
-               bool keep_path) {
+               bool keep_path,
+               const std::vector<int>& watched = {}) {
     Surveyor surveyor(found, reading.start, keep_path);
     gcode::Interpreter reader(text, file, std::move(reading), surveyor);
-    reader.run();
+    if (watched.empty()) {
+        reader.run();
+    } else {
+        run_watching(reader, watched, surveyor, found);
+    }
     found.errors = reader.errors();
 }
 
@@ -349,7 +384,7 @@ void add_missing_axes(Survey& found,
 Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
     Survey found;
     take_start(found, settings);
-    read_into(found, text, file, reading_of(file, settings), settings.keep_path);
+    read_into(found, text, file, reading_of(file, settings), settings.keep_path, settings.watched);
     add_missing_axes(found, text, file, settings);
     return found;
 }

@@ -6,6 +6,7 @@
 #include "core/drivers/driver.h"
 #include "core/gcode/axes.h"
 #include "core/gcode/dialect.h"
+#include "core/gcode/modal_state.h"
 #include "core/geometry/vectors.h"
 
 #include <array>
@@ -34,6 +35,15 @@ struct Survey {
         Vec3 at = Vec3::Zero();
     };
 
+    /// What is in force before a line that SurveySettings::watched names.
+    struct Before {
+        int line = 0;
+        gcode::ModalState modes;
+        Range z; ///< as in `ranges`, of the moves before
+        /// One of them went up from a lower place of theirs, or rapidly to another height.
+        bool knows_height = false;
+    };
+
     std::array<Range, gcode::axis_count> ranges; ///< of moves, arcs by their whole way, machine coordinates
     std::array<Range, gcode::axis_count> cuts;   ///< the same of feed moves alone, from where they begin
     /// Where the machine stands before, mm and rad; only for axes whose place SurveySettings::start tells.
@@ -46,6 +56,7 @@ struct Survey {
     int first_cut_line = 0;         ///< the first feed move, 0: none
     bool spindle_before_cut = true; ///< it turned at the first feed move
     std::vector<PathPoint> path;    ///< of all moves, if it is wanted
+    std::vector<Before> watched;    ///< in the order of the lines
     std::string missing_axes; ///< letters of axes that the program moves and the controller does not have
     /// What breaks the rules of the dialect; before that the missing axes, all in one.
     std::vector<Diagnostic> errors;
@@ -63,6 +74,7 @@ struct SurveySettings {
     bool mist = true;                   ///< Capabilities::mist
     bool keep_path = false;             ///< Survey::path
     std::string_view firmware = "Grbl"; ///< Capabilities::firmware
+    std::vector<int> watched{};         ///< lines of Survey::watched, ascending
 };
 
 /// For diagnostics the text is called `file`; subroutines in other files are looked for in its folder.

@@ -2,6 +2,7 @@
 
 #include "core/base/files.h"
 #include "core/jobs/run_from_line.h"
+#include "core/jobs/tool_check.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,8 @@ refusal(const std::string& text, const JobStory& story, std::optional<double> cl
     settings.dialect = story.start.driver == "grbl" ? gcode::Dialect::grbl : gcode::Dialect::linuxcnc;
     settings.clearance = clearance;
     try {
-        (void)run_from_line(text, story.start.project, story.next_line, settings);
+        const std::string read = story.start.driver == "grbl" ? without_tool_changes(text) : text;
+        (void)run_from_line(read, story.start.project, story.next_line, settings);
         return std::nullopt;
     } catch (const Error& error) {
         return error.diagnostic();

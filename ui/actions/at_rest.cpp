@@ -1,5 +1,6 @@
 #include "ui/actions/at_rest.h"
 
+#include "ui/actions/tool_changes.h"
 #include "ui/actions/workbench.h"
 
 namespace millwright::actions {
@@ -19,7 +20,8 @@ Permission at_rest(const ControllerView& machine) {
                                        ? "There is an alarm: home or unlock first."
                                        : "There is an alarm: look at the machine, then unlock it first.");
     }
-    return state == DriverState::idle || state == DriverState::stopped
+    return state == DriverState::idle || state == DriverState::stopped ||
+                   (state == DriverState::holding && waits_for_tool(machine.status))
                ? Permission{}
                : Permission::refused("The machine is moving.");
 }

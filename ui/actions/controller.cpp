@@ -33,8 +33,8 @@ bool looks_same(const DriverStatus& a, const DriverStatus& b) {
            a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
            a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood &&
            a.work_system == b.work_system && a.tool == b.tool && a.sent_blocks == b.sent_blocks &&
-           same(a.feed, b.feed) && same(a.spindle_rpm, b.spindle_rpm) && a.message == b.message &&
-           a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
+           a.tool_change == b.tool_change && same(a.feed, b.feed) && same(a.spindle_rpm, b.spindle_rpm) &&
+           a.message == b.message && a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
            (a.probe ? a.probe->number : 0) == (b.probe ? b.probe->number : 0);
 }
 

@@ -80,6 +80,9 @@ Permission can_home(const Workbench& now) {
     if (!now.controller.status.powered) {
         return Permission::refused("The motors have no power.");
     }
+    if (waits_for_tool(now.controller.status) && state == DriverState::holding) {
+        return {};
+    }
     const bool at_rest =
         state == DriverState::idle || state == DriverState::stopped || state == DriverState::alarm;
     return at_rest && !now.job.running ? Permission{} : Permission::refused("The machine is moving.");

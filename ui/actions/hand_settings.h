@@ -2,9 +2,11 @@
 #pragma once
 
 #include "ui/actions/controller.h"
+#include "ui/actions/tool_changes.h"
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,8 +36,9 @@ struct HandSettings {
     bool arm_path_of_file = false; ///< the opened file's, where one is open, not the project's
     double arm_result_step = 5.0;  ///< mm between two points of a motion file's result
     bool single_block = false;
-    bool show_reports = false;         ///< in the console
-    std::vector<std::string> commands; ///< typed before, oldest first
+    std::map<std::string, ToolChangeSettings> tool_changes; ///< by the address of the link
+    bool show_reports = false;                              ///< in the console
+    std::vector<std::string> commands;                      ///< typed before, oldest first
 
     friend bool operator==(const HandSettings&, const HandSettings&) = default;
 };

@@ -133,6 +133,9 @@ JobSource job_source(const Workbench& now) {
     expects(program_ready(now).allowed, "there is a program");
     JobSource source;
     source.as_text = sends_text(now);
+    if (source.as_text) {
+        source.tool_change = tool_change_plan(now.session.hand, now.controller);
+    }
     source.machine = source.as_text ? nullptr : now.machine();
     if (now.in_file()) {
         source.opened = now.opened;
@@ -147,6 +150,7 @@ JobSource job_source(const Workbench& now) {
 
 jobs::Job make_job(const JobSource& source) {
     jobs::Job job = source.opened ? file_job(source) : project_job(source);
+    job.tool_change = source.tool_change;
     job.name = source.name;
     job.project = source.file.empty() ? source.name : source.file.string();
     return job;

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace millwright::actions {
@@ -21,6 +22,7 @@ struct JobSource {
     bool as_text = false;                                    ///< the controller plans for itself
     std::filesystem::path file;                              ///< empty: never saved
     std::string name;                                        ///< of the job and its log
+    std::optional<drivers::ToolChangePlan> tool_change;      ///< of Job, without its macro's text
 
     friend bool operator==(const JobSource&, const JobSource&) = default;
 };

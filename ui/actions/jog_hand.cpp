@@ -1,6 +1,7 @@
 #include "ui/actions/jog_hand.h"
 
 #include "core/base/error.h"
+#include "ui/actions/tool_changes.h"
 
 #include <algorithm>
 #include <utility>
@@ -60,7 +61,8 @@ void JogHand::follow(const std::optional<JogWish>& wish, bool allowed) {
             return; // it still brakes, as its dead man wanted: the next frame asks again
         }
         // It may have come to rest between its answer and this look.
-        if (went_on && now_is.state == drivers::DriverState::idle && !std::exchange(asks_again_, true)) {
+        const bool rests = now_is.state == drivers::DriverState::idle || waits_for_tool(now_is);
+        if (went_on && rests && !std::exchange(asks_again_, true)) {
             return;
         }
         must_let_go_ = true; // said once, not in every frame

@@ -235,6 +235,7 @@ std::vector<KeptValue> kept_values() {
 }
 
 constexpr std::string_view folder_prefix = "folder.";
+constexpr std::string_view tool_change_prefix = "tool_change.";
 
 } // namespace
 
@@ -244,6 +245,9 @@ WindowSettings kept_of(const Session& session, WindowSettings before) {
     }
     for (const auto& [use, folder] : session.folders) {
         before[std::string(folder_prefix) + use] = folder.string();
+    }
+    for (const auto& [address, settings] : session.hand.tool_changes) {
+        before[std::string(tool_change_prefix) + address] = to_text(settings);
     }
     return before;
 }
@@ -260,6 +264,13 @@ std::vector<std::string> restore(Session& session, const WindowSettings& kept) {
     for (const auto& [name, folder] : kept) {
         if (name.starts_with(folder_prefix)) {
             session.folders[name.substr(folder_prefix.size())] = folder;
+        } else if (name.starts_with(tool_change_prefix)) {
+            const auto settings = tool_changes_of(folder);
+            if (settings) {
+                session.hand.tool_changes[name.substr(tool_change_prefix.size())] = *settings;
+            } else {
+                refused.push_back(fmt::format("{} cannot be \u201c{}\u201d", name, printable(folder)));
+            }
         }
     }
     return refused;

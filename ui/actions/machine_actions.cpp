@@ -2,6 +2,7 @@
 #include "core/drivers/driver.h"
 #include "core/jobs/box_trace.h"
 #include "core/jobs/job_queue.h"
+#include "core/jobs/tool_check.h"
 #include "ui/actions/arm_bench.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
@@ -160,6 +161,14 @@ void stop(Hands& hands) {
     }
 }
 
+/// As they are set for the machine that is connected; of a job of the queue, too.
+void make_tool_changes(const Workbench& now, jobs::Job& job) {
+    if (!job.tool_change && job.program == nullptr) {
+        job.tool_change = tool_change_plan(now.session.hand, now.controller);
+    }
+    read_macro(job);
+}
+
 /// On what is connected, else on a virtual machine.
 void start_job(Hands& hands, jobs::Job job, const JobRunner::Ended& ended = {}) {
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
@@ -167,6 +176,7 @@ void start_job(Hands& hands, jobs::Job job, const JobRunner::Ended& ended = {}) 
     hands.session.file.step.reset();
     hands.session.begin = {};
     if (auto driver = hands.workshop.controller().driver()) {
+        make_tool_changes(hands.now, job);
         driver->check(*job.listing, job.project);
         hands.jobs.start(std::move(job), std::move(driver), ended);
     } else {
@@ -212,6 +222,7 @@ std::string gouges_of(const Workbench& now, const jobs::Job& job) {
 void ask_to_start(Hands& hands, jobs::Job job, std::optional<jobs::QueuedJobId> queued) {
     const std::string gouges =
         !queued && !hands.now.in_file() ? hands.now.gouge_warning() : gouges_of(hands.now, job);
+    make_tool_changes(hands.now, job);
     StartWish wish = start_wish(std::move(job), queued, hands.now.controller);
     wish.gouges = gouges;
     hands.workshop.ask_to_start(std::move(wish));
@@ -314,7 +325,9 @@ Permission can_check_there(const Workbench& now) {
 
 void check_there(Hands& hands) {
     hands.workshop.controller().tell([&hands](drivers::Driver& driver) {
-        hands.session.start_answer = driver.check_there(*hands.session.start->job->listing);
+        const jobs::Job& job = *hands.session.start->job;
+        const jobs::Job read = jobs::text_job(jobs::controller_text(job), job.project);
+        hands.session.start_answer = driver.check_there(job.tool_change ? *read.listing : *job.listing);
     });
 }
 

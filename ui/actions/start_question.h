@@ -23,7 +23,9 @@ struct StartWish {
     std::string machine;                     ///< "grblHAL 1.1f at /dev/ttyACM0"
     jobs::SurveySettings survey;             ///< from its present position, with its offsets
     drivers::MachineLimits limits;
-    std::string gouges; ///< Workbench::gouge_warning() of its program; empty: none
+    drivers::Capabilities can;
+    drivers::DriverStatus status; ///< of the machine
+    std::string gouges;           ///< Workbench::gouge_warning() of its program; empty: none
 };
 
 /// What a check of its whole program found.
@@ -32,6 +34,8 @@ struct StartCheck {
     jobs::Survey survey;
     std::vector<Diagnostic> faults; ///< why it cannot be started
     std::vector<Diagnostic> warnings;
+    int tool_stops = 0; ///< tool changes that are made here
+    std::string tool;   ///< jobs::tool_before_start() of the job
 };
 
 [[nodiscard]] StartWish

@@ -62,7 +62,8 @@ Permission can_send(const Workbench& now) {
     if (now.controller.choice.kind == machine::DriverKind::pmac && !now.controller.status.link_lost) {
         return {}; // it is asked and stopped by lines while it moves, and says itself what has to wait
     }
-    return now.job.running ? Permission::refused("A job is running.") : at_rest(now.controller);
+    const bool busy = now.job.running && !actions::waits_for_tool(now.controller.status);
+    return busy ? Permission::refused("A job is running.") : at_rest(now.controller);
 }
 
 } // namespace

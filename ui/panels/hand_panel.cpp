@@ -43,7 +43,7 @@ bool is_rotary(const program::ProgramAxis& axis) {
 }
 
 Permission can_jog_axis(const Workbench& now, char axis) {
-    if (now.job.running) {
+    if (now.job.running && !actions::waits_for_tool(now.controller.status)) {
         return Permission::refused("A job is running.");
     }
     if (!now.controller.can.jog) {

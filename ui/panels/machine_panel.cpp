@@ -6,6 +6,7 @@
 #include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/job_time_left.h"
+#include "ui/panels/tool_change_fields.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -82,6 +83,7 @@ void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     draw_job(ui, now, ask);
+    tool_change_fields(ui, now, ask);
     if (now.controller.connected()) {
         controls_.draw(ui, now, ask);
     }
@@ -163,9 +165,17 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
         ui.note("Until the chosen machine is connected, the virtual machine runs it.");
     }
     {
+        const drivers::DriverStatus& status = now.controller.status;
+        const bool waits = actions::waits_for_tool(status) && !status.tool_change->held;
         const auto row = ui.row(3);
         action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");
-        action_button(ui, now, ask, catalogue_, "machine.resume", widgets::Rank::normal, "Resume");
+        action_button(ui,
+                      now,
+                      ask,
+                      catalogue_,
+                      "machine.resume",
+                      waits ? widgets::Rank::primary : widgets::Rank::normal,
+                      waits ? "Continue" : "Resume");
         action_button(ui, now, ask, catalogue_, "machine.stop", widgets::Rank::normal, "Stop");
     }
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
@@ -183,6 +193,7 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     if (const widgets::Permission axes = actions::axes_ready(now); !axes.allowed) {
         (void)widgets::banner(ui, "axes", {widgets::Severity::warning, axes.reason, {}});
     }
+    (void)tool_change_banner(ui, now);
     draw_findings(ui, now); // below the buttons, which stay where they are whatever is found
     draw_progress(ui, now, ask);
 }

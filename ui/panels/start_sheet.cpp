@@ -169,11 +169,17 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         (void)widgets::banner(ui, "gouges", {widgets::Severity::danger, wish.gouges, {}});
     }
     if (now.start_check && now.start_check->wish == now.session.start) {
+        if (const std::string& tool = now.start_check->tool; !tool.empty()) {
+            (void)widgets::banner(ui, "right_tool", {widgets::Severity::warning, tool, {}});
+        }
         draw_check_result(ui, "faults", widgets::Severity::danger, now.start_check->faults);
         draw_check_result(ui, "warnings", widgets::Severity::warning, now.start_check->warnings);
     }
     if (now.session.start_answer > 0 && status.answer.number == now.session.start_answer) {
         draw_answer(ui, status.answer);
+        if (now.start_check && now.start_check->tool_stops > 0) {
+            ui.note("The check leaves out the tool changes (M6): Millwright makes them.");
+        }
     }
     ui.gap();
     {

@@ -32,6 +32,9 @@ Capabilities GrblDriver::capabilities() const {
     const bool is_mask = facts_of(known.firmware).homing_mask;
     const bool homes = cycle == settings.end() ||
                        (is_mask ? (static_cast<unsigned>(cycle->second) & 1U) != 0 : cycle->second > 0.0);
+    constexpr int laser_mode = 32; // 1: a laser; a grblHAL has 2, a lathe
+    const auto mode = settings.find(laser_mode);
+    const bool laser = mode != settings.end() && mode->second > 0.5 && mode->second < 1.5;
     return {.plans = true,
             .axes = grbl::program_axes(known.axes),
             .overrides = true,
@@ -46,6 +49,8 @@ Capabilities GrblDriver::capabilities() const {
             .single_block = true,
             .piecewise = true,
             .mist = known.mist,
+            .tool_changes = true,
+            .laser = laser,
             .firmware = facts_of(known.firmware).name,
             .dialect = gcode::Dialect::grbl};
 }
@@ -72,7 +77,7 @@ void GrblDriver::start(Work work) {
     expects(work.listing != nullptr, "Grbl is given a program's text");
     grbl::ProgramLines lines = grbl::program_lines(*work.listing, {});
     const Turn turn(*this);
-    talk().start(std::move(lines), turn.now(), std::move(work.ahead));
+    talk().start(std::move(lines), turn.now(), std::move(work.ahead), std::move(work.tool_changes));
 }
 
 int GrblDriver::command(const std::string& lines) {

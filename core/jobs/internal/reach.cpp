@@ -38,7 +38,35 @@ Reach::Reach(const Survey& found,
     }
 }
 
+/// At a tool change a person has the machine. The zero that it sets there moves the box, and where the
+/// machine is left belongs to it.
+bool Reach::leaves_watch(const drivers::DriverStatus& status) {
+    if (status.tool_change) {
+        offset_before_ = offset_before_.size() == 0 ? status.work_offset : offset_before_;
+        since_.reset();
+        return true;
+    }
+    if (offset_before_.size() == 0 || !found_) {
+        return false;
+    }
+    const kinematics::AxisPositions before = std::exchange(offset_before_, {});
+    for (std::size_t n = 0; n < axes_.size() && std::cmp_less(n, status.position.size()); ++n) {
+        const auto letter = std::ranges::find(gcode::axis_letters, axes_[n].letter);
+        const auto index = static_cast<std::size_t>(letter - gcode::axis_letters.begin());
+        const auto axis = static_cast<Eigen::Index>(n);
+        const bool known = before.size() == status.work_offset.size();
+        const double moved = known ? status.work_offset[axis] - before[axis] : 0.0;
+        Survey::Range& range = found_->ranges[index];
+        range.min = std::min({range.min, range.min + moved, status.position[axis]});
+        range.max = std::max({range.max, range.max + moved, status.position[axis]});
+    }
+    return false;
+}
+
 std::string Reach::watch(const drivers::DriverStatus& status, double now) {
+    if (leaves_watch(status)) {
+        return {};
+    }
     const bool moves =
         status.state == drivers::DriverState::running && status.activity == drivers::Activity::program;
     const bool rests = status.state == drivers::DriverState::idle;

@@ -27,12 +27,14 @@ public:
     [[nodiscard]] std::string watch(const drivers::DriverStatus& status, double now);
 
 private:
+    [[nodiscard]] bool leaves_watch(const drivers::DriverStatus& status);
     [[nodiscard]] std::string beyond(const drivers::DriverStatus& status) const;
 
     std::optional<Survey> found_;
     std::vector<program::ProgramAxis> axes_;
     std::string doubt_; ///< of the position, before
     std::optional<double> since_;
+    kinematics::AxisPositions offset_before_; ///< of the work, at a tool change under way; empty: none is
 };
 
 } // namespace millwright::jobs::internal

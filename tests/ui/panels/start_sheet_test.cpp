@@ -110,7 +110,7 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
 }
 
 TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
-    open("G21 G90 G94\nG1 X40 F60\nM6 T1\nM2\n");
+    open("G21 G90 G94\nG1 X40 F60\nM66 P1\nM2\n");
     show_machine();
     person.press_key(render::Key::f9);
     wait_for_check();

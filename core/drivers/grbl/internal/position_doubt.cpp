@@ -13,6 +13,13 @@ void PositionDoubt::arise(std::string why, bool lost) {
     lost_ = lost;
     zeroed_.clear();
     confirmed_.clear();
+    homed_ = false;
+}
+
+void PositionDoubt::end() {
+    const bool homed = homed_;
+    *this = {};
+    homed_ = homed;
 }
 
 void PositionDoubt::confirm() {

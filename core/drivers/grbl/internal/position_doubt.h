@@ -17,7 +17,13 @@ public:
     /// A person says that the machine is where the controller says.
     void confirm();
     /// The machine was homed.
-    void end() { *this = {}; }
+    void homed() {
+        *this = {};
+        homed_ = true;
+    }
+    /// Whether it was homed since this link began or its position was in doubt: homing it again gives it the
+    /// same zero.
+    [[nodiscard]] bool was_homed() const { return homed_; }
 
     /// Empty: the position is not in doubt.
     [[nodiscard]] const std::string& why() const { return why_; }
@@ -28,6 +34,9 @@ public:
 private:
     std::string why_, zeroed_, confirmed_;
     bool lost_ = false;
+    bool homed_ = false;
+
+    void end();
 };
 
 /// Letters of the axes that get their zero by this line, which is without blanks and in capitals: those of

@@ -18,6 +18,7 @@ struct ProgramLine {
     double dwell = 0.0;         ///< s, of a G4
     bool writes_eeprom = false; ///< Grbl loses what it is sent meanwhile
     bool moves_zero = false;    ///< it may change the work offset
+    int stop = -1;              ///< of ToolChanges::stops: the program stops before it; -1: it does not
 
     [[nodiscard]] bool is_setting() const { return text.starts_with('$'); }
     /// Nothing is sent from before it until its answer: what follows would be lost.

@@ -18,6 +18,8 @@ public:
     /// and still be under way.
     Proof(const ProgramLines& program, int planner_blocks, int segment_blocks);
 
+    /// The first `lines` are executed already.
+    void begin_at(int lines) { acknowledged_ = executed_ = lines; }
     /// One more line was acknowledged.
     void acknowledged();
     /// A report that came after all acknowledgements so far. `all_answered`: nothing else is under way.

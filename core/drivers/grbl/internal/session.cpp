@@ -34,8 +34,12 @@ std::string Session::take_output() {
 /// What was doubted before a link broke still is.
 void Session::opened(double now) {
     PositionDoubt doubt = std::move(doubt_);
+    const bool length_left = length_left_;
+    const bool zero_of_other = zero_of_other_;
     *this = Session(settings_);
     doubt_ = std::move(doubt);
+    length_left_ = length_left;
+    zero_of_other_ = zero_of_other;
     stage_ = Stage::greeting;
     last_heard_ = ending_since_ = now;
     own_pause_.begin(now);
@@ -74,6 +78,7 @@ void Session::lost(const std::string& why) {
     }
     output_.clear();
     settle_answer(message_);
+    drop_change();
 }
 
 void Session::receive(std::string_view bytes, double now) {
@@ -91,6 +96,7 @@ void Session::receive(std::string_view bytes, double now) {
     }
     pump();
     pump_jog();
+    drop_change();
 }
 
 void Session::tick(double now) {
@@ -107,6 +113,8 @@ void Session::tick(double now) {
     watch_answers(now);
     step_overrides(now);
     poll(now);
+    drop_change();
+    watch_change(now);
     pump();
     pump_jog();
 }
@@ -305,7 +313,7 @@ bool Session::may_send(const ProgramLine& line) const {
 
 /// Sends as much of the program as the controller has room for.
 void Session::pump() {
-    if (stage_ != Stage::running || hold_wanted_) {
+    if (stage_ != Stage::running || hold_wanted_ || stops_here()) {
         return;
     }
     while (next_line_ < std::ssize(program_.lines) && !block_wait_) {
@@ -322,7 +330,10 @@ void Session::pump() {
         output_ += text;
         window_.push({LineKind::program, std::move(text), next_line_, line.dwell});
         ++next_line_;
-        block_wait_ = single_block_ && at_ == Activity::program;
+        block_wait_ = single_block_ && at_ == Activity::program && !change_;
+        if (stops_here()) {
+            return;
+        }
     }
 }
 

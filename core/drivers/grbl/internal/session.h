@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/drivers/controller_session.h"
+#include "core/drivers/grbl/internal/change_lines.h"
 #include "core/drivers/grbl/internal/messages.h"
 #include "core/drivers/grbl/internal/modes.h"
 #include "core/drivers/grbl/internal/override_steps.h"
@@ -51,6 +52,9 @@ struct Readout {
     bool began_anew = false;        ///< greeted, or was silent until it was reset, when the link was made
 };
 
+/// Why a controller in this state, one of those of MachineState that hold, goes no further; a sentence.
+[[nodiscard]] std::string_view why_held(MachineState state);
+
 class Session final : public ControllerSession {
 public:
     explicit Session(SessionSettings settings = {}) : settings_(settings) {}
@@ -70,8 +74,11 @@ public:
     [[nodiscard]] bool link_lost() const override { return link_lost_; }
     [[nodiscard]] std::optional<Diagnostic> stranger() const override;
 
-    /// `ahead` as in Work.
-    void start(ProgramLines program, double now, std::function<int(int)> ahead = {});
+    /// `ahead` and `changes` as in Work.
+    void start(ProgramLines program,
+               double now,
+               std::function<int(int)> ahead = {},
+               std::optional<ToolChanges> changes = {});
     void hold(double now) override;
     void resume(double now) override;
     void stop(double now) override;
@@ -149,6 +156,7 @@ private:
     [[nodiscard]] Activity activity() const;
     void show_machine(DriverStatus& status) const;
     void show_program(DriverStatus& status) const;
+    void show_change(DriverStatus& status) const;
     void settle_answer(const std::string& why_not);
 
     // session_messages.cpp: what the controller says
@@ -181,6 +189,63 @@ private:
     [[nodiscard]] bool leaves_check_mode() const;
     void refused_in_check(const SentLine& line, const std::string& why, double now);
     void finish_check(double now);
+
+    // session_change.cpp: tool changes
+    enum class ChangeStep {
+        looking, ///< what is in force is asked for
+        switching_off,
+        waiting, ///< for a person, who has the machine
+        first_touch,
+        second_touch,
+        lifting,
+        setting_length,
+        macro,
+        going_back
+    };
+    /// A program that is laid aside, and where the machine was then.
+    struct Change {
+        ProgramLines program{};
+        int next_line = 0;
+        internal::Ahead ahead{};
+        int stop = -1; ///< of ToolChanges::stops; -1: the first tool is measured
+        ChangeStep step = ChangeStep::looking;
+        bool held = false;           ///< between two steps, or while it waits
+        bool confirmed = false;      ///< a person goes on; the next report tells where the machine is
+        bool made_reference = false; ///< its tool is the one that the others are compared with
+        ModeWords modes{};
+        Axes machine{}, zero{};                ///< position, and zero of its work system, machine coordinates
+        std::map<std::string, Axes> offsets{}; ///< in force when it began
+        double highest_z = 0.0;                ///< of the machine while it waited
+        double top = 0.0;                      ///< of the way to the sensor
+        double first_touch_z = 0.0;
+        int probings = 0; ///< before the last lines
+    };
+    void begin_job(std::optional<ToolChanges> changes, ProgramLines& program);
+    void take_tool_changes(ProgramLines& program) const;
+    [[nodiscard]] const ToolStop& stop_at_hand() const;
+    [[nodiscard]] bool waits_for_tool() const;
+    [[nodiscard]] bool held_at_machine() const;
+    [[nodiscard]] std::string zero_set_anew() const;
+    [[nodiscard]] std::string why_not_on() const;
+    [[nodiscard]] std::string what_to_do() const;
+    [[nodiscard]] bool stops_here() const;
+    void watch_change(double now);
+    void begin_change(double now);
+    void take_program_back();
+    [[nodiscard]] bool has_tool_length() const;
+    [[nodiscard]] Axes work_zero(const std::map<std::string, Axes>& offsets) const;
+    void send_own(const ChangeLines& lines, ChangeStep step, double now);
+    void go_on_changing(double now);
+    void tool_is_changed(double now);
+    [[nodiscard]] ChangeLines macro_lines() const;
+    void begin_measuring(double now);
+    void go_on_measuring(double now);
+    [[nodiscard]] WayBack planned_way_back() const;
+    [[nodiscard]] double lacking_height(double travel_top) const;
+    [[nodiscard]] std::string why_no_way_back(WayBack& way) const;
+    void go_back(double now);
+    void resume_program(double now);
+    void drop_change();
 
     // session_identity.cpp: who answers, and what it has
     void identify(const GrblIdentity& who);
@@ -240,6 +305,16 @@ private:
     CommandAnswer answer_;
     std::string modes_before_check_; ///< a line that brings them back
     int checked_lines_ = 0, refused_in_check_ = 0;
+
+    std::optional<ToolChanges> changes_;
+    std::optional<Change> change_; ///< under way
+    std::vector<std::string> own_lines_;
+    std::map<std::string, Axes> offsets_at_start_; ///< of the job
+    std::optional<double> reference_z_;            ///< where the first tool of the job touched the sensor
+    bool reference_due_ = false, length_set_ = false;
+    bool length_left_ = false; ///< a job ended with a length in force, and no answer has shown it gone
+    bool zero_of_other_ =
+        false; ///< a tool was changed since Z got its zero, which is not that of the tool in the spindle
 
     std::optional<StatusMessage> report_; ///< the last
     OwnPause own_pause_;

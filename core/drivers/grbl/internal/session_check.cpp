@@ -44,6 +44,9 @@ std::string modes_line(std::string_view modes) {
 
 int Session::check(ProgramLines program, double now) {
     require_rest("check");
+    if (change_) {
+        throw Error("a job waits for another tool", {}, "go on with it, or stop it");
+    }
     for (const char* name : {"G92", "TLO"}) {
         const auto offset = readout_.offsets.find(name);
         if (offset != readout_.offsets.end() &&

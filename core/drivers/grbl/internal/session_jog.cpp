@@ -1,7 +1,10 @@
 // Jogs: fed in short lines, ended by whoever lets go.
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/drivers/grbl/internal/axis_units.h"
 #include "core/drivers/grbl/internal/session.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +31,11 @@ std::string jog_line(const internal::JogSlice& slice, std::string_view letters) 
 void Session::jog(const Jog& jog, double now) {
     if (stage_ != Stage::jogging || jog_stopping_) {
         require_rest("jog");
+    } else if (held_at_machine()) {
+        throw Error(fmt::format("{} takes no jog: {}", name(), why_held(report_->state)));
+    }
+    if (change_) {
+        change_->confirmed = false;
     }
     if (stage_ != Stage::jogging) {
         jog_feed_.begin(eigen_of(readout_.machine_position));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace millwright::drivers::grbl {
 
@@ -63,6 +64,7 @@ void Session::ask_first() {
 void Session::ask_next() {
     report_.reset(); // the next one tells how the controller is after all of this
     if (questions_.empty()) {
+        length_left_ = length_left_ && has_tool_length();
         if (stage_ == Stage::asking_again) {
             stage_ = after_asking_;
             overrides_.forget(); // those that were set since its end
@@ -77,19 +79,32 @@ void Session::ask_next() {
 
 /// A program or a command is done; what it changed is asked for before anybody is told.
 void Session::finish(double now) {
+    if (change_ && at_ == Activity::program) { // lines of our own: the program's end is far
+        ask_again(Stage::ready, now);
+        return;
+    }
     if (answer_.state == CommandAnswer::State::pending) {
         answer_.state = CommandAnswer::State::done;
         take_zeros();
     }
     overrides_.forget(); // they outlast no program, and M2 and M30 have brought them back
     const bool sets = std::ranges::any_of(program_.lines, &ProgramLine::is_setting);
+    if (at_ == Activity::program && std::exchange(length_set_, false)) {
+        length_left_ = true; // until its offsets tell otherwise
+        own_lines_.emplace_back("G49");
+        zero_moves_ = reports_work_;
+        ask_again(Stage::ready, now, "G49"); // the length of this job's last tool is not the next one's
+        return;
+    }
     ask_again(Stage::ready, now, at_ == Activity::command && sets ? "$$" : "");
 }
 
 /// A refused command is no longer pending when it comes to its end.
 void Session::take_zeros() {
     for (const ProgramLine& line : program_.lines) {
-        doubt_.zeroed(axes_zeroed_by(line.text, readout_.axes), readout_.axes);
+        const std::string axes = axes_zeroed_by(line.text, readout_.axes);
+        zero_of_other_ = zero_of_other_ && axes.find('Z') == std::string::npos;
+        doubt_.zeroed(axes, readout_.axes);
     }
 }
 
@@ -160,7 +175,8 @@ void Session::answered(const SentLine& line) {
         proof_.acknowledged();
     } else if (line.kind == LineKind::home && stage_ == Stage::homing) {
         stage_ = Stage::ready;
-        doubt_.end();
+        doubt_.homed();
+        report_.reset(); // where it is now, the next one tells
     } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
         ask_next();
     }
@@ -173,6 +189,8 @@ void Session::refused(const SentLine& line, const std::string& why, double now) 
         next_line_ = static_cast<int>(std::ssize(program_.lines)); // what was planned before comes to its end
     } else if (line.kind == LineKind::program && checks()) {
         refused_in_check(line, why, now);
+    } else if (line.kind == LineKind::program && change_) {
+        fail(fmt::format("a line of the tool change was refused, {}: {}", why, one_line(line.text)), now);
     } else if (line.kind == LineKind::program) {
         const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
         fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);

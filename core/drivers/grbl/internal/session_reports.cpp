@@ -14,6 +14,12 @@ constexpr double mm_per_inch = 25.4;
 
 } // namespace
 
+std::string_view why_held(MachineState state) {
+    return state == MachineState::door   ? "the safety door is open: close it, then resume"
+           : state == MachineState::tool ? "the program asks for another tool (M6): change it, then resume"
+                                         : "the program pauses (M0), or hold was pressed at the machine";
+}
+
 /// mm of a unit of the controller's reports.
 double Session::report_unit() const {
     const auto inches = readout_.settings.find(report_inches);
@@ -86,6 +92,9 @@ void Session::handle(const StatusMessage& report, double now) {
     }
     take_readout(report, now);
     report_ = report;
+    if (waits_for_tool()) {
+        change_->highest_z = std::max(change_->highest_z, readout_.machine_position[2]);
+    }
     rest_reports_ = report.moving() ? 0 : rest_reports_ + 1;
     ++idle_unanswered_;
     if (stage_ == Stage::greeting) {
@@ -176,10 +185,7 @@ void Session::watch_motion(const StatusMessage& report, double now) {
     const bool stale = resume_sent_ >= 0.0 && now - resume_sent_ < stale_time;
     if (held && !stale) {
         if (!hold_wanted_ && !held_) {
-            message_ = report.state == MachineState::door ? "the safety door is open: close it, then resume"
-                       : report.state == MachineState::tool
-                           ? "the program asks for another tool (M6): change it, then resume"
-                           : "the program pauses (M0), or hold was pressed at the machine";
+            message_ = why_held(report.state);
         }
         held_ = hold_wanted_ = true;
     } else if (!held && held_) { // resumed at the machine

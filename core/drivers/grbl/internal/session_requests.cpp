@@ -9,6 +9,14 @@
 namespace millwright::drivers::grbl {
 
 void Session::require_rest(std::string_view what) const {
+    if (change_ && !waits_for_tool()) {
+        throw Error(fmt::format("{} is on its way to or from a tool change and takes no {}", name(), what),
+                    {},
+                    "wait until it stands, or stop it");
+    }
+    if (held_at_machine()) { // it would begin when somebody resumes
+        throw Error(fmt::format("{} takes no {}: {}", name(), what, why_held(report_->state)));
+    }
     if (stage_ == Stage::ready || stage_ == Stage::stopped) {
         return;
     }
@@ -22,8 +30,14 @@ void Session::require_rest(std::string_view what) const {
                 stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
 }
 
-void Session::start(ProgramLines program, double now, std::function<int(int)> ahead) {
+void Session::start(ProgramLines program,
+                    double now,
+                    std::function<int(int)> ahead,
+                    std::optional<ToolChanges> changes) {
     require_rest("program");
+    if (change_) {
+        throw Error("a job waits for another tool", {}, "go on with it, or stop it");
+    }
     if (const std::string_view mode = unfollowed_mode(readout_.modes.text); !mode.empty()) {
         throw Error(
             fmt::format(
@@ -31,6 +45,10 @@ void Session::start(ProgramLines program, double now, std::function<int(int)> ah
             {},
             mode == "G51" ? "cancel it with G50" : "cancel it with G8");
     }
+    if (length_left_ && has_tool_length()) {
+        throw Error("the tool length offset of an earlier job is still in force", {}, "cancel it with G49");
+    }
+    begin_job(std::move(changes), program);
     answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
     ahead_.begin(std::move(ahead), program.blocks);
     begin(std::move(program), Activity::program, now);
@@ -68,7 +86,7 @@ void Session::begin(ProgramLines program, Activity activity, double now) {
 
 void Session::set_single_block(bool on) {
     single_block_ = on;
-    if (on && stage_ == Stage::running && at_ == Activity::program) {
+    if (on && stage_ == Stage::running && at_ == Activity::program && !change_) {
         block_wait_ = true;
     }
 }
@@ -90,6 +108,10 @@ void Session::hold(double now) {
     } else if (stage_ == Stage::jogging) {
         stop_jog(now);
     }
+    if (change_ && stage_ != Stage::running) { // between two of our own steps, or while it waits
+        change_->held = true;
+        change_->confirmed = false;
+    }
 }
 
 void Session::resume(double now) {
@@ -106,12 +128,20 @@ void Session::resume(double now) {
         message_.clear();
         output_ += resume_byte();
         pump();
+    } else if (held_at_machine()) {
+        change_->held = false;
+        output_ += resume_byte();
+    } else if (change_ && change_->held) {
+        change_->held = false;
+    } else if (waits_for_tool() && stage_ == Stage::ready) {
+        change_->confirmed = true; // watch_change() goes on when it knows where the machine is
+        watch_change(now);
     }
 }
 
 void Session::stop(double now) {
     const bool homing = stage_ == Stage::homing;
-    if (active()) {
+    if (active() || (change_ && stage_ == Stage::ready)) {
         end(false, {}, now);
     }
     if (homing) { // a homing cycle knows no hold
@@ -167,6 +197,11 @@ void Session::reset(double now) {
 void Session::home(double now) {
     if (stage_ != Stage::alarm || link_lost_) {
         require_rest("homing");
+    }
+    if (change_ && !doubt_.was_homed()) {
+        throw Error("the machine was not homed before the job: homing now would move the zero under the job",
+                    {},
+                    "stop the job, home, and set the zero of the work again");
     }
     proof_closed_ = true;
     window_ = Window(readout_.buffer_bytes, true);

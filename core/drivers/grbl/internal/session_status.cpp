@@ -15,14 +15,19 @@ DriverState Session::state() const {
     case Stage::asking:
         return DriverState::disconnected;
     case Stage::ready:
-        return DriverState::idle;
+        return !change_                                                 ? DriverState::idle
+               : waits_for_tool() || change_->held || held_at_machine() ? DriverState::holding
+                                                                        : DriverState::running;
     case Stage::running:
         return hold_wanted_ || held_ || waits_between_blocks() ? DriverState::holding : DriverState::running;
     case Stage::foreign:
         return hold_wanted_ || held_ ? DriverState::holding : DriverState::running;
     case Stage::asking_again:
-        return after_asking_ == Stage::stopped ? DriverState::stopping : DriverState::running;
+        return after_asking_ == Stage::stopped                   ? DriverState::stopping
+               : (change_ && change_->held) || held_at_machine() ? DriverState::holding
+                                                                 : DriverState::running;
     case Stage::jogging:
+        return held_at_machine() ? DriverState::holding : DriverState::running;
     case Stage::homing:
         return DriverState::running;
     case Stage::braking:
@@ -39,6 +44,8 @@ DriverState Session::state() const {
 
 Activity Session::activity() const {
     switch (stage_) {
+    case Stage::ready:
+        return change_ ? Activity::program : Activity::none;
     case Stage::running:
     case Stage::asking_again:
         return at_;
@@ -75,6 +82,10 @@ DriverStatus Session::status() const {
     status.answer = answer_;
     show_machine(status);
     show_program(status);
+    status.own_lines = own_lines_;
+    if (change_) {
+        show_change(status);
+    }
     return status;
 }
 
@@ -107,7 +118,30 @@ void Session::show_machine(DriverStatus& status) const {
     }
 }
 
+void Session::show_change(DriverStatus& status) const {
+    const ProgramLines& program = change_->program;
+    const int done = change_->next_line;
+    status.sent_blocks = status.executed_blocks = done > 0 ? program.blocks_before(done) : 0;
+    status.block = std::min(program.blocks_before(done), program.blocks - 1);
+    const bool keeps_zero = changes_->plan.way == ToolChangeWay::probe && reference_z_;
+    status.tool_change =
+        ToolChangeStatus{.waits = waits_for_tool(), .held = change_->held, .keeps_zero = keeps_zero};
+    if (stage_ != Stage::running && held_at_machine()) {
+        status.message = why_held(report_->state);
+    }
+    if (change_->stop >= 0) {
+        const ToolStop& stop = stop_at_hand();
+        status.tool_change->line = stop.line;
+        status.tool_change->tool = stop.tool;
+        status.message =
+            status.message.empty() && waits_for_tool() ? stop.why + what_to_do() : status.message;
+    }
+}
+
 void Session::show_program(DriverStatus& status) const {
+    if (change_) {
+        return;
+    }
     if (at_ != Activity::program || (program_.lines.empty() && program_.blocks == 0)) {
         return;
     }

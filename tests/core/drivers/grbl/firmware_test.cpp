@@ -355,9 +355,10 @@ TEST(GrblFirmware, ErrorsAndAlarmsAreThoseOfTheFirmware) {
 
 TEST(GrblFirmware, AProgramForAxesThatTheMachineLacksIsRefused) {
     const auto found = [](std::vector<program::ProgramAxis> axes) {
-        return jobs::survey("G21 G90\nG0 X1 A90 B10\nM30\n",
-                      "five.ngc",
-                      {.dialect = gcode::Dialect::grbl, .axes = std::move(axes), .start = {}, .offsets = {}});
+        return jobs::survey(
+            "G21 G90\nG0 X1 A90 B10\nM30\n",
+            "five.ngc",
+            {.dialect = gcode::Dialect::grbl, .axes = std::move(axes), .start = {}, .offsets = {}});
     };
     using kinematics::AxisKind;
     const std::vector<program::ProgramAxis> four = {

@@ -127,6 +127,52 @@ TEST_P(GrblDriverOver, RunsAJobAndLogsWhatWasExecuted) {
     EXPECT_EQ(log.records.back().position[1], 19.0);
 }
 
+/// A person jogs away, sets a new zero and goes on; the box of the program goes with the zero.
+TEST(GrblDriver, ChangesToolsWithinAJobAndLogsItsOwnLines) {
+    const test::ScratchFolder scratch;
+    GrblDriverBench bench;
+    jobs::Job job = jobs::text_job("G21 G90 G94\nG0 Z5\nG1 X5 F3000\nT3 M6\nG1 X9\nZ1\nM30\n", "tools.ngc");
+    jobs::Dispatcher dispatcher(*bench.driver, bench.clock, scratch / "logs");
+    EXPECT_THROW((void)dispatcher.run(job, {}), Error) << "error 20";
+    job.tool_change = ToolChangePlan{.way = ToolChangeWay::stop, .spin_up = 0.0};
+    int step = 0;
+    const jobs::JobOutcome outcome = dispatcher.run(job, {}, [&](const jobs::JobReport& report) {
+        const DriverStatus& status = report.driver;
+        if (!status.tool_change || !status.tool_change->waits || status.state != DriverState::holding) {
+            return;
+        }
+        switch (++step) {
+        case 1:
+            return bench.driver->jog({kinematics::AxisPositions(Vec3(-30.0, 20.0, -25.0)), 100.0, 0.0});
+        case 2:
+            EXPECT_NEAR(status.position[0], -25.0, 0.01);
+            return static_cast<void>(bench.driver->command("G10 L20 P0 Z0"));
+        case 3:
+            return dispatcher.resume();
+        default:
+            return;
+        }
+    });
+    EXPECT_EQ(outcome.end, jobs::JobEnd::done) << outcome.sentence;
+    EXPECT_EQ(outcome.executed_blocks, 7);
+    EXPECT_NEAR(outcome.position[2], -19.0, 0.01);
+    const jobs::ReadLog log = jobs::read_job_log(outcome.log_file);
+    std::vector<std::string> own;
+    int waits = 0;
+    for (const jobs::LogRecord& record : log.records) {
+        waits += record.event == jobs::LogEvent::waiting ? 1 : 0;
+        if (record.event == jobs::LogEvent::own) {
+            own.push_back(record.text);
+            EXPECT_EQ(record.executed_blocks, 3);
+            EXPECT_EQ(record.line, 4);
+        }
+    }
+    EXPECT_EQ(waits, 1) << "a jog is no new reason to wait";
+    ASSERT_GE(own.size(), 8u);
+    EXPECT_EQ(own[0], "M5");
+    EXPECT_EQ(own[5], "G53G0Z5.0");
+}
+
 /// Grbl acknowledges a changed digit as any other; its reports show where the tool goes.
 TEST(GrblDriver, StopsAMachineThatIsWhereNoLineSendsIt) {
     const test::ScratchFolder scratch;

@@ -34,11 +34,12 @@ jobs::Job lines(int tools) {
         settings.levels.push_back({.pen = tool, .order = tool, .depth = 1.0, .tool = tool});
     }
     const auto model = std::make_shared<const kinematics::MachineModel>(test::machine("forming-table"));
-    return jobs::path_points_job(plot::cut_path(strokes, settings),
-                           "lines.plt",
-                           model,
-                           {.decoding = {.velocity = 2.0, .period = 0.1, .mode = plot::DecodeMode::path},
-                            .spindle_rpm = 8000.0});
+    return jobs::path_points_job(
+        plot::cut_path(strokes, settings),
+        "lines.plt",
+        model,
+        {.decoding = {.velocity = 2.0, .period = 0.1, .mode = plot::DecodeMode::path},
+         .spindle_rpm = 8000.0});
 }
 
 struct PointsBench {

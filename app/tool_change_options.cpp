@@ -1,0 +1,84 @@
+// How tool changes are made, on the command line.
+#include "app/tool_change_options.h"
+
+#include "app/controller.h"
+#include "app/finite_number.h"
+#include "app/usage_error.h"
+#include "core/base/files.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <string_view>
+
+namespace millwright::app {
+
+namespace {
+
+constexpr std::string_view macro_word = "macro=";
+constexpr std::size_t fewest_numbers = 4; ///< of a sensor; the feed may be left out
+
+} // namespace
+
+void add_tool_change_options(CLI::App& command, ControllerChoice& choice) {
+    command
+        .add_option("--tool-change",
+                    choice.tool_change,
+                    "At M6 of a Grbl: stop and wait; probe: then measure the tool at a sensor; macro=FILE: "
+                    "then send the lines of a file")
+        ->type_name("stop|probe|macro=FILE");
+    command
+        .add_option("--tool-sensor",
+                    choice.tool_sensor,
+                    "Place of the sensor, for --tool-change probe: X,Y, Z for travelling, deepest Z of the "
+                    "search, machine coordinates in mm, and perhaps the feed in mm/min")
+        ->delimiter(',')
+        ->expected(fewest_numbers, fewest_numbers + 1)
+        ->allow_extra_args(false)
+        ->check(finite_number())
+        ->type_name("X,Y,Z,Z[,F]");
+    constexpr double longest = 600.0;
+    command
+        .add_option("--spin-up", choice.spin_up, "s for the spindle to come to its speed after a tool change")
+        ->check(CLI::Range(0.0, longest))
+        ->type_name("S")
+        ->capture_default_str();
+    command.add_flag("--right-tool",
+                     choice.right_tool,
+                     "Confirm that the tool that the first line needs is in the spindle");
+}
+
+std::optional<drivers::ToolChangePlan> tool_change_plan(const ControllerChoice& choice) {
+    const std::string_view way = choice.tool_change;
+    if (!choice.tool_sensor.empty() && way != "probe") {
+        throw UsageError("a tool sensor is for --tool-change probe");
+    }
+    if (way.empty()) {
+        return std::nullopt;
+    }
+    drivers::ToolChangePlan plan;
+    plan.spin_up = choice.spin_up;
+    if (way == "probe") {
+        if (choice.tool_sensor.empty()) {
+            throw UsageError("--tool-change probe needs the place of the sensor", {}, "--tool-sensor");
+        }
+        const std::vector<double>& numbers = choice.tool_sensor;
+        plan.way = drivers::ToolChangeWay::probe;
+        plan.sensor.x = numbers[0];
+        plan.sensor.y = numbers[1];
+        plan.sensor.travel_z = numbers[2];
+        plan.sensor.deepest_z = numbers[3];
+        plan.sensor.feed = numbers.size() > fewest_numbers ? numbers[fewest_numbers] : plan.sensor.feed;
+    } else if (way.starts_with(macro_word) && way.size() > macro_word.size()) {
+        plan.way = drivers::ToolChangeWay::macro;
+        plan.macro_file = std::string(way.substr(macro_word.size()));
+        plan.macro = read_file(plan.macro_file);
+    } else if (way != "stop") {
+        throw UsageError("--tool-change takes stop, probe or macro=FILE, and not '" + choice.tool_change +
+                         "'");
+    }
+    return plan;
+}
+
+} // namespace millwright::app

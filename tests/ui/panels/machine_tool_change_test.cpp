@@ -1,0 +1,146 @@
+// A job that waits for another tool in the Machine workspace: what a person sees and can do meanwhile.
+#include "core/base/files.h"
+#include "tests/ui/panels/at_machine.h"
+#include "ui/actions/kept_session.h"
+#include "ui/actions/tool_changes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace millwright::panels {
+namespace {
+
+using drivers::DriverState;
+using drivers::ToolChangeWay;
+using test::Person;
+using testing::HasSubstr;
+
+const std::string two_tools = "G21 G90 G94\nG0 Z5\nM3 S800\nG1 X5 F2000\nG0 Z6\nT3 M6 (6 mm end mill)\n"
+                              "G1 X9 F2000\nG0 Z8\nM30\n";
+
+class ToolChangeAtGrbl : public ::testing::TestWithParam<render::PixelSize> {
+protected:
+    ToolChangeAtGrbl() : person(GetParam()) { test::connect(person, grbl); }
+
+    void open(const std::string& program) {
+        write_file(person.folder() / "part.ngc", program);
+        person.open(person.folder() / "part.ngc");
+        person.wait_idle();
+        person.workshop().run("view.machine");
+        person.frames(3);
+    }
+    [[nodiscard]] drivers::DriverStatus status() { return person.workshop().look().controller.status; }
+    [[nodiscard]] bool waits() {
+        return actions::waits_for_tool(status()) && status().state == DriverState::holding;
+    }
+    [[nodiscard]] std::string name(const std::string& what) const {
+        return what + "-" + std::to_string(GetParam().width);
+    }
+
+    test::GrblBench grbl;
+    Person person;
+};
+
+TEST_P(ToolChangeAtGrbl, WaitsWhileThePersonJogsAndZeroesAndGoesOnWithContinue) {
+    open(two_tools);
+    person.workshop().session().hand.tool_changes[grbl.port()].plan.spin_up = 0.0;
+    test::press_run(person);
+    ASSERT_TRUE(person.live_until([this] { return waits(); }));
+    EXPECT_TRUE(person.sees("inspector/job/tool_change"));
+    EXPECT_THAT(status().message, HasSubstr("change to tool 3 at line 6: M6 (6 mm end mill)"));
+    person.keep(name("tool-change-waits"));
+    person.workshop().session().hand.step = 10.0;
+    person.frames(2);
+    for (const char* button : {"hand/jog/minus_X", "hand/jog/minus_Z", "hand/position/zero_Z"}) {
+        ASSERT_TRUE(person.sees(button)) << button;
+        EXPECT_EQ(person.refusal(button), "") << button;
+    }
+    person.click("hand/jog/minus_X");
+    ASSERT_TRUE(person.live_until([this] { return waits() && grbl.position()[0] < -4.9; }));
+    person.click("hand/jog/minus_Z");
+    ASSERT_TRUE(person.live_until([this] { return waits() && grbl.position()[2] < -3.9; }));
+    person.click("hand/position/zero_Z");
+    ASSERT_TRUE(person.live_until([this] { return waits() && status().work_offset[2] < -3.9; }));
+    EXPECT_TRUE(person.workshop().look().job.running);
+    person.click("inspector/job/machine_resume");
+    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().job.outcome.has_value(); }, 60.0));
+    EXPECT_EQ(person.workshop().look().job.outcome->end, jobs::JobEnd::done)
+        << person.workshop().look().job.outcome->sentence;
+    EXPECT_NEAR(grbl.position()[2], 4.0, 0.01); // Z8 from the new zero
+    EXPECT_FALSE(person.sees("inspector/job/tool_change"));
+}
+
+TEST_P(ToolChangeAtGrbl, StopEndsTheJobThatWaits) {
+    open(two_tools);
+    test::press_run(person);
+    ASSERT_TRUE(person.live_until([this] { return waits(); }));
+    const auto there = grbl.position();
+    person.click("inspector/job/machine_stop");
+    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().job.outcome.has_value(); }));
+    EXPECT_EQ(person.workshop().look().job.outcome->end, jobs::JobEnd::stopped);
+    EXPECT_EQ(person.workshop().look().job.outcome->executed_blocks, 5);
+    EXPECT_EQ(grbl.position(), there);
+}
+
+TEST_P(ToolChangeAtGrbl, AProgramIsRefusedWhereThatIsChosen) {
+    open(two_tools);
+    const std::string way = "inspector/tool_changes/way";
+    person.bring_into_sight(way);
+    person.choose(way, "none");
+    person.click("inspector/job/machine_run");
+    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().start_check != nullptr; }));
+    person.frames(3);
+    EXPECT_THAT(person.refusal("dialogs/start/start_go"), HasSubstr("error 20"));
+}
+
+TEST_P(ToolChangeAtGrbl, TheSensorHasItsFieldsAndIsCheckedBefore) {
+    open(two_tools);
+    const std::string way = "inspector/tool_changes/way";
+    person.bring_into_sight(way);
+    person.choose(way, "probe");
+    person.fill_in("inspector/tool_changes/sensor_x", "-12.5");
+    person.fill_in("inspector/tool_changes/deepest_z", "-40");
+    person.bring_into_sight("inspector/tool_changes/sensor_feed");
+    person.keep(name("tool-change-sensor"));
+    const auto& kept = person.workshop().session().hand.tool_changes.at(grbl.port());
+    EXPECT_EQ(kept.plan.way, ToolChangeWay::probe);
+    EXPECT_EQ(kept.plan.sensor.x, -12.5);
+    EXPECT_EQ(kept.plan.sensor.deepest_z, -40.0);
+    person.click("inspector/job/machine_run");
+    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().start_check != nullptr; }));
+    person.frames(3);
+    EXPECT_NE(person.refusal("dialogs/start/start_go"), "");
+    EXPECT_THAT(person.workshop().look().start_check->tool,
+                HasSubstr("The tool with which the zero of Z was set has to be in the spindle"));
+    const auto faults = person.workshop().look().start_check->faults;
+    EXPECT_TRUE(std::ranges::any_of(faults, [](const Diagnostic& fault) {
+        return fault.message.find("needs a machine that homes") != std::string::npos;
+    }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Windows,
+                         ToolChangeAtGrbl,
+                         ::testing::Values(render::PixelSize{1280, 800}, render::PixelSize{1024, 700}));
+
+TEST(ToolChangeSettings, AreKeptForEachPort) {
+    actions::Session session;
+    actions::ToolChangeSettings settings;
+    settings.here = false;
+    settings.plan = {.way = ToolChangeWay::macro,
+                     .spin_up = 1.5,
+                     .sensor = {.x = -1.25, .y = 2.0, .travel_z = -3.0, .deepest_z = -44.0, .feed = 150.0},
+                     .macro_file = "/home/me/my lines.nc"};
+    session.hand.tool_changes["/dev/ttyUSB0"] = settings;
+    session.hand.tool_changes["tcp:cnc:23"].plan.way = ToolChangeWay::probe;
+    const auto kept = actions::kept_of(session, {});
+    actions::Session again;
+    EXPECT_THAT(actions::restore(again, kept), testing::IsEmpty());
+    EXPECT_EQ(again.hand.tool_changes, session.hand.tool_changes);
+    EXPECT_EQ(actions::restore(again, {{"tool_change.x", "here stop nan 0 0 0 0 0 "}}).size(), 1u);
+    EXPECT_FALSE(actions::tool_changes_of("sometimes stop 3 0 0 0 0 200 "));
+}
+
+} // namespace
+} // namespace millwright::panels

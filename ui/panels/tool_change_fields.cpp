@@ -1,0 +1,156 @@
+#include "ui/panels/tool_change_fields.h"
+
+#include "ui/actions/tool_changes.h"
+#include "ui/panels/internal/fields.h"
+#include "ui/panels/internal/hand_fields.h"
+#include "ui/widgets/notices.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+namespace millwright::panels {
+
+namespace {
+
+using actions::ToolChangeSettings;
+using drivers::ToolChangeWay;
+using drivers::ToolSensor;
+
+constexpr std::array<widgets::Option, 4> way_options{
+    {{"none", "Refuse the program", {}, "Nothing of a program with M6 is sent"},
+     {"stop", "Stop and wait", {}, "You change the tool and set its zero, then it goes on"},
+     {"probe", "Measure at a sensor", {}, "The same, and the length is measured at a fixed sensor"},
+     {"macro", "Lines of a file", {}, "The same, and then the lines of a file are sent"}}};
+
+void set(ActionQueue& ask, const Workbench& now, ToolChangeSettings settings) {
+    ask.show([address = now.controller.choice.address, settings = std::move(settings)](
+                 actions::Session& session) { session.hand.tool_changes[address] = settings; });
+}
+
+struct SensorField {
+    std::string_view id, label, unit, tip;
+    double ToolSensor::*value;
+    double least, most;
+};
+
+constexpr std::array<SensorField, 5> sensor_fields{
+    {{"sensor_x", "Sensor X", "mm", "Machine coordinates", &ToolSensor::x, -1e5, 1e5},
+     {"sensor_y", "Sensor Y", "mm", "Machine coordinates", &ToolSensor::y, -1e5, 1e5},
+     {"travel_z",
+      "Travel at Z",
+      "mm",
+      "Machine coordinates: at this height the longest tool goes anywhere",
+      &ToolSensor::travel_z,
+      -1e5,
+      1e5},
+     {"deepest_z",
+      "Search down to Z",
+      "mm",
+      "Machine coordinates: the search ends there with an alarm",
+      &ToolSensor::deepest_z,
+      -1e5,
+      1e5},
+     {"sensor_feed",
+      "Search at",
+      "mm/min",
+      "Of the first touch; the second goes a fifth as fast",
+      &ToolSensor::feed,
+      1.0,
+      5000.0}}};
+
+void draw_sensor(Ui& ui, const Workbench& now, ActionQueue& ask, const ToolChangeSettings& settings) {
+    for (const SensorField& field : sensor_fields) {
+        const widgets::FieldInfo info{field.id,
+                                      field.label,
+                                      field.unit,
+                                      field.tip,
+                                      field.least,
+                                      field.most,
+                                      no_default,
+                                      field.unit == "mm" ? 3 : 0};
+        if (const auto value = ui.number(settings.plan.sensor.*field.value, info)) {
+            ToolChangeSettings changed = settings;
+            changed.plan.sensor.*field.value = *value;
+            set(ask, now, changed);
+        }
+    }
+}
+
+} // namespace
+
+void tool_change_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    if (!now.controller.connected() || !now.controller.can.tool_changes) {
+        return;
+    }
+    const auto section = ui.section("tool_changes", "Tool changes");
+    if (!section) {
+        return;
+    }
+    const ToolChangeSettings settings = actions::tool_change_settings(now.session.hand, now.controller);
+    const bool here = actions::tool_change_plan(now.session.hand, now.controller).has_value();
+    const int way = here ? 1 + static_cast<int>(settings.plan.way) : 0;
+    if (const auto chosen = ui.choice("way", "At M6", way, way_options, "What happens at a tool change")) {
+        ToolChangeSettings changed = settings;
+        changed.here = *chosen > 0;
+        changed.plan.way = *chosen > 0 ? static_cast<ToolChangeWay>(*chosen - 1) : changed.plan.way;
+        set(ask, now, changed);
+    }
+    if (!here) {
+        return;
+    }
+    const widgets::FieldInfo spin_up{"spin_up",
+                                     "Spin-up time",
+                                     "s",
+                                     "The spindle needs it to come to its speed before the tool goes down",
+                                     0.0,
+                                     600.0,
+                                     no_default,
+                                     1};
+    if (const auto value = ui.number(settings.plan.spin_up, spin_up)) {
+        ToolChangeSettings changed = settings;
+        changed.plan.spin_up = *value;
+        set(ask, now, changed);
+    }
+    if (settings.plan.way == ToolChangeWay::probe) {
+        draw_sensor(ui, now, ask, settings);
+    } else if (settings.plan.way == ToolChangeWay::macro) {
+        if (const auto file = ui.text_field("macro",
+                                            "File",
+                                            settings.plan.macro_file,
+                                            "G-code that is sent after the tool was changed")) {
+            ToolChangeSettings changed = settings;
+            changed.plan.macro_file = *file;
+            set(ask, now, changed);
+        }
+    }
+}
+
+namespace {
+
+std::string_view what_a_person_can_do(const drivers::ToolChangeStatus& change) {
+    return change.held ? "Resume ends the hold."
+           : change.keeps_zero
+               ? "Change the tool. Continue measures it, goes up first, then back."
+               : "Jog, and set the zero of Z. On Continue the way back, if there is one, goes up first.";
+}
+
+} // namespace
+
+bool tool_change_banner(Ui& ui, const Workbench& now) {
+    const drivers::DriverStatus& status = now.controller.status;
+    if (!now.job.running || !actions::waits_for_tool(status)) {
+        return false;
+    }
+    const std::string why = status.message.empty() ? "The job waits for another tool." : status.message;
+    (void)widgets::banner(
+        ui,
+        "tool_change",
+        {widgets::Severity::warning,
+         fmt::format("The job waits: {}. {}", why, what_a_person_can_do(*status.tool_change)),
+         {}});
+    return true;
+}
+
+} // namespace millwright::panels
