@@ -268,13 +268,9 @@ void take_diameter_of_comments(const std::string& file, StrokeCutting& cutting) 
             tool->line,
             shortest(tool->diameter));
     } else if (!tools.empty()) {
-        fmt::print(
-            stderr,
-            "millwright: {}:{}: comments name tools of several diameters, and none is taken: the cutter "
-            "has {} mm (--tool-diameter)\n",
-            file,
-            tools.back().line,
-            shortest(cutting.plan.tool_diameter));
+        throw Error(Diagnostic{{file, tools.back().line, 0, -1},
+                               "comments name tools of several diameters, and one cutter is used here",
+                               "give its diameter (--tool-diameter), or one program for each tool"});
     }
 }
 

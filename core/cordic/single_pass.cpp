@@ -28,18 +28,18 @@ const char* unit_of(CoordinateSystem m) {
     return m == CoordinateSystem::linear ? "" : " rad";
 }
 
-void refuse_rotation(const Sequence& sequence, const Decimal& z, double range) {
+void refuse_rotation(const Sequence& sequence, const PassInput& input, double range) {
     throw Error(fmt::format("z = {}{} is outside the convergence range: |z| <= {:.5f}{} with {} {} steps",
-                            z.nearest_double(),
+                            input.z.nearest_double(),
                             unit_of(sequence.m),
                             rounded_inwards(range),
                             unit_of(sequence.m),
                             sequence.step_count,
                             to_text(sequence.m)),
                 {},
-                sequence.m == CoordinateSystem::circular
-                    ? "quarter turns taken out of the angle bring it inside"
-                    : "");
+                sequence.m != CoordinateSystem::circular ? ""
+                : input.folds ? "folding leaves z as it is: take the quarter turns out of it"
+                              : "quarter turns taken out of the angle bring it inside");
 }
 
 void refuse_vectoring(const Sequence& sequence, const PassInput& input) {
@@ -149,7 +149,7 @@ void refuse_unreached(const Kernel<Arithmetic>& kernel,
     internal::refuse_vanished(format, input.x, input.y, direction != Reach::zero_vector);
     if (input.mode == Mode::rotation) {
         if (kernel.reach_of_rotation(v.z) != Reach::inside) {
-            refuse_rotation(sequence, input.z, kernel.rotation_range());
+            refuse_rotation(sequence, input, kernel.rotation_range());
         }
         return;
     }

@@ -176,8 +176,8 @@ std::optional<WrittenLength> size_of_tool_in(std::string_view comment) {
     return std::nullopt;
 }
 
-/// Behind `D=`, `DIA`, `DIA.`, `DIAMETER` and what separates it from the number, or second of an APT record.
-/// `DIA. OFF. - 1` is a number of a register.
+/// Behind `D=`, `DIA`, `DIA.`, `DIA. OF`, `DIAMETER` and what separates it from the number, or second of an
+/// APT record. `DIA. OFF. - 1` is a number of a register.
 std::optional<WrittenLength> diameter_in(std::string_view comment) {
     constexpr std::string_view apt = "TOOL/MILL,";
     if (const auto at = comment.find(apt); at != std::string_view::npos) {
@@ -191,6 +191,9 @@ std::optional<WrittenLength> diameter_in(std::string_view comment) {
                 continue;
             }
             rest = without_first(rest, "=:- \t");
+            if (word != "D" && rest.starts_with("OF ")) { // TOOL DIA. OF 8.0 MM
+                rest = without_first(rest.substr(2), " \t");
+            }
             if (const auto length = length_at(rest)) {
                 return length;
             }

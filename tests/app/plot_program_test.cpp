@@ -274,6 +274,10 @@ TEST(ProgramsAsPlots, TheToolIsAsWideAsACommentSays) {
     };
     EXPECT_THAT(made({}), HasSubstr("cam.nc:1: a comment says the tool is 4 mm wide"));
     EXPECT_THAT(made({"--tool-diameter", "3"}), Not(HasSubstr("a comment says")));
+    write_content(folder / "cam.nc",
+                  "(T1 D=4.)\n(T2 D=6.)\nG21 G90\nT1 M6\nG0 X10 Y10 Z5\nG1 Z-1 F100\nX30\nT2 M6\nX50\nM30\n");
+    EXPECT_THAT(made({}), HasSubstr("cam.nc:2: comments name tools of several diameters"));
+    EXPECT_THAT(made({"--tool-diameter", "3"}), Not(HasSubstr("several diameters")));
 }
 
 } // namespace

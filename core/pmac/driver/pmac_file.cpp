@@ -108,9 +108,13 @@ public:
         const auto setting = setting_of(tight);
         if (!sets_something(tight)) {
             ++result_.left_out;
-            omit(line,
-                 fmt::format("{} is left out: it sets nothing", text),
-                 "a file of settings moves no motor");
+            if (tight.find_first_not_of("0123456789.+-") == std::string::npos) {
+                omit(line, fmt::format("{} is left out: a number alone sets P0", text), "write P0=" + text);
+            } else {
+                omit(line,
+                     fmt::format("{} is left out: it sets nothing", text),
+                     "a file of settings moves no motor");
+            }
             return;
         }
         if (setting) {

@@ -19,6 +19,7 @@ TEST(ToolComments, AreReadAsCamProgramsWriteThem) {
     EXPECT_EQ(only("%\n(1001)\n(T1 D=6. CR=0. - ZMIN=-3. - FLAT END MILL)\nG21\n"), (CommentTool{1, 6.0, 3}));
     EXPECT_EQ(only("(TOOL - 12 DIA. OFF. - 12 LEN. - 12 DIA. - 20.)\nG21\n"), (CommentTool{12, 20.0, 1}));
     EXPECT_EQ(only("( TOOL DIA. = 6 )\n"), (CommentTool{std::nullopt, 6.0, 1}));
+    EXPECT_EQ(only("(TOOL DIA. OF 8.0 MM)\n"), (CommentTool{std::nullopt, 8.0, 1}));
     EXPECT_EQ(only("(Tool 2, diameter: 3.175 mm)\n"), (CommentTool{2, 3.175, 1}));
     EXPECT_EQ(only("; tool #3 dia 0.5 in\nG21\n"), (CommentTool{3, 12.7, 1}));
     EXPECT_EQ(only("(TOOL/MILL,3.175, 0.0, 0.000, 0.00)\n"), (CommentTool{std::nullopt, 3.175, 1}));

@@ -189,7 +189,7 @@ int PmacSession::command(const std::vector<std::string>& typed, bool all) {
                                typed_.kept().front(),
                                count,
                                count == 1 ? "line is" : "lines are")};
-        tell(false, drivers::ConsoleKind::report, answer_.text);
+        tell(false, drivers::ConsoleKind::message, typed.back() + ": not sent yet; " + answer_.text);
         return answer_.number;
     }
     const std::vector<std::string> lines = all ? typed : typed_.completed(typed);

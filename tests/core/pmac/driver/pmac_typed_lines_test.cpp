@@ -46,6 +46,10 @@ TEST(PmacTypedLines, FillABufferLineByLine) {
     EXPECT_EQ(ask("OPEN PLC 5").text, "OPEN PLC 5: 0 lines are kept until CLOSE");
     (void)ask("CLEAR");
     EXPECT_EQ(ask("P20=P20+1").text, "OPEN PLC 5: 2 lines are kept until CLOSE");
+    const std::vector<drivers::ConsoleLine> shown = wire.session.take_console();
+    ASSERT_FALSE(shown.empty());
+    EXPECT_EQ(shown.back().text, "P20=P20+1: not sent yet; OPEN PLC 5: 2 lines are kept until CLOSE");
+    EXPECT_EQ(shown.back().kind, drivers::ConsoleKind::message); // shown with the status reports off, too
     EXPECT_EQ(ask("#1P").text, "0") << "a question is answered at once";
     EXPECT_NE(refusal([&] { (void)wire.session.command({"I5=0"}, false); }), "");
     EXPECT_EQ(ask("LIST PLC 5").text, "OPEN PLC 5: 3 lines are kept until CLOSE");
