@@ -79,11 +79,11 @@ struct TriedWith {
     std::string_view module, later;
 };
 constexpr std::array tried_with = {
-    TriedWith{"millwright::motion", "millwright::gcode"},     // programs that are read
-    TriedWith{"millwright::drivers", "millwright::jobs"},     // what they are sent
+    TriedWith{"millwright::motion", "millwright::gcode"}, // programs that are read
+    TriedWith{"millwright::drivers", "millwright::jobs"}, // what they are sent
     TriedWith{"millwright::drivers", "millwright::emulators"},
     TriedWith{"millwright::jobs", "millwright::emulators"},
-    TriedWith{"millwright::emulators", "millwright::posts"},  // programs that are written
+    TriedWith{"millwright::emulators", "millwright::posts"}, // programs that are written
     TriedWith{"millwright::cordic_machine", "millwright::jobs"},
 };
 

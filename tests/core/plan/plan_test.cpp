@@ -315,7 +315,8 @@ TEST(Plan, OfTheThesissMachineUsesItsConstants) {
         (void)workpiece_of(project, {{}, "assets"});
         ADD_FAILURE() << "the A-on-C table has no AB";
     } catch (const Error& fault) {
-        EXPECT_THAT(to_text(fault.diagnostic()), testing::HasSubstr("machine/tool_set: machine 'A-on-C table'"));
+        EXPECT_THAT(to_text(fault.diagnostic()),
+                    testing::HasSubstr("machine/tool_set: machine 'A-on-C table'"));
     }
 }
 
