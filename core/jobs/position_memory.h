@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <string>
 
-namespace millwright::jobs {
-
+namespace millwright::drivers {
 class Driver;
 struct DriverStatus;
+} // namespace millwright::drivers
+
+namespace millwright::jobs {
 
 /// Of one controller. Nothing is on disk unless something is in doubt, or a program or a command runs: if the
 /// controller is found reset after a broken link, or after Millwright was killed, it was cut off in motion.
