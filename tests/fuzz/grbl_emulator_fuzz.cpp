@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using millwright::expects;
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    millwright::machine::GrblEmulator grbl(
+    millwright::emulators::GrblEmulator grbl(
         {.surface = [](double x, double y) { return -5.0 + 0.1 * (x - y); }});
     constexpr std::size_t piece = 24;
     for (std::size_t at = 0; at < bytes.size(); at += piece) {

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using millwright::expects;
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    millwright::machine::PmacEmulator card;
+    millwright::pmac::PmacEmulator card;
     card.receive("#1->120X\r#1J/\rI5=3\rOPEN PROG 1\r");
     constexpr std::size_t piece = 24;
     for (std::size_t at = 0; at < bytes.size(); at += piece) {

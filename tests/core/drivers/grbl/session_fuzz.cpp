@@ -10,10 +10,10 @@
 namespace {
 
 using millwright::expects;
-using namespace millwright::machine;
+namespace drivers = millwright::drivers;
 
-millwright::gcode::Listing program() {
-    millwright::gcode::Listing listing;
+millwright::program::Listing program() {
+    millwright::program::Listing listing;
     listing.text = "G1X1F100\nX2\nX3\nM30\n";
     listing.line_of_block = {1, 2, 3, 4};
     listing.line_starts = {0, 9, 12, 15, 19};

@@ -11,7 +11,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace millwright::machine;
+    namespace drivers = millwright::drivers;
+    namespace jobs = millwright::jobs;
     using millwright::expects;
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     drivers::linuxcnc::ShellSession session;

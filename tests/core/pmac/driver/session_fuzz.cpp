@@ -12,7 +12,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace millwright;
-    using namespace millwright::machine;
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     pmac::internal::PmacSession session(pmac::arm_settings());
     double now = 0.0;
