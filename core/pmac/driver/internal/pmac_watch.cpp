@@ -161,7 +161,7 @@ void PmacSession::watch_own_stop() {
     });
     if ((commands || rests()) && lost_power) {
         fail("the card took the power of its motors: " + unheard());
-    } else if (stage_ == Stage::astir && !only_set_) {
+    } else if (stage_ == Stage::astir && !only_set_ && any_power()) {
         const std::string why = unheard();
         halt();
         message_ = "the card stopped its motors: " + why;
