@@ -147,12 +147,16 @@ void Controller::expect_axes() const {
 void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     using drivers::DriverState;
     using drivers::DriverStatus;
+    const bool homing_unlocks = choice_.home && choice_.driver == "grbl";
+    if (driver_->status().state == DriverState::alarm && !homing_unlocks) {
+        expect_unlock(); // before a person is asked anything
+    }
     if (!choice_.home && !choice_.check_only) { // nothing moves in a check
         settle_position(at_a_line, stop);
     }
-    const bool homing_unlocks = choice_.home && choice_.driver == "grbl";
     if (driver_->status().state == DriverState::alarm && !homing_unlocks) {
-        unlock();
+        expect_unlock(); // it may have come up since
+        driver_->reset();
     }
     if (choice_.power) {
         driver_->enable();
@@ -182,15 +186,20 @@ void Controller::wait_for(const std::function<bool(const drivers::DriverStatus&)
     }
 }
 
-void Controller::unlock() {
+/// Throws Error unless a locked machine can and may be unlocked.
+void Controller::expect_unlock() const {
     const drivers::DriverStatus status = driver_->status();
     if (status.link_lost) {
         throw Error(status.message);
     }
     if (!choice_.unlock) { // its position may be lost
-        throw Error(status.message, {}, "look at the machine; --unlock goes on from where it stands");
+        throw Error(
+            status.message,
+            {},
+            choice_.driver == "grbl"
+                ? "look at the machine; then --home homes it, and --unlock goes on from where it stands"
+                : "look at the machine; --unlock goes on from where it stands");
     }
-    driver_->reset();
 }
 
 void Controller::say_who_is_there() const {

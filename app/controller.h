@@ -87,7 +87,7 @@ private:
     void expect_axes() const;
     void prepare(bool at_a_line, const std::stop_token& stop);
     void wait_for(const std::function<bool(const drivers::DriverStatus&)>& done, const std::stop_token& stop);
-    void unlock();
+    void expect_unlock() const;
     void settle_position(bool at_a_line, const std::stop_token& stop);
     void ask_whether_position_is_right(const std::string& why, const std::stop_token& stop);
     void say_who_is_there() const;

@@ -94,6 +94,24 @@ private:
     std::vector<std::pair<fs::path, fs::path>> names_;
 };
 
+/// Files in `folder` of older sets of the same kind, but for those with which a file of `set` was written as
+/// it is.
+std::vector<fs::path> unfitting_of_kind(const fs::path& folder,
+                                        const OutputSet& set,
+                                        const std::vector<fs::path>& places,
+                                        const WrittenFiles& written) {
+    std::vector<fs::path> found = written.of_kind(set.kind, folder);
+    std::set<fs::path> fitting;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        if (written.had_bytes(places[n], set.files[n].bytes)) {
+            const std::vector<fs::path> with = written.written_with(places[n]);
+            fitting.insert(with.begin(), with.end());
+        }
+    }
+    std::erase_if(found, [&](const fs::path& file) { return fitting.contains(file); });
+    return found;
+}
+
 /// Files of other sets that would no longer fit what is in the folder once `set` is written there, and those
 /// that are to be absent.
 std::set<fs::path> unfitting(const fs::path& folder,
@@ -110,6 +128,9 @@ std::set<fs::path> unfitting(const fs::path& folder,
         if (written.had_other_bytes(places[n], set.files[n].bytes)) {
             add_rest(places[n]);
         }
+    }
+    for (fs::path& other : unfitting_of_kind(folder, set, places, written)) {
+        found.insert(std::move(other));
     }
     for (const std::string& name : set.absent) {
         std::error_code missing;
@@ -228,7 +249,7 @@ void write_outputs(const fs::path& typed, const OutputSet& set, const fs::path& 
     for (const fs::path& other : others) {
         take_away(other, written);
     }
-    written.add_set(places);
+    written.add_set(places, set.kind);
 }
 
 } // namespace millwright::app

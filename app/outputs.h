@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::app {
@@ -38,14 +39,20 @@ struct OutputSet {
     std::vector<OutputFile> files;
     std::vector<std::string>
         absent{}; ///< names that would be taken for its own, and are not written this time
+    /// A folder has one set of each kind; empty: the set is of none.
+    std::string kind{};
 };
+
+/// Of sets that are about one program.
+inline constexpr std::string_view program_kind = "program";
 
 /// Writes all beside their places first and exchanges them then, while no other program of ours does so in
 /// this folder. A file there that is not as a command wrote it last gets another name, and that is said on
 /// standard error. Where a file of another set is replaced by other bytes or is to be absent, the rest of
-/// that set is taken away, which is said, too: a folder never has the program of one command and the report
-/// of another. Throws Error, also where one of them would replace `source`, a file that they were made from,
-/// or one that the user may not write; what was there before then stays.
+/// that set is taken away, which is said, too, and so is all of an older set of the same kind that shares no
+/// file with the new one: a folder never has the program of one command and the report of another. Throws
+/// Error, also where one of them would replace `source`, a file that they were made from, or one that the
+/// user may not write; what was there before then stays.
 void write_outputs(const std::filesystem::path& folder,
                    const OutputSet& set,
                    const std::filesystem::path& source = {});

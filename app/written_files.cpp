@@ -63,8 +63,11 @@ WrittenFiles::Entries WrittenFiles::read_entries(const fs::path& place) {
     try {
         const JsonValue json = JsonValue::read(place);
         for (const JsonValue& entry : json.items()) {
-            const auto set = entry.find("set");
-            found[entry.at("file").text()] = {entry.at("hash").text(), set ? set->text() : std::string()};
+            const auto text_of = [&entry](const char* name) {
+                const auto value = entry.find(name);
+                return value ? value->text() : std::string();
+            };
+            found[entry.at("file").text()] = {entry.at("hash").text(), text_of("set"), text_of("kind")};
         }
     } catch (const std::exception&) {
         found.clear();
@@ -92,6 +95,26 @@ bool WrittenFiles::had_other_bytes(const fs::path& file, std::string_view bytes)
     return found != entries_.end() && jobs::program_hash(bytes) != found->second.hash;
 }
 
+bool WrittenFiles::had_bytes(const fs::path& file, std::string_view bytes) const {
+    const auto found = entries_.find(lasting_path(file));
+    return found != entries_.end() && jobs::program_hash(bytes) == found->second.hash;
+}
+
+std::vector<fs::path> WrittenFiles::of_kind(std::string_view kind, const fs::path& folder) const {
+    std::vector<fs::path> found;
+    std::error_code failure;
+    const fs::path whole = fs::canonical(folder, failure);
+    if (kind.empty() || failure) {
+        return found;
+    }
+    for (const auto& [name, entry] : entries_) {
+        if (entry.kind == kind && fs::path(name).parent_path() == whole) {
+            found.emplace_back(name);
+        }
+    }
+    return found;
+}
+
 std::vector<fs::path> WrittenFiles::written_with(const fs::path& file) const {
     std::vector<fs::path> others;
     const auto found = entries_.find(lasting_path(file));
@@ -116,14 +139,14 @@ bool WrittenFiles::same_bytes(const fs::path& a, const fs::path& b) {
 }
 
 void WrittenFiles::add(const std::vector<fs::path>& files) {
-    add(files, false);
+    add(files, false, {});
 }
 
-void WrittenFiles::add_set(const std::vector<fs::path>& files) {
-    add(files, true);
+void WrittenFiles::add_set(const std::vector<fs::path>& files, const std::string& kind) {
+    add(files, true, kind);
 }
 
-void WrittenFiles::add(const std::vector<fs::path>& files, bool together) {
+void WrittenFiles::add(const std::vector<fs::path>& files, bool together, const std::string& kind) {
     if (place_.empty()) {
         return;
     }
@@ -131,7 +154,7 @@ void WrittenFiles::add(const std::vector<fs::path>& files, bool together) {
         make_folder(place_.parent_path());
         const WrittenLock lock(place_);
         entries_ = read_entries(place_); // another command may have added some meanwhile
-        put(files, together);
+        put(files, together, kind);
         std::erase_if(entries_, [](const auto& entry) {
             std::error_code unknown;
             return !fs::exists(entry.first, unknown);
@@ -145,7 +168,7 @@ void WrittenFiles::add(const std::vector<fs::path>& files, bool together) {
     }
 }
 
-void WrittenFiles::put(const std::vector<fs::path>& files, bool together) {
+void WrittenFiles::put(const std::vector<fs::path>& files, bool together, const std::string& kind) {
     Entries added;
     std::set<std::string> joined; // earlier sets that go on in this one
     std::string identity;
@@ -158,6 +181,7 @@ void WrittenFiles::put(const std::vector<fs::path>& files, bool together) {
         const auto before = entries_.find(name);
         if (before != entries_.end() && before->second.hash == entry.hash && !before->second.set.empty()) {
             entry.set = before->second.set;
+            entry.kind = before->second.kind;
             joined.insert(entry.set);
         }
         identity += name + "\n" + entry.hash + "\n";
@@ -171,6 +195,7 @@ void WrittenFiles::put(const std::vector<fs::path>& files, bool together) {
     }
     for (auto& [name, entry] : added) {
         entry.set = together ? set : entry.set;
+        entry.kind = together ? kind : entry.kind;
         entries_[name] = std::move(entry);
     }
 }
@@ -181,6 +206,9 @@ void WrittenFiles::write() const {
         nlohmann::ordered_json row{{"file", name}, {"hash", entry.hash}};
         if (!entry.set.empty()) {
             row["set"] = entry.set;
+        }
+        if (!entry.kind.empty()) {
+            row["kind"] = entry.kind;
         }
         json.push_back(std::move(row));
     }

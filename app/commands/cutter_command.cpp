@@ -118,7 +118,9 @@ int cut(const CutterOptions& options) {
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
     OutputSet set{{{"cut.json", plan::cut_report_text(project, plan)},
-                   {"surface.csv", plan::surface_csv(*plan.workpiece, plan.cut->swept)}}};
+                   {"surface.csv", plan::surface_csv(*plan.workpiece, plan.cut->swept)}},
+                  {},
+                  std::string(program_kind)};
     if (writes) {
         set.files.push_back({program, text.text.listing.text});
     } else { // an older one would be taken for it

@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
+#include <system_error>
 
 namespace millwright::app {
 
@@ -111,7 +113,17 @@ void show(const jobs::JobStory& story, std::set<std::string>& told) {
     }
 }
 
+/// Throws Error for what is no folder. One that is missing has no logs yet.
+void expect_folder(const std::filesystem::path& folder) {
+    std::error_code missing;
+    const auto status = std::filesystem::status(folder, missing);
+    if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) {
+        throw Error("is no folder", folder, "name the folder of the job logs");
+    }
+}
+
 int list_jobs(const JobsOptions& options) {
+    expect_folder(options.folder);
     const jobs::JobFolder folder = jobs::read_job_folder(options.folder);
     for (const Diagnostic& diagnostic : folder.unreadable) {
         fmt::print(stderr, "millwright: {}\n", to_text(diagnostic));

@@ -254,7 +254,7 @@ int plan(const PlanOptions& options) {
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
-    OutputSet set{{{"report.json", plan::report_text(opened.project, plan)}}};
+    OutputSet set{{{"report.json", plan::report_text(opened.project, plan)}}, {}, std::string(program_kind)};
     const auto add = [&set](const std::string& name, std::optional<std::string> bytes) {
         if (bytes) {
             set.files.push_back({name, std::move(*bytes)});

@@ -28,8 +28,7 @@ void throw_first_with_count(std::vector<Diagnostic> faults) {
         return;
     }
     if (faults.size() > 1) {
-        faults.front().hint +=
-            fmt::format("{}and {} more", faults.front().hint.empty() ? "" : "; ", faults.size() - 1);
+        faults.front().message += fmt::format("; and {} more", faults.size() - 1);
     }
     throw Error(std::move(faults.front()));
 }
@@ -123,13 +122,27 @@ public:
     void log_failure(const std::string& why) noexcept {
         try {
             remember(dispatcher_.driver_.status());
-            LogRecord end = record(LogEvent::end, elapsed(), last_);
-            end.end = JobEnd::fault;
-            end.text = with_full_stop("The job was broken off: " + why);
-            log_->write(end);
+            write_end(with_full_stop("The job was broken off: " + why));
         } catch (const std::exception&) {
             // The failure itself is on its way to the user, and a log without an end promises nothing.
         }
+    }
+
+    /// The same for a log that took no more lines; what there is to say of it. The machine is at rest.
+    [[nodiscard]] Diagnostic log_lost(const std::string& reason) {
+        remember(dispatcher_.driver_.status());
+        const std::string why =
+            internal::log_lost_sentence(last_, blocks(), "its log cannot be written: " + reason);
+        const std::string done = internal::done_text(last_.executed_blocks, blocks(), able_.answers);
+        try {
+            LogRecord fault = record(LogEvent::fault, elapsed(), last_);
+            fault.text = why;
+            log_->write(fault);
+            write_end(with_clause(capitalised(why), done + "."));
+        } catch (const std::exception&) {
+            // The last line that it has stays right.
+        }
+        return {{file_}, with_clause(why, done), "look at the machine, and make room before the next job"};
     }
 
 private:
@@ -150,6 +163,13 @@ private:
     std::size_t own_lines_ = 0; ///< that are in the log
     bool cancelled_ = false;
     std::string waits_for_; ///< a person, and why; empty: for nobody
+
+    void write_end(std::string text) {
+        LogRecord end = record(LogEvent::end, elapsed(), last_);
+        end.end = JobEnd::fault;
+        end.text = std::move(text);
+        log_->write(end);
+    }
 
     [[nodiscard]] double elapsed() const { return dispatcher_.clock_.now() - start_; }
     [[nodiscard]] int blocks() const { return job_.block_count(); }
@@ -376,6 +396,9 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
         }
         driver_.start(std::move(work));
         return watch.to_the_end(progress.part(planning, 1.0), listener);
+    } catch (const JobLogError& failure) {
+        bring_to_rest();
+        throw Error(watch.log_lost(failure.reason()));
     } catch (const std::exception& failure) {
         bring_to_rest();
         watch.log_failure(failure.what());

@@ -33,7 +33,8 @@ public:
     /// Runs the job to its end and returns how it ended; blocks, so call it from a thread that may wait.
     /// `listener` is called from that thread. Cancelling `progress` stops the machine. Throws Error before
     /// any motion if something is wrong with job, log folder or driver, or another job is running; if the log
-    /// cannot be written any more or the listener throws, stops the machine and passes that on. Reports
+    /// cannot be written any more or the listener throws, stops the machine, says so in the log if that takes
+    /// it, and throws Error with what was executed, or passes on what the listener threw. Reports
     /// JobEnd::done only if the driver executed every block.
     JobOutcome run(const Job& asked, const Progress& progress, const Listener& listener = {});
 

@@ -225,6 +225,9 @@ std::string_view to_text(LogEvent event) {
     return "unknown";
 }
 
+JobLogError::JobLogError(std::string reason, const fs::path& file)
+    : Error("cannot write the job log: " + reason, file), reason_(std::move(reason)) {}
+
 JobLog::JobLog(const fs::path& folder, const std::string& name) {
     make_folder(folder);
     const std::string stem = file_stem(name);
@@ -233,7 +236,7 @@ JobLog::JobLog(const fs::path& folder, const std::string& name) {
         file_ = folder / fmt::format("{}-{:04}.jsonl", stem, number);
         handle_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
         if (handle_ < 0 && errno != EEXIST) {
-            throw Error("cannot write the job log: " + reason(errno), file_);
+            throw JobLogError(reason(errno), file_);
         }
     }
     if (handle_ < 0) {
@@ -255,8 +258,13 @@ bool is_being_written(const fs::path& file) {
     return locked;
 }
 
-JobLog::~JobLog() { // which also ends the lock
-    ::close(handle_);
+JobLog::~JobLog() {
+    if (size_ == 0) {
+        ::unlink(file_.c_str());
+    } else if (room_ > size_) {
+        (void)::ftruncate(handle_, size_); // gives the room back
+    }
+    ::close(handle_); // which also ends the lock
 }
 
 void JobLog::write(const LogStart& start) {
@@ -297,7 +305,7 @@ void JobLog::write(const LogStart& start) {
     if (!start.answers) {
         line["answers"] = false;
     }
-    append(one_line(line));
+    append(one_line(line), false);
 }
 
 void JobLog::write(const LogRecord& record) {
@@ -325,18 +333,41 @@ void JobLog::write(const LogRecord& record) {
     if (!record.position_doubt.empty()) {
         line["position_doubt"] = record.position_doubt;
     }
-    append(one_line(line));
+    append(one_line(line), record.event == LogEvent::fault || record.event == LogEvent::end);
 }
 
-void JobLog::append(const std::string& line) {
+/// Throws JobLogError where the disk has no room for a file of `bytes`.
+void JobLog::keep_room(std::int64_t bytes) {
+    constexpr std::int64_t page = 4096;
+    const std::int64_t wanted = (bytes + page - 1) / page * page;
+    while (keeps_room_ && room_ < bytes) {
+        if (::fallocate(handle_, FALLOC_FL_KEEP_SIZE, room_, wanted - room_) == 0) {
+            room_ = wanted;
+        } else if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO) {
+            throw JobLogError(reason(errno), file_);
+        } else if (errno != EINTR) {
+            keeps_room_ = false;
+        }
+    }
+}
+
+/// `last`: it may take the room that was kept for it.
+void JobLog::append(const std::string& line, bool last) {
+    constexpr std::int64_t last_lines = 8192; // bytes
     const std::string bytes = line + "\n";
+    if (!last) {
+        keep_room(size_ + std::ssize(bytes) + last_lines);
+    }
     std::string_view rest = bytes;
     while (!rest.empty()) {
         const ssize_t written = ::write(handle_, rest.data(), rest.size());
         if (written < 0 && errno != EINTR) {
             const int why = errno;
-            (void)::ftruncate(handle_, size_); // where that fails, the line stays torn
-            throw Error("cannot write the job log: " + reason(why), file_);
+            if (rest.size() < bytes.size()) {
+                (void)::ftruncate(handle_, size_); // where that fails, the line stays torn
+                room_ = size_;
+            }
+            throw JobLogError(reason(why), file_);
         }
         rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, written)));
     }

@@ -65,12 +65,26 @@ struct LogRecord {
     friend bool operator==(const LogRecord&, const LogRecord&) = default;
 };
 
-/// A log being written. Used by one thread.
+/// The log cannot be written.
+class JobLogError : public Error {
+public:
+    /// `reason`: the system's.
+    JobLogError(std::string reason, const std::filesystem::path& file);
+
+    [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+
+private:
+    std::string reason_;
+};
+
+/// A log being written. Used by one thread. While other lines are written there is room on the disk for those
+/// of a fault and of the end, so that a full disk does not keep these out; not where the file system keeps no
+/// room.
 class JobLog {
 public:
     /// Makes a new file NAME-0001.jsonl (or the next free number) in `folder`, which is made where missing;
     /// everything in `name` but letters, digits, '-', '_' and '.' becomes '_'. Throws Error with the file and
-    /// the system's reason.
+    /// the system's reason. A log without a whole line is removed at the end.
     JobLog(const std::filesystem::path& folder, const std::string& name);
     JobLog(const JobLog&) = delete;
     JobLog& operator=(const JobLog&) = delete;
@@ -78,17 +92,20 @@ public:
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
-    /// Each appends one line, the start first. Throws Error if it did not get to the system whole; what did
-    /// is taken back, so that another line can follow.
+    /// Each appends one line, the start first. Throws JobLogError if it did not get to the system whole; what
+    /// did is taken back, so that another line can follow.
     void write(const LogStart& start);
     void write(const LogRecord& record);
 
 private:
-    void append(const std::string& line);
+    void append(const std::string& line, bool last);
+    void keep_room(std::int64_t bytes);
 
     std::filesystem::path file_;
     int handle_ = -1;
     std::int64_t size_ = 0; ///< bytes of whole lines
+    std::int64_t room_ = 0; ///< bytes of the file that the disk has room for; at least size_ where it is kept
+    bool keeps_room_ = true;
     std::vector<program::ProgramAxis> axes_;
     bool answers_ = true;
 };

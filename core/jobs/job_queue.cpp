@@ -243,7 +243,11 @@ JobOutcome JobQueue::run(QueuedJobId id, const std::function<JobOutcome(const Jo
         ended(outcome);
         return outcome;
     } catch (const std::exception& error) {
-        failed(error.what());
+        try {
+            failed(error.what());
+        } catch (const Error&) {
+            // On a full disk: then the file still says that it runs, which holds it the next time.
+        }
         throw;
     } catch (const Cancelled&) {
         failed("The job was cancelled before it began.");

@@ -247,6 +247,30 @@ TEST_F(KeptFiles, WhatNoLongerFitsAReplacedProgramIsTakenAway) {
     EXPECT_TRUE(fs::exists(out / "preview.png"));
 }
 
+// Of a program that gouges there are the other files alone, and none of them is replaced.
+TEST_F(KeptFiles, WhatIsLeftOfARefusedProgramIsTakenAwayByTheNextOne) {
+    const fs::path dome = small_project(scratch.path(), "dome");
+    const std::vector<std::string> cut{
+        "cutter", dome.string(), "--tool", "assets/tools/ball-6.json", "--out", out.string()};
+    constexpr int gouges = 3;
+    ASSERT_EQ(run(cut).exit_code, gouges);
+    ASSERT_TRUE(fs::exists(out / "cut.json"));
+    ASSERT_FALSE(fs::exists(out / "program.ngc"));
+    write_content(out / "notes.txt", "by hand");
+    const Ended planned = plan(small_project(scratch.path(), "two-bell"));
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+    EXPECT_THAT(planned.err, HasSubstr("cut.json: was of an earlier command"));
+    for (const char* const name : {"cut.json", "surface.csv"}) {
+        EXPECT_FALSE(fs::exists(out / name)) << name;
+    }
+    EXPECT_TRUE(fs::exists(out / "notes.txt"));
+    ASSERT_EQ(run(cut).exit_code, gouges); // and the other way round
+    for (const char* const name : {"report.json", "preview.png", "program.ngc"}) {
+        EXPECT_FALSE(fs::exists(out / name)) << name;
+    }
+    EXPECT_TRUE(fs::exists(out / "surface.csv"));
+}
+
 TEST_F(KeptFiles, FilesThatDescribeTheSameProgramStayTogether) {
     auto project = nlohmann::json::parse(content_of(small_project(scratch.path(), "dome")));
     project["tool"] = nlohmann::json::parse(content_of("assets/tools/ball-6.json")).at("tool");

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace millwright::jobs::internal {
 
 std::string done_text(int executed_blocks, int blocks, bool answers) {
@@ -47,6 +49,19 @@ std::string end_sentence(
                             : status.message.empty() ? "the program did not get to its end"
                                                      : status.message;
     return with_clause("Fault: " + why, executed + ".");
+}
+
+std::string log_lost_sentence(const drivers::DriverStatus& status, int blocks, const std::string& why) {
+    if (status.executed_blocks == blocks) {
+        return "the job came to its end, but " + why;
+    }
+    const int at = std::min(std::max(status.executed_blocks, status.block) + 1, blocks);
+    return status.state == drivers::DriverState::disconnected
+               ? fmt::format("the link was lost at block {} of {} while the job was stopped, since {}",
+                             at,
+                             blocks,
+                             why)
+               : fmt::format("the job was stopped at block {} of {}, since {}", at, blocks, why);
 }
 
 } // namespace millwright::jobs::internal

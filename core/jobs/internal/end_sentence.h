@@ -18,4 +18,9 @@ namespace millwright::jobs::internal {
 [[nodiscard]] std::string end_sentence(
     JobEnd end, const drivers::DriverStatus& status, const JobOutcome& outcome, int line, bool answers);
 
+/// Of a job that was stopped at `status` because of `why`, a clause: "the job was stopped at block 7 of 63,
+/// since ...".
+[[nodiscard]] std::string
+log_lost_sentence(const drivers::DriverStatus& status, int blocks, const std::string& why);
+
 } // namespace millwright::jobs::internal

@@ -10,7 +10,12 @@ SharedLog::SharedLog(JobLog& log, const Clock& clock, double start, int blocks, 
 
 void SharedLog::write(const LogRecord& record) {
     const std::scoped_lock lock(mutex_);
-    log_.write(record);
+    try {
+        log_.write(record);
+    } catch (...) {
+        failure_ = failure_ ? failure_ : std::current_exception();
+        throw;
+    }
     last_ = record;
 }
 

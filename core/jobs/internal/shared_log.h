@@ -16,7 +16,7 @@ public:
     /// the job; `before`: what is known before anything has happened.
     SharedLog(JobLog& log, const Clock& clock, double start, int blocks, LogRecord before);
 
-    /// Throws Error as JobLog::write() does.
+    /// Throws JobLogError as JobLog::write() does; then nothing more is allowed.
     void write(const LogRecord& record);
     /// Says in the log that blocks up to `wanted` may be sent, and as many more as are sent in a fiftieth of
     /// a second, so that a fast stream does not write a line for each block. How many may be sent: fewer than

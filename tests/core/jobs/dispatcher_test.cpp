@@ -289,7 +289,8 @@ TEST(Dispatcher, MovesNothingIfThePreflightFindsSomething) {
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("axis Y would go to 10000.000"));
-        EXPECT_THAT(error.what(), HasSubstr("and 1 more"));
+        EXPECT_THAT(error.what(), HasSubstr("; and 1 more"));
+        EXPECT_THAT(error.diagnostic().message, HasSubstr("; and 1 more")); // not in the advice
     }
     EXPECT_FALSE(std::filesystem::exists(bench.folder.path() / "logs"));
     EXPECT_EQ(bench.machine.status().state, drivers::DriverState::disconnected);

@@ -121,10 +121,9 @@ void Session::finish_asking(const StatusMessage& report) {
         message_ = name() + " is neither idle nor locked after its reset: the door is open, or it sleeps";
         return;
     }
-    message_ = !kept_lock_.empty() ? fmt::format("{} stays locked, {}", name(), kept_lock_)
-               : !found_alarm_.empty()
-                   ? fmt::format("{} is locked, {}", name(), found_alarm_)
-                   : name() + " is locked: home the machine, or reset to unlock it without moving";
+    message_ = !kept_lock_.empty()     ? fmt::format("{} stays locked, {}", name(), kept_lock_)
+               : !found_alarm_.empty() ? fmt::format("{} is locked, {}", name(), found_alarm_)
+                                       : name() + " is locked: home the machine, or unlock it without moving";
 }
 
 /// After the link was made: nobody knows what happened before.
