@@ -67,6 +67,8 @@ struct Move {
     double centre_1 = 0.0; ///< arc: along the plane's first axis
     double centre_2 = 0.0; ///< arc: along the plane's second axis
     double sweep = 0.0;    ///< arc: all of the turn, rad, > 0 counter-clockwise; at least hair_sweep
+    /// Straight, onto a path with cutter compensation: its end depends on where it begins in `plane`.
+    bool enters_compensation = false;
 };
 
 /// Arcs of less are taken as full turns, as LinuxCNC's motion does (posemath's CIRCLE_FUZZ), rad.
