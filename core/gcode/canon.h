@@ -95,7 +95,7 @@ enum class CommandKind : std::uint8_t {
     set_feed_reference,      ///< always XYZ
     set_feed_mode,           ///< index: 0 a minute (or inverse time), 1 a revolution
     set_feed_rate,           ///< value
-    set_motion_control_mode, ///< index: PathMode; value: tolerance
+    set_motion_control_mode, ///< index: PathMode; value: tolerance; mode: ModeOrigin
     set_naivecam_tolerance,  ///< value
     select_plane,            ///< index: Plane
     start_speed_feed_synch,  ///< value: feed a revolution
@@ -157,6 +157,13 @@ enum class CommandKind : std::uint8_t {
     /// The program reads parameter #index, in column `mode`, whose value only the control knows: it is taken
     /// for 0. Not one of LinuxCNC's.
     read_unknown
+};
+
+/// Who asks for a path mode.
+enum class ModeOrigin : std::uint8_t {
+    program,
+    cycle,    ///< a canned cycle, for its own moves
+    cycle_end ///< back to what was in force before it
 };
 
 struct Command {

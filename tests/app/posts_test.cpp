@@ -117,6 +117,21 @@ TEST_F(Posts, ConvertPutsTheZeroOfAProgramWhereItFits) {
     EXPECT_NE(run(moved).exit_code, 0);
 }
 
+/// A cycle keeps to the exact path by itself; G61 was written for all and a change reported.
+TEST_F(Posts, ACannedCycleChangesNoPathMode) {
+    write_content(part, "G21 G90\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG0 X9\nM2\n");
+    Ended ended = convert("router-xyz", "linuxcnc-xyz");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("path mode")));
+    EXPECT_THAT(ended.out, HasSubstr("G64 P0.005"));
+    write_content(part, "G21 G90 G64 P0.02\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG0 X9\nM2\n");
+    ended = convert("router-xyz", "linuxcnc-xyz");
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("path mode")));
+    EXPECT_THAT(ended.out, HasSubstr("G64 P0.02"));
+    write_content(part, "G21 G90 G64 P0.02\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG61\nG0 X9\nM2\n");
+    EXPECT_THAT(convert("router-xyz", "linuxcnc-xyz").err, HasSubstr("the path mode (G61, G64) changes"));
+}
+
 /// Somebody else's first move may be a feed, and the machine may have no table to turn.
 TEST_F(Posts, ConvertWritesTipsOfProgramsThatBeginWithAFeedForMachinesWithoutRotaryAxes) {
     write_content(part, "G21 F100\nM3 S100\nG1 X1\nM2\n");
