@@ -61,7 +61,8 @@ bool path_mode_changes(const program::Program& program) {
 PostedText posted(const program::Program& program,
                   const kinematics::MachineModel& machine,
                   const PostChoice& choice,
-                  const std::string& name) {
+                  const std::string& name,
+                  const std::string& remark) {
     const std::filesystem::path file =
         project::post_path(choice.post, std::filesystem::current_path(), project::assets_folder());
     PostedText result{posts::read_post(file), {}, path_mode_changes(program)};
@@ -70,7 +71,8 @@ PostedText posted(const program::Program& program,
                                  result.format,
                                  {.text = {.name = posts::text_name(name),
                                            .line_numbers = choice.line_numbers,
-                                           .path_tolerance = path_tolerance_of(program)},
+                                           .path_tolerance = path_tolerance_of(program),
+                                           .remark = remark},
                                   .arc_tolerance = choice.arc_tolerance,
                                   .tip_tolerance = choice.tip_tolerance,
                                   .file = name + "." + result.format.extension});
