@@ -264,7 +264,8 @@ TEST(ProgramsAsPlots, ACutFromAnUnknownPlaceIsRefusedWithItsLine) {
                 HasSubstr("41.ngc:4: this cut begins where the program has not said what X and Y are (name X "
                           "and Y in a rapid before the first cut)"));
     EXPECT_FALSE(std::filesystem::exists(out));
-    EXPECT_EQ(run({"plot", "points", file, "--out", out}).exit_code, 1);
+    EXPECT_EQ(run({"plot", "decode", file, "--velocity", "10", "--period", "0.01", "--out", out}).exit_code,
+              1);
     const Ended info = run({"plot", "info", file});
     EXPECT_EQ(info.exit_code, 0);
     EXPECT_THAT(info.err, HasSubstr("this cut begins where the program has not said")) << "only looked at";

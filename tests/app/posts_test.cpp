@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <string>
 
@@ -132,8 +133,10 @@ TEST_F(Posts, AProgramOfMachinePositionsSaysSoAtItsTopForEveryPost) {
             continue;
         }
         ++posts;
-        EXPECT_THAT(ended.out, HasSubstr("run with a work offset of zero")) << entry.path();
-        const std::string before = ended.out.substr(0, ended.out.find("machine positions"));
+        std::string text = ended.out; // some controls have capitals only
+        std::ranges::transform(text, text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+        EXPECT_THAT(text, HasSubstr("run with a work offset of zero")) << entry.path();
+        const std::string before = text.substr(0, text.find("machine positions"));
         EXPECT_LE(std::count(before.begin(), before.end(), '\n'), 2) << entry.path() << "\n" << ended.out;
     }
     EXPECT_GE(posts, 4);
