@@ -24,11 +24,16 @@ CLI::Option& add_post_options(CLI::App& command, PostChoice& choice) {
 
 namespace {
 
+/// Of a canned cycle: the program has not asked for its path mode.
+bool is_of_cycle(const program::Block& block) {
+    return block.path && block.path->of_cycle;
+}
+
 /// mm by which corners may be rounded: as the first move that says it has it, else the usual.
 double path_tolerance_of(const program::Program& program) {
     const double usual = posts::TextSettings{}.path_tolerance;
     for (const program::Block& block : program.blocks) {
-        if (block.moves() && block.path) {
+        if (block.moves() && block.path && !is_of_cycle(block)) {
             const bool blends = block.path->mode == program::PathMode::continuous;
             const double tolerance = block.path->tolerance > 0.0 ? block.path->tolerance : usual;
             return blends ? tolerance : 0.0;
@@ -40,10 +45,11 @@ double path_tolerance_of(const program::Program& program) {
 bool path_mode_changes(const program::Program& program) {
     const program::Block* first = nullptr;
     for (const program::Block& block : program.blocks) {
-        if (block.moves() && first == nullptr) {
-            first = &block;
+        if (!block.moves() || is_of_cycle(block)) {
+            continue;
         }
-        if (block.moves() && !(block.path == first->path)) {
+        first = first == nullptr ? &block : first;
+        if (!(block.path == first->path)) {
             return true;
         }
     }
@@ -55,7 +61,8 @@ bool path_mode_changes(const program::Program& program) {
 PostedText posted(const program::Program& program,
                   const kinematics::MachineModel& machine,
                   const PostChoice& choice,
-                  const std::string& name) {
+                  const std::string& name,
+                  const std::string& remark) {
     const std::filesystem::path file =
         project::post_path(choice.post, std::filesystem::current_path(), project::assets_folder());
     PostedText result{posts::read_post(file), {}, path_mode_changes(program)};
@@ -64,7 +71,8 @@ PostedText posted(const program::Program& program,
                                  result.format,
                                  {.text = {.name = posts::text_name(name),
                                            .line_numbers = choice.line_numbers,
-                                           .path_tolerance = path_tolerance_of(program)},
+                                           .path_tolerance = path_tolerance_of(program),
+                                           .remark = remark},
                                   .arc_tolerance = choice.arc_tolerance,
                                   .tip_tolerance = choice.tip_tolerance,
                                   .file = name + "." + result.format.extension});

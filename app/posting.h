@@ -29,11 +29,13 @@ struct PostedText {
 /// Adds them to `command`; returns --post.
 CLI::Option& add_post_options(CLI::App& command, PostChoice& choice);
 
-/// Written and read back. `name` stands in the text where the control wants one. Throws Error.
+/// Written and read back. `name` stands in the text where the control wants one, `remark` in a comment at its
+/// top. Throws Error.
 [[nodiscard]] PostedText posted(const program::Program& program,
                                 const kinematics::MachineModel& machine,
                                 const PostChoice& choice,
-                                const std::string& name);
+                                const std::string& name,
+                                const std::string& remark = {});
 
 /// What a person should know about it, on standard error.
 void print_notes(const PostedText& posted);

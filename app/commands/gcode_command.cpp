@@ -218,9 +218,10 @@ MachineRun machine_run(const GcodeOptions& options) {
 PostedText posted_from(const std::string& file,
                        const program::Program& program,
                        const kinematics::MachineModel& machine,
-                       const PostChoice& post) {
+                       const PostChoice& post,
+                       const std::string& remark) {
     try {
-        return posted(program, machine, post, std::filesystem::path(file).stem().string());
+        return posted(program, machine, post, std::filesystem::path(file).stem().string(), remark);
     } catch (const Error& error) {
         Diagnostic found = error.diagnostic();
         if (found.place.line > 0 && found.place.file.empty()) {
@@ -242,6 +243,10 @@ std::vector<program::ProgramCutter> cutters_named_in(const std::string& file) {
     }
     return cutters;
 }
+
+/// At the top of a program whose work has been placed on the machine: who runs it sees no warning of ours.
+constexpr const char* machine_positions_remark =
+    "all positions are machine positions: run with a work offset of zero";
 
 /// For another control.
 int convert_gcode(const GcodeOptions& options) {
@@ -273,7 +278,11 @@ int convert_gcode(const GcodeOptions& options) {
                    "program with a work offset (G54) of zero\n",
                    options.file);
     }
-    const PostedText result = posted_from(options.file, run.found.program, run.machine, options.post);
+    const PostedText result = posted_from(options.file,
+                                          run.found.program,
+                                          run.machine,
+                                          options.post,
+                                          options.origin.empty() ? std::string() : machine_positions_remark);
     print_notes(result);
     const std::string& text = result.text.listing.text;
     if (options.out.empty()) {

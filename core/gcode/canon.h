@@ -67,6 +67,8 @@ struct Move {
     double centre_1 = 0.0; ///< arc: along the plane's first axis
     double centre_2 = 0.0; ///< arc: along the plane's second axis
     double sweep = 0.0;    ///< arc: all of the turn, rad, > 0 counter-clockwise; at least hair_sweep
+    /// Straight, onto a path with cutter compensation: its end depends on where it begins in `plane`.
+    bool enters_compensation = false;
 };
 
 /// Arcs of less are taken as full turns, as LinuxCNC's motion does (posemath's CIRCLE_FUZZ), rad.
@@ -93,7 +95,7 @@ enum class CommandKind : std::uint8_t {
     set_feed_reference,      ///< always XYZ
     set_feed_mode,           ///< index: 0 a minute (or inverse time), 1 a revolution
     set_feed_rate,           ///< value
-    set_motion_control_mode, ///< index: PathMode; value: tolerance
+    set_motion_control_mode, ///< index: PathMode; value: tolerance; mode: ModeOrigin
     set_naivecam_tolerance,  ///< value
     select_plane,            ///< index: Plane
     start_speed_feed_synch,  ///< value: feed a revolution
@@ -155,6 +157,13 @@ enum class CommandKind : std::uint8_t {
     /// The program reads parameter #index, in column `mode`, whose value only the control knows: it is taken
     /// for 0. Not one of LinuxCNC's.
     read_unknown
+};
+
+/// Who asks for a path mode.
+enum class ModeOrigin : std::uint8_t {
+    program,
+    cycle,    ///< a canned cycle, for its own moves
+    cycle_end ///< back to what was in force before it
 };
 
 struct Command {

@@ -117,10 +117,10 @@ CutProgram made_of(MachineProgram read,
         cut.add(read.program.blocks[n], tools.tool_of(n));
     }
     CutProgram made = cut.take();
-    for (const auto* found : {&read.unplaced, &read.simplified}) {
+    made.unplaced.insert(made.unplaced.begin(), read.unplaced.begin(), read.unplaced.end());
+    for (const auto* found : {&made.unplaced, &read.simplified}) {
         made.notices.insert(made.notices.begin(), found->begin(), found->end());
     }
-    made.unplaced = read.unplaced;
     if (!(made.spindle_rpm > 0.0) && read.first_rpm > 0.0) {
         made.spindle_rpm = read.first_rpm;
         made.notices.push_back(

@@ -56,7 +56,8 @@ struct CutProgram {
     double dwell_time = 0.0;         ///< in which it stands
     double spindle_rpm = 0.0;        ///< the first that it is switched on with, or else that is set; 0: none
     std::vector<Diagnostic> notices; ///< what is read in another way, and what a path has no record of
-    /// MachineProgram::unplaced: who cuts this refuses; they are among the notices, too.
+    /// MachineProgram::unplaced, and a first cut from where X or Y is not known (it is taken for 0): who cuts
+    /// this refuses; they are among the notices, too.
     std::vector<Diagnostic> unplaced;
 };
 

@@ -108,7 +108,7 @@ public:
         placement_.command(command, line);
         switch (command.kind) {
         case CommandKind::set_motion_control_mode:
-            path_ = {static_cast<program::PathMode>(command.index), command.value * frame_.unit()};
+            set_path_mode(command);
             break;
         case CommandKind::comment:
             if (command.text.find("interpreter: ") != 0) {
@@ -211,6 +211,7 @@ private:
     CanonFrame frame_;
     ProgrammedFeed feed_;
     std::optional<program::PathControl> path_; ///< none: not said yet
+    std::optional<program::PathControl> path_before_cycle_;
     double rpm_ = 0.0;
     int selected_tool_ = 0;
     std::pair<SourcePlace, std::string> comment_; ///< the last one, and its line
@@ -260,6 +261,19 @@ private:
             return std::string(stop);
         }
         return text.starts_with(stop) ? text : fmt::format("{}, {}", stop, text);
+    }
+
+    /// After a cycle nothing is said that was not said before.
+    void set_path_mode(const Command& command) {
+        const auto origin = static_cast<ModeOrigin>(command.mode);
+        if (origin == ModeOrigin::cycle_end) {
+            path_ = path_before_cycle_;
+            return;
+        }
+        path_before_cycle_ = path_;
+        path_ = {static_cast<program::PathMode>(command.index),
+                 command.value * frame_.unit(),
+                 origin == ModeOrigin::cycle};
     }
 
     void pause(program::PauseKind kind, std::string text, SourcePlace source) {

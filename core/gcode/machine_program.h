@@ -43,10 +43,10 @@ struct MachineProgram {
     /// That axes move while the program has not named others yet, which it does later.
     std::optional<Diagnostic> start_notice;
     /// What depends on where the axes are at the start, or on where the work lies on the machine, while the
-    /// program has said neither, the first of each kind: increments and arcs from there, offsets taken from
-    /// there (G92, G10 L20), machine positions among those of the work (G53, G28, G30), parameters that only
-    /// the control knows, two systems without offsets, a retract to a reference point nobody has stored that
-    /// would go down. The blocks take zero; who makes another program of them refuses.
+    /// program has said neither, the first of each kind: increments, arcs and cutter compensation from there,
+    /// offsets taken from there (G92, G10 L20), machine positions among those of the work (G53, G28, G30),
+    /// parameters that only the control knows, two systems without offsets, a retract to a reference point
+    /// nobody has stored that would go down. The blocks take zero; who makes another program of them refuses.
     std::vector<Diagnostic> unplaced;
     double first_rpm = 0.0; ///< the first S above zero, also where the spindle is never switched on
     double length = 0.0;    ///< of the ways of X Y Z, rapids too, mm

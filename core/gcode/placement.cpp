@@ -276,8 +276,8 @@ void Placement::move(const Move& move, const AxisValues& from, const AxisValues&
     }
 }
 
-/// An arc has its centre from where it begins; an axis without a word of its own is moved by as much as its
-/// beginning is off.
+/// An arc has its centre from where it begins, and the move onto a compensated path its direction; an axis
+/// without a word of its own is moved by as much as its beginning is off.
 void Placement::expect_known_begin(const Move& move, const std::vector<int>& moving, std::string_view line) {
     const std::string_view plane = move.plane == Plane::xy   ? "XY"
                                    : move.plane == Plane::xz ? "XZ"
@@ -296,6 +296,16 @@ void Placement::expect_known_begin(const Move& move, const std::vector<int>& mov
                    'G',
                    {{},
                     fmt::format("an arc begins where the program has not said what {} is", letter),
+                    place_by_rapid});
+        } else if (move.enters_compensation && plane.find(letter) != std::string_view::npos) {
+            refuse(Kind::compensation,
+                   move.source,
+                   line,
+                   letter,
+                   {{},
+                    fmt::format(
+                        "cutter compensation (G41, G42) begins where the program has not said what {} is",
+                        letter),
                     place_by_rapid});
         } else if (moves &&
                    (!move.words.names(index_of_[static_cast<std::size_t>(n)]) || move.words.incremental)) {

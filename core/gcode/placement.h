@@ -42,7 +42,17 @@ public:
     [[nodiscard]] std::optional<Diagnostic> start_notice() const;
 
 private:
-    enum class Kind { increment, arc, measured, stored, machine_position, two_systems, lowers, inverse_time };
+    enum class Kind {
+        increment,
+        arc,
+        measured,
+        stored,
+        machine_position,
+        two_systems,
+        lowers,
+        inverse_time,
+        compensation
+    };
     /// What the positions of an axis count from, by what of it is not known; the machine's zero where all is.
     struct Frame {
         int system = 0;   ///< that has an unknown offset, 1: G54 to 9: G59.3; 0: the offset is known

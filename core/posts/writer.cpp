@@ -43,6 +43,9 @@ public:
 
     program::Listing take() {
         frame(format_.blocks.top);
+        if (!settings_.remark.empty()) {
+            comment(settings_.remark);
+        }
         for (const program::ProgramCutter& cutter : program_.cutters) {
             comment(program::cutter_comment(cutter, format_.length_unit()));
         }

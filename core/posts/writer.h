@@ -18,6 +18,7 @@ struct TextSettings {
     std::string name = "PROGRAM"; ///< letters, digits, '-' and '_'
     bool line_numbers = false;
     double path_tolerance = 0.005; ///< mm; 0: exact path
+    std::string remark = {};       ///< comment at the top, as lines as long as they may be; empty: none
 };
 
 /// `name` as controls take it: capitals, digits, '-' and '_', at most 24 of them; PROGRAM if nothing is left.

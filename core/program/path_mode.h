@@ -14,6 +14,7 @@ enum class PathMode : std::uint8_t {
 struct PathControl {
     PathMode mode = PathMode::exact_path;
     double tolerance = 0.0; ///< continuous: of the tool tip's path, mm; 0: the program does not say
+    bool of_cycle = false;  ///< a canned cycle asks for it, the program does not
 
     friend bool operator==(const PathControl&, const PathControl&) = default;
 };

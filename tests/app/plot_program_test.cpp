@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <set>
 #include <sstream>
 #include <string>
@@ -249,6 +250,25 @@ TEST(ProgramsAsPlots, WhatIsNoPathIsRefusedWithTheLine) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("ramp.ngc:3: this cut goes from z 0.000 to -2.000 mm: --order is for"));
     EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+// A rapid to X0 Y0 and a cut from there were added without a word.
+TEST(ProgramsAsPlots, ACutFromAnUnknownPlaceIsRefusedWithItsLine) {
+    const ScratchFolder scratch;
+    const std::string file = (scratch / "41.ngc").string();
+    const std::string out = (scratch / "o.ngc").string();
+    write_content(file, "G21 G90\nM3 S1000\nG0 Z5\nG1 Z-1 F100\nG1 X50\nG0 Z5\nM2\n");
+    const Ended ended = run({"plot", "toolpath", file, "--out", out, "--machine", "router-xyz"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("41.ngc:4: this cut begins where the program has not said what X and Y are (name X "
+                          "and Y in a rapid before the first cut)"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+    EXPECT_EQ(run({"plot", "decode", file, "--velocity", "10", "--period", "0.01", "--out", out}).exit_code,
+              1);
+    const Ended info = run({"plot", "info", file});
+    EXPECT_EQ(info.exit_code, 0);
+    EXPECT_THAT(info.err, HasSubstr("this cut begins where the program has not said")) << "only looked at";
 }
 
 TEST(ProgramsAsPlots, OptionsOfTheOtherKindOfFileAreRefused) {

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <string>
 
 namespace millwright::test {
@@ -54,6 +56,10 @@ TEST_F(Posts, ConvertSaysWhatTheControlHasToHave) {
     const Ended placed = run(
         {"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--origin", "100,100,-50"});
     EXPECT_THAT(placed.err, HasSubstr("with a work offset (G54) of zero"));
+    EXPECT_THAT(
+        placed.out,
+        ContainsRegex("^\\(all positions are machine positions: run with a work offset of zero\\)\n"));
+    EXPECT_THAT(plain.out, testing::Not(HasSubstr("machine positions")));
     write_content(file, "G21 G90\nS1500\nG0 X1 Y1 Z5\nG1 Z-1 F100\nM2\n");
     const Ended still = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "linuxcnc-xyz"});
     EXPECT_THAT(still.err, HasSubstr("sets a spindle speed, 1500 1/min, and never switches the spindle on"));
@@ -115,6 +121,40 @@ TEST_F(Posts, ConvertPutsTheZeroOfAProgramWhereItFits) {
     EXPECT_THAT(run(moved).out, HasSubstr("Z15.5000"));
     moved.back() = "10";
     EXPECT_NE(run(moved).exit_code, 0);
+}
+
+/// At the machine nobody sees the warning on standard error.
+TEST_F(Posts, AProgramOfMachinePositionsSaysSoAtItsTopForEveryPost) {
+    write_content(part, "G21 G90\nS1000 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG53 G0 Z0\nM2\n");
+    int posts = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("assets/posts")) {
+        const Ended ended = convert("router-xyz", entry.path().string(), {"--origin", "100,100,-50"});
+        if (ended.exit_code != 0) { // for machines with rotary axes
+            continue;
+        }
+        ++posts;
+        std::string text = ended.out; // some controls have capitals only
+        std::ranges::transform(text, text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+        EXPECT_THAT(text, HasSubstr("run with a work offset of zero")) << entry.path();
+        const std::string before = text.substr(0, text.find("machine positions"));
+        EXPECT_LE(std::count(before.begin(), before.end(), '\n'), 2) << entry.path() << "\n" << ended.out;
+    }
+    EXPECT_GE(posts, 4);
+}
+
+/// A cycle keeps to the exact path by itself; G61 was written for all and a change reported.
+TEST_F(Posts, ACannedCycleChangesNoPathMode) {
+    write_content(part, "G21 G90\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG0 X9\nM2\n");
+    Ended ended = convert("router-xyz", "linuxcnc-xyz");
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("path mode")));
+    EXPECT_THAT(ended.out, HasSubstr("G64 P0.005"));
+    write_content(part, "G21 G90 G64 P0.02\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG0 X9\nM2\n");
+    ended = convert("router-xyz", "linuxcnc-xyz");
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("path mode")));
+    EXPECT_THAT(ended.out, HasSubstr("G64 P0.02"));
+    write_content(part, "G21 G90 G64 P0.02\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG61\nG0 X9\nM2\n");
+    EXPECT_THAT(convert("router-xyz", "linuxcnc-xyz").err, HasSubstr("the path mode (G61, G64) changes"));
 }
 
 /// Somebody else's first move may be a feed, and the machine may have no table to turn.

@@ -154,6 +154,8 @@ void enter_straight(Run& run, Move move, const AxisValues& end) {
     const Vec2 direction = (to - from).normalized();
     const Vec2 normal = towards_tool(direction, left_or_right(s));
     put_in_plane(move.target, axes, to + s.cutter.radius * normal);
+    move.plane = s.plane;
+    move.enters_compensation = true;
     begin_at(run, from);
     run.flushed_to = from;
     // LinuxCNC remembers the normal here: such a move is long enough never to be turned round.

@@ -108,12 +108,13 @@ bool CutProgramBuilder::in_the_air(double z) const {
     return made_.safe_height && z >= *made_.safe_height - same_place;
 }
 
-/// Where the tool stood before the program nobody knows: the path begins where it names all three axes,
-/// or cuts.
+/// Where the tool is before the program is not known: the path begins where the program has named all three
+/// axes, or cuts.
 void CutProgramBuilder::move(const program::Block& block) {
     const Vec3 to = block.target;
     if (made_.path.empty()) {
-        if (block.kind == program::BlockKind::rapid) {
+        const bool height_is_known = named_.contains(2) || block.named.contains(2);
+        if (block.kind == program::BlockKind::rapid || (height_is_known && in_the_air(to.z()))) {
             return approach(block);
         }
         begin(block);
@@ -131,24 +132,40 @@ void CutProgramBuilder::move(const program::Block& block) {
 }
 
 void CutProgramBuilder::approach(const program::Block& block) {
-    height_is_named_ = height_is_named_ || block.named.contains(2);
-    if (!((block.target - at_).norm() > 0.0)) {
-        return; // G0 alone in the head of a program
-    }
     at_ = block.target;
     for (int axis = 0; axis < 3; ++axis) {
         if (block.named.contains(axis)) {
-            told_.insert(axis);
+            named_.insert(axis);
         }
     }
-    if (told_ == program::AxisSet::all(3)) {
+    if (named_ == program::AxisSet::all(3)) {
         append(at_, 0.0, plot::CutMove::rapid);
     }
 }
 
-/// With the first feed; from above where no rapid told the height.
+/// A cut from zero would be one that the program does not have.
+void CutProgramBuilder::expect_known_place(const program::Block& first_feed) {
+    std::string unknown;
+    for (const auto& [axis, letter] : {std::pair(0, 'X'), std::pair(1, 'Y')}) {
+        if (!named_.contains(axis)) {
+            unknown += unknown.empty() ? "" : " and ";
+            unknown += letter;
+        }
+    }
+    if (!unknown.empty()) {
+        made_.unplaced.push_back(
+            {.place = {.file = file_, .line = first_feed.source_line},
+             .message = fmt::format("this cut begins where the program has not said what {} {}",
+                                    unknown,
+                                    unknown.size() > 1 ? "are" : "is"),
+             .hint = fmt::format("name {} in a rapid before the first cut", unknown)});
+    }
+}
+
+/// With the first feed; from above where the height has not been named.
 void CutProgramBuilder::begin(const program::Block& first_feed) {
-    if (height_is_named_) {
+    expect_known_place(first_feed);
+    if (named_.contains(2)) {
         return append(at_, 0.0, plot::CutMove::rapid);
     }
     made_.notices.push_back(

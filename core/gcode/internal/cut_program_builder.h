@@ -41,6 +41,7 @@ private:
     [[nodiscard]] bool in_the_air(double z) const;
     void move(const program::Block& block);
     void approach(const program::Block& block);
+    void expect_known_place(const program::Block& first_feed);
     void begin(const program::Block& first_feed);
     void feed(const Vec3& to, const program::Block& block);
     void travel_at_feed(const Vec3& to, double speed, int line);
@@ -56,8 +57,7 @@ private:
     std::filesystem::path file_;
     CutProgram made_;
     Vec3 at_;
-    program::AxisSet told_; ///< axes that rapids have named on their way to somewhere
-    bool height_is_named_ = false;
+    program::AxisSet named_; ///< axes that have been named before the path begins
     int tool_ = 1;
     bool height_was_given_ = false;
     double air_at_feed_ = 0.0;     ///< feeds across that are taken for travel

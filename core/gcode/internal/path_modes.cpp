@@ -6,8 +6,10 @@ namespace millwright::gcode::internal {
 
 namespace {
 
-void send_mode(Run& run, program::PathMode mode, double tolerance) {
-    run.out.send(CommandKind::set_motion_control_mode, static_cast<int>(mode), tolerance);
+void send_mode(Run& run, program::PathMode mode, double tolerance, ModeOrigin origin = ModeOrigin::program) {
+    Command command = command_of(CommandKind::set_motion_control_mode, static_cast<int>(mode), tolerance);
+    command.mode = static_cast<int>(origin);
+    run.out.send(command);
 }
 
 } // namespace
@@ -38,7 +40,7 @@ void set_path_mode(Run& run, const Block& block, int code) {
 
 void go_exactly(Run& run) {
     if (run.state.path_mode != program::PathMode::exact_path) {
-        send_mode(run, program::PathMode::exact_path, 0.0);
+        send_mode(run, program::PathMode::exact_path, 0.0, ModeOrigin::cycle);
     }
 }
 
@@ -47,7 +49,7 @@ void go_as_before(Run& run) {
     if (s.path_mode == program::PathMode::exact_path) {
         return;
     }
-    send_mode(run, s.path_mode, s.path_tolerance);
+    send_mode(run, s.path_mode, s.path_tolerance, ModeOrigin::cycle_end);
     run.out.send(CommandKind::set_naivecam_tolerance, 0, s.naivecam_tolerance);
 }
 

@@ -133,6 +133,34 @@ TEST(CutPrograms, BeginWhereAllThreeAxesAreNamed) {
     EXPECT_EQ(low.path[2], (plot::CutPoint{{10, 20, -1}, 1.0, plot::CutMove::plunge}));
 }
 
+TEST(CutPrograms, ACutFromWhereXOrYIsNotKnownHasNoPlace) {
+    const auto unplaced = [](const std::string& text) {
+        std::string all;
+        for (const Diagnostic& found : read_cut("G21 G90\n" + text + "G0 Z5\nM2\n").unplaced) {
+            all += to_text(found) + "\n";
+        }
+        return all;
+    };
+    EXPECT_EQ(
+        unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50\n"),
+        "part.ngc:3: this cut begins where the program has not said what X and Y are (name X and Y in a "
+        "rapid before the first cut)\n");
+    EXPECT_THAT(unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50 Y50\n"), HasSubstr("part.ngc:3: this cut begins"));
+    EXPECT_THAT(unplaced("G0 X0 Z5\nG1 Z-1 F100\nG1 X50\n"), HasSubstr("what Y is (name Y in"));
+    EXPECT_THAT(unplaced("G0 Y0\nG0 Z-1\nG1 X50 F100\n"), HasSubstr("part.ngc:4: this cut begins"));
+    EXPECT_THAT(unplaced("G1 X50 Y50 Z-1 F100\n"), HasSubstr("what X and Y are"));
+    EXPECT_EQ(unplaced("G0 X0 Y0\nZ5\nG1 Z-1 F100\nX50\n"), "") << "named, though at zero";
+    EXPECT_EQ(unplaced("G1 Z5 F900\nG0 X0 Y0\nX3\nG1 Z-1 F100\nX50\n"), "") << "cuts nothing on its way up";
+    EXPECT_EQ(unplaced("G0 Z5\nG1 X1 Y1 F900\nG0 X3\nG1 Z-1 F100\nX50\n"), "") << "in the air";
+}
+
+TEST(CutPrograms, AnAxisNamedAtZeroIsNamed) {
+    const CutProgram program = read_cut("G0 X0 Y0 Z0\nX10\nG1 X20 F60\nM2\n");
+    ASSERT_EQ(program.path.size(), 3U);
+    EXPECT_EQ(program.path[0], (plot::CutPoint{.at = {0, 0, 0}}));
+    EXPECT_EQ(program.path[1], (plot::CutPoint{.at = {10, 0, 0}}));
+}
+
 TEST(CutPrograms, FeedsAtTheHeightOfTravelAreInTheAir) {
     const std::string text =
         "G0 X0 Y0 Z5\nX10\nG1 Z-1 F60\nX20 F120\nZ5\nX40 F600\nZ-1 F60\nX50 F120\nZ5\nM2\n";

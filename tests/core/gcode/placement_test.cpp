@@ -93,6 +93,22 @@ TEST(Placement, AnArcBeginsWhereTheProgramHasSaid) {
     EXPECT_THAT(unplaced("G21 G90 F100\nG0 Z9\nG81 X1 Y1 Z-2 R3\nM2\n"), IsEmpty());
 }
 
+TEST(Placement, CutterCompensationBeginsWhereTheProgramHasSaid) {
+    const std::string cut = "G41.1 D3\nG1 X5 Y5 F100\nX10\nG40\nX20\nM2\n";
+    EXPECT_THAT(
+        unplaced("G21 G90\n" + cut),
+        ElementsAre(HasSubstr("part.ngc:3:1: cutter compensation (G41, G42) begins where the program has "
+                              "not said what X is (move the axis to a position first")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X-5\n" + cut), ElementsAre(HasSubstr("not said what Y is")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 Y-5\n" + cut), ElementsAre(HasSubstr("not said what X is")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 Y-5\nG42.1 D3\nG0 Y5\nX10\nG40\nX20\nM2\n"),
+                ElementsAre(HasSubstr("not said what X is")));
+    EXPECT_THAT(unplaced("G21 G90\nG0 X-5 Y-5\n" + cut), IsEmpty());
+    EXPECT_THAT(unplaced("G21 G90 G18\nG0 X-5 Y-5\nG41.1 D3\nG1 X5 Z5 F100\nX10\nG40\nX20\nM2\n"),
+                ElementsAre(HasSubstr("not said what Z is")));
+    EXPECT_THAT(unplaced("G21 G90 G18\nG0 X-5 Z-5\nG41.1 D3\nG1 X5 Z5 F100\nX10\nG40\nX20\nM2\n"), IsEmpty());
+}
+
 TEST(Placement, OffsetsAreNotTakenFromWhereNobodyKnows) {
     EXPECT_THAT(unplaced("G21 G90\nG92 X5\nG0 X10\nM2\n"),
                 ElementsAre(HasSubstr("part.ngc:2:1: G92 takes X from where the axis is")));

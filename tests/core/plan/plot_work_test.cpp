@@ -448,6 +448,15 @@ TEST(PlotWork, WhatCannotBeCutIsAFailureWithItsReason) {
     EXPECT_TRUE(made->program.empty());
 }
 
+TEST(PlotWork, AProgramThatCutsFromAnUnknownPlaceIsAFailureWithItsLine) {
+    const test::ScratchFolder scratch;
+    std::ofstream(scratch / "part.ngc") << "G21 G90\nG0 Z5\nG1 Z-1 F100\nG1 X50\nG0 Z5\nM2\n";
+    const auto found = derived({scratch / "part.ngc", {}});
+    ASSERT_TRUE(found->failure);
+    EXPECT_EQ(found->failure->place.line, 3);
+    EXPECT_THAT(found->failure->message, HasSubstr("has not said what X and Y are"));
+}
+
 TEST(PlotWork, SpeedsThatTheMachineDoesNotReachAreANotice) {
     project::PlotInput hard{everyday, {}};
     const std::size_t of_the_reader = derived(hard)->notices.size();
