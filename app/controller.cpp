@@ -124,7 +124,7 @@ void Controller::expect_rest() const {
         const std::string why = now.message.empty() ? std::string(to_text(now.state)) : now.message;
         throw Error("the machine takes no job: " + why,
                     {},
-                    "wait until it stands, or end that: millwright stop --driver " + choice_.driver +
+                    "wait until it has stopped, or end that: millwright stop --driver " + choice_.driver +
                         " --port " + choice_.port);
     }
 }
@@ -193,12 +193,11 @@ void Controller::expect_unlock() const {
         throw Error(status.message);
     }
     if (!choice_.unlock) { // its position may be lost
-        throw Error(
-            status.message,
-            {},
-            choice_.driver == "grbl"
-                ? "look at the machine; then --home homes it, and --unlock goes on from where it stands"
-                : "look at the machine; --unlock goes on from where it stands");
+        throw Error(status.message,
+                    {},
+                    choice_.driver == "grbl"
+                        ? "look at the machine; then --home homes it, and --unlock goes on from where it is"
+                        : "look at the machine; --unlock goes on from where it is");
     }
 }
 

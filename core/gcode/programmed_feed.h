@@ -31,14 +31,14 @@ public:
     [[nodiscard]] std::optional<double> angular_speed() const;
 
 private:
-    /// mm a minute; not above 0 without a feed.
+    /// mm per minute; not above 0 without a feed.
     [[nodiscard]] double rate() const;
     /// Degrees a minute, the same.
     [[nodiscard]] double angular_rate() const;
     /// What a rate has to be multiplied by, for it to be a minute; nothing where nobody knows.
     [[nodiscard]] std::optional<double> times_a_minute() const;
 
-    double rate_ = 0.0;           ///< mm a minute, or a revolution
+    double rate_ = 0.0;           ///< mm per minute or per revolution
     double angular_rate_ = 0.0;   ///< degrees, the same
     bool per_revolution_ = false; ///< G95
     bool surface_speed_ = false;  ///< G96: the spindle turns as the diameter wants it

@@ -195,7 +195,7 @@ private:
     kinematics::AxisPositions at_;
     std::array<int, 3> index_{}; ///< of X, Y and Z
     int point_ = -1;
-    program::AxisSet told_; ///< axes that some move has named: where the others stand nobody knows
+    program::AxisSet told_; ///< axes that some move has named: where the others are is not known
 };
 
 } // namespace

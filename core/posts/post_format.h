@@ -26,7 +26,7 @@ enum class PositionsOf {
 
 enum class FeedWriting {
     inverse_time, ///< moves per minute
-    per_minute    ///< mm a minute along X Y Z, else degrees a minute
+    per_minute    ///< mm per minute along X Y Z, else degrees per minute
 };
 
 /// Lines of text with {placeholders}.

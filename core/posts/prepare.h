@@ -29,7 +29,7 @@ struct PreparedProgram {
 ///   near.
 /// Durations of feeds become those that inverse time can say; with feeds a minute they keep their speed in
 /// axis positions, their duration in positions of the tip. Feeds too short for the digits are left out; in
-/// inverse time and axis positions one whose linear way is less than 0.1 mm a minute, and than 0.002 mm in
+/// inverse time and axis positions one whose linear way is less than 0.1 mm per minute, and than 0.002 mm in
 /// all, is a turn alone, since LinuxCNC would make it faster.
 /// Throws Error naming the axes that the control lacks, the block whose rounded position the machine cannot
 /// reach, or the line that no number of pieces keeps within the tolerance. Throws Defect unless `program` is

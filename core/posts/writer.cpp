@@ -389,8 +389,8 @@ private:
         feed_ = std::move(word);
     }
 
-    /// In inverse time rounded down, so that rounding never makes a move faster; mm a minute to the nearest,
-    /// as people write them.
+    /// In inverse time rounded down, so that rounding never makes a move faster; mm per minute to the
+    /// nearest, as people write them.
     [[nodiscard]] double feed_of(const FeedWay& way, double duration) const {
         constexpr double seconds_a_minute = 60.0;
         constexpr double rounding = 1e-6; // of a digit: of a duration that was rounded to be written

@@ -126,7 +126,7 @@ TEST(ToolCheck, RefusesWhatItCouldNotComeBackFrom) {
                 HasSubstr("test.ngc:4: an arc or a probing is the motion in force"));
     drivers::DriverStatus doubted = machine_at_rest();
     doubted.position_doubt = "the controller was reset";
-    EXPECT_EQ(faults(job_of(two_tools), doubted), "") << "all ways count from where it stands";
+    EXPECT_EQ(faults(job_of(two_tools), doubted), "") << "all distances count from where it is";
     EXPECT_THAT(faults(job_of(two_tools, drivers::ToolChangeWay::probe), doubted),
                 HasSubstr("needs a sure position"));
     doubted.position_lost = true;

@@ -12,7 +12,7 @@ void Session::require_rest(std::string_view what) const {
     if (change_ && !waits_for_tool()) {
         throw Error(fmt::format("{} is on its way to or from a tool change and takes no {}", name(), what),
                     {},
-                    "wait until it stands, or stop it");
+                    "wait until it has stopped, or stop it");
     }
     if (held_at_machine()) { // it would begin when somebody resumes
         throw Error(fmt::format("{} takes no {}: {}", name(), what, why_held(report_->state)));
@@ -23,7 +23,7 @@ void Session::require_rest(std::string_view what) const {
     if (stage_ == Stage::foreign) {
         throw Error(fmt::format("{} takes no {}: {}", name(), what, message_),
                     {},
-                    "wait until it stands; the window can hold and stop it meanwhile");
+                    "wait until it has stopped; the window can hold and stop it meanwhile");
     }
     throw Error(fmt::format("{} is {} and takes no {}", name(), in_words(status().state), what),
                 {},
@@ -189,7 +189,7 @@ void Session::reset(double now) {
         return;
     }
     if (report_ && report_->moving()) { // its reset would cut the motion off
-        throw Error("the machine moves", {}, "wait until it stands, or stop it");
+        throw Error("the machine moves", {}, "wait until it has stopped, or stop it");
     }
     begin_asking(now, true);
 }
