@@ -53,7 +53,7 @@ named_file(std::string_view kind, const std::string& name, const fs::path& folde
     std::error_code failure;
     if (!fs::is_regular_file(file, failure)) {
         const std::string known =
-            fmt::format("known: {}; or the path of one", fmt::join(ids_in(shipped), ", "));
+            fmt::format("known: {}; or give the path of a file", fmt::join(ids_in(shipped), ", "));
         throw is_id(name) ? Error(fmt::format("unknown {} '{}'", kind, name), {}, known)
                           : Error(fmt::format("no such {} file", kind), file, known);
     }
@@ -70,7 +70,7 @@ fs::path assets_folder() {
 fs::path assets_folder(const AssetsSearch& search) {
     if (!search.named.empty()) {
         if (!is_assets(search.named)) {
-            throw Error("no machines/ in the folder that MILLWRIGHT_ASSETS names", search.named);
+            throw Error("the folder that MILLWRIGHT_ASSETS names has no subfolder machines/", search.named);
         }
         return search.named;
     }
@@ -79,9 +79,9 @@ fs::path assets_folder(const AssetsSearch& search) {
         return machines->parent_path();
     }
     if (!is_assets(search.fallback)) {
-        throw Error("the folder assets/ that ships with the program is not there",
+        throw Error("the folder assets/ that ships with the program is missing",
                     search.fallback,
-                    "set MILLWRIGHT_ASSETS to it");
+                    "set MILLWRIGHT_ASSETS to its path");
     }
     return search.fallback;
 }

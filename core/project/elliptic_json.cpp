@@ -13,7 +13,7 @@ grid::MixSettings mix_of(const JsonValue& value) {
     read_numbers<grid::MixSettings>(value, mix_numbers(), mix);
     read_choice(value, "combination", combinations(), mix.combination);
     if (mix.high < mix.low) {
-        value.fail("the highest weight is below the lowest");
+        value.fail("the maximum weight is below the minimum");
     }
     return mix;
 }
@@ -23,7 +23,7 @@ grid::Field field_of(const JsonValue& value) {
     const int columns = rows.empty() ? 0 : static_cast<int>(rows.front().items().size());
     const auto count = static_cast<int>(rows.size());
     if (count < 2 || count > most_painted || columns < 2 || columns > most_painted) {
-        value.fail(fmt::format("what is painted has 2 to {} rows and columns", most_painted));
+        value.fail(fmt::format("painted values need 2 to {} rows and columns", most_painted));
     }
     grid::Field field = grid::Field::constant(count, columns, 0.0);
     for (int i = 0; i < count; ++i) {
@@ -60,10 +60,10 @@ grid::Region region_of(const JsonValue& value) {
     const auto count = std::ssize(region.outline);
     if ((count > 0 && count < grid::fewest_corners) || count > grid::most_corners) {
         outline.fail(fmt::format(
-            "an outline has {} to {} corners, [u, v] each", grid::fewest_corners, grid::most_corners));
+            "an outline needs {} to {} corners, each [u, v]", grid::fewest_corners, grid::most_corners));
     }
     if (!region.everywhere() && !encloses_area(region.outline)) {
-        outline.fail("the outline encloses no area", "leave the region out to adapt everywhere");
+        outline.fail("the outline encloses no area", "omit the region to adapt everywhere");
     }
     return region;
 }

@@ -12,12 +12,11 @@ std::string left_out_text(const SurfaceInput& surface) {
     if (trimmed == 0) {
         return {};
     }
-    return trimmed == 1
-               ? std::string(
-                     "One patch is trimmed: the file has the whole patch, without its outline and holes.")
-               : fmt::format(
-                     "{} patches are trimmed: the file has whole patches, without their outlines and holes.",
-                     trimmed);
+    return trimmed == 1 ? std::string("One patch is trimmed: the file contains the whole patch, without its "
+                                      "outline and holes.")
+                        : fmt::format("{} patches are trimmed: the file contains the whole patches, without "
+                                      "their outlines and holes.",
+                                      trimmed);
 }
 
 } // namespace millwright::project

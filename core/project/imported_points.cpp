@@ -36,8 +36,8 @@ import_cloud(const exchange::MeasuredPoints& read, const ImportChoice& choice, c
     ImportedSurface imported;
     if (!cloud.repeated.empty()) {
         imported.notes.push_back(
-            fmt::format("{} in the place of an earlier one, the first in line {}: left out",
-                        counted(cloud.repeated.size(), "point is", "points are"),
+            fmt::format("{} skipped, the first in line {}",
+                        counted(cloud.repeated.size(), "duplicate point", "duplicate points"),
                         cloud.repeated.front()));
     }
     const int degree = exchange::cloud_degree(cloud.points.size());
@@ -95,11 +95,10 @@ ImportedSurface import_rows(exchange::PointGrid grid, const ImportChoice& choice
             imported.surface.patches.push_back(patch.net());
         }
         if (through.face.patches.size() > 1) {
-            imported.notes.push_back(
-                fmt::format("the surface has {} x {} patches, the first one is cut; a fitted patch is "
-                            "one for all",
-                            through.face.rows,
-                            through.face.columns));
+            imported.notes.push_back(fmt::format("the surface has {} x {} patches and only the first is "
+                                                 "machined; fit one patch to machine all of it",
+                                                 through.face.rows,
+                                                 through.face.columns));
         }
     }
     points.points = std::move(through.grid.points);

@@ -32,12 +32,12 @@ exchange::FitSettings fit_settings(const ImportChoice& choice) {
 void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
     imported.surface.patches = {fit.patch.net()};
     if (fit.left_out_area > 0.0) {
-        imported.notes.push_back(fmt::format(
-            "{:.4g} mm2 of the mesh look the other way or sideways and are left out", fit.left_out_area));
+        imported.notes.push_back(
+            fmt::format("{:.4g} mm2 of the mesh face away or sideways and were skipped", fit.left_out_area));
     }
     if (!fit.follows_outline) {
-        imported.notes.push_back(fmt::format("the mesh is no sheet with four corners: the patch fills the "
-                                             "rectangle around it, up to {:.3g} mm from the mesh",
+        imported.notes.push_back(fmt::format("the mesh is not a sheet with four corners: the patch covers "
+                                             "the rectangle around it and is up to {:.3g} mm from the mesh",
                                              fit.deviation.patch_max));
     }
     Box3 box;
@@ -47,8 +47,8 @@ void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
     constexpr double far_off = 0.03; // of the diagonal
     const double off = fit.follows_outline ? fit.deviation.largest() : fit.deviation.max;
     if (off > far_off * box.diagonal().norm()) {
-        imported.notes.push_back(fmt::format("the patch is up to {:.3g} mm off: seen from this side the mesh "
-                                             "folds over itself, or the degree is too low",
+        imported.notes.push_back(fmt::format("the patch deviates by up to {:.3g} mm: seen from this side the "
+                                             "mesh folds over itself, or the degree is too low",
                                              off));
     }
     imported.fit = std::move(fit);
@@ -61,8 +61,8 @@ import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Pr
     if (read.without_area > 0) {
         imported.notes.push_back(
             read.without_area == 1
-                ? std::string("1 triangle has no area and is left out")
-                : fmt::format("{} triangles have no area and are left out", read.without_area));
+                ? std::string("1 triangle has no area and was skipped")
+                : fmt::format("{} triangles have no area and were skipped", read.without_area));
     }
     take_fit(imported,
              exchange::fit_patch(scaled(read.mesh, choice.mm_per_unit), fit_settings(choice), progress));
@@ -92,16 +92,16 @@ ImportedSurface face_as_it_is(const CadFace& face) {
         }
     }
     if (surface.patches.empty()) {
-        throw Error(fmt::format("face {} has nothing inside its outline", face.number));
+        throw Error(fmt::format("nothing of face {} lies inside its outline", face.number));
     }
     if (std::ranges::all_of(surface.trims, &geometry::Trim::everything)) {
         surface.trims.clear();
     }
     if (surface.patches.size() > 1) {
-        imported.notes.push_back(
-            fmt::format("face {} has {} patches, the first one is cut; a fitted patch is one for all",
-                        face.number,
-                        surface.patches.size()));
+        imported.notes.push_back(fmt::format(
+            "face {} has {} patches and only the first is machined; fit one patch to machine all of it",
+            face.number,
+            surface.patches.size()));
     }
     return imported;
 }
@@ -111,12 +111,11 @@ const CadFace& chosen_face(const exchange::CadModel& model, const std::filesyste
         return model.faces.front();
     }
     if (number == 0) {
-        throw Error(
-            "the file has " + counted(model.faces.size(), "face"), file, "choose one of them by its number");
+        throw Error("the file has " + counted(model.faces.size(), "face"), file, "select one by its number");
     }
     const auto found = std::ranges::find(model.faces, number, &CadFace::number);
     if (found == model.faces.end()) {
-        throw Error(fmt::format("the file has no face {} that can be used", number), file);
+        throw Error(fmt::format("the file has no usable face {}", number), file);
     }
     return *found;
 }
@@ -152,7 +151,7 @@ void tell(ImportedSurface& imported, std::string doubt) {
 }
 
 std::string question_of_cad_unit(const CadModel& model) {
-    return fmt::format("is the unit that the file names, {}, right?", model.unit);
+    return fmt::format("check the unit; the file names {}", model.unit);
 }
 
 constexpr double doubtful_mm = 1.0; // hardly anyone cuts what is smaller
@@ -164,7 +163,7 @@ void check_reach(const ImportedSurface& imported, const std::filesystem::path& f
                 throw Error(
                     fmt::format("a control point is farther than {} mm from the origin", farthest_point_mm),
                     file,
-                    "is the unit right?");
+                    "check the unit");
             }
         }
     }
@@ -178,12 +177,12 @@ void check_reach(const std::string& what,
     for (const Vec3& point : points) {
         const double far = mm_per_unit * point.cwiseAbs().maxCoeff();
         if (!(far <= farthest_point_mm)) {
-            throw Error(fmt::format("a point of {} is {:g} mm from the origin, more than {} mm",
+            throw Error(fmt::format("a point of {} is {:g} mm from the origin, farther than {} mm",
                                     what,
                                     far,
                                     farthest_point_mm),
                         file,
-                        "is the unit right?");
+                        "check the unit");
         }
     }
 }
@@ -200,7 +199,7 @@ bool opens_as_surface(const std::filesystem::path& file) {
 }
 
 std::string doubt_of_size(double size_mm, double mm_per_unit) {
-    return size_mm < doubtful_mm ? fmt::format("all of it is only {:.3g} mm large: {}",
+    return size_mm < doubtful_mm ? fmt::format("the whole part is only {:.3g} mm in size: {}",
                                                size_mm,
                                                question_of_unit(size_mm / mm_per_unit))
                                  : std::string();
@@ -212,9 +211,10 @@ std::string doubt_of_size(const CadModel& model) {
         box.extend(face.box);
     }
     const double size = box.isEmpty() ? doubtful_mm : box.sizes().maxCoeff();
-    return size < doubtful_mm
-               ? fmt::format("all of it is only {:.3g} mm large: {}", size, question_of_cad_unit(model))
-               : std::string();
+    return size < doubtful_mm ? fmt::format("the whole part is only {:.3g} mm in size: {}",
+                                            size,
+                                            question_of_cad_unit(model))
+                              : std::string();
 }
 
 ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
@@ -223,7 +223,7 @@ ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, con
 
 ImportSource read_source(const std::filesystem::path& file, const Progress& progress) {
     if (!is_importable(file)) {
-        throw Error("this kind of file is not imported", file, importable_kinds);
+        throw Error("cannot import this type of file", file, importable_kinds);
     }
     ImportSource source;
     source.file = file;
@@ -253,7 +253,7 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
         const exchange::CadModel& model = *source.model;
         if (model.faces.size() > 1) {
             tell(imported,
-                 fmt::format("one of {} faces is imported: nothing keeps the tool off the others",
+                 fmt::format("only one of {} faces is imported: the tool is not checked against the others",
                              model.faces.size()));
         }
         imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());

@@ -61,7 +61,7 @@ struct ImportedSurface {
 };
 
 inline constexpr const char* importable_kinds =
-    "STEP, IGES, STL, OBJ, PLY and points (CSV, XYZ, ASC, PTS, TXT) are";
+    "supported: STEP, IGES, STL, OBJ, PLY and points (CSV, XYZ, ASC, PTS, TXT)";
 
 /// Whether the name ends like that of a file that can be imported.
 [[nodiscard]] bool is_importable(const std::filesystem::path& file);

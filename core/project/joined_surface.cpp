@@ -31,9 +31,10 @@ std::vector<OpenSeam> open_seams(const std::vector<geometry::BezierPatch>& patch
 }
 
 [[noreturn]] void refuse(const std::vector<geometry::BezierPatch>& patches, double gap_mm) {
-    std::string message = fmt::format("no two patches have sides whose ends are within {:.4g} mm", gap_mm);
+    std::string message =
+        fmt::format("no two patches have edges whose ends are within {:.4g} mm of each other", gap_mm);
     if (const std::vector<OpenSeam> open = open_seams(patches, {}); !open.empty()) {
-        message += "; left open: " + open_text(open);
+        message += "; open seams: " + open_text(open);
     }
     throw Error(message);
 }

@@ -29,11 +29,11 @@ constexpr std::array<NamedKind, 13> kinds_by_format{{{"millwright-project", of_p
                                                      {"millwright-post", "post"},
                                                      {"millwright-materials", "materials"},
                                                      {"millwright-report", "report"},
-                                                     {"millwright-cut", "report of a cut"},
+                                                     {"millwright-cut", "cutting report"},
                                                      {"millwright-kinematic-study", "study"},
                                                      {"millwright-recovery", "unsaved work"},
                                                      {"millwright-job-queue", "job queue"},
-                                                     {"millwright-position-doubt", "position in doubt"}}};
+                                                     {"millwright-position-doubt", "unverified position"}}};
 
 /// Lists without a format: by the two members of their first entry.
 constexpr std::array<NamedKind, 3> kinds_by_members{

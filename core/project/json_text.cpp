@@ -63,7 +63,7 @@ std::string json_text(const Json& value) {
         print(text, value, 0, 0);
         return text + "\n";
     } catch (const Json::type_error&) {
-        throw Error("a text is not valid UTF-8");
+        throw Error("the text is not valid UTF-8");
     }
 }
 

@@ -15,60 +15,66 @@ using plot::TipKind;
 using plot::TurnPolicy;
 
 constexpr std::array<Choice<PictureUse>, 5> of_use{{
-    {PictureUse::relief, "relief", "Relief", "As deep as pixels are bright"},
-    {PictureUse::outlines, "outlines", "Outlines", "Around what is dark, by tracing"},
-    {PictureUse::carving, "carving", "V-carving", "What is dark, by a V-bit along its middle"},
-    {PictureUse::halftone, "halftone", "Halftone", "Dots whose size says how dark it is"},
-    {PictureUse::dots, "dots", "Dots", "Dots of one size, as many as it is dark"},
+    {PictureUse::relief, "relief", "Relief", "Depth follows the brightness of the pixels"},
+    {PictureUse::outlines, "outlines", "Outlines", "Traces around dark areas"},
+    {PictureUse::carving, "carving", "V-carving", "Carves dark areas with a V-bit along their centreline"},
+    {PictureUse::halftone, "halftone", "Halftone", "Dots whose size follows the darkness"},
+    {PictureUse::dots, "dots", "Dots", "Dots of equal size whose number follows the darkness"},
 }};
 
 constexpr std::array<Choice<DrawingUse>, 2> of_drawing_use{{
-    {DrawingUse::strokes, "strokes", "Strokes", "Along its lines, beside them or filled"},
-    {DrawingUse::carving, "carving", "V-carving", "Closed outlines, by a V-bit along their middle"},
+    {DrawingUse::strokes, "strokes", "Strokes", "Along the lines, offset from them, or filled"},
+    {DrawingUse::carving,
+     "carving",
+     "V-carving",
+     "Carves closed outlines with a V-bit along their centreline"},
 }};
 
 constexpr std::array<Choice<GrayRule>, 2> of_gray{{
-    {GrayRule::mean, "mean", "Mean", "(R + G + B) / 3, as the thesis of 2006"},
-    {GrayRule::luminance, "luminance", "Luminance", "As the eye weighs colours (ITU-R BT.709)"},
+    {GrayRule::mean, "mean", "Mean", "(R + G + B) / 3, as in the thesis of 2006"},
+    {GrayRule::luminance, "luminance", "Luminance", "Weighted by perceived brightness (ITU-R BT.709)"},
 }};
 
 constexpr std::array<Choice<TipKind>, 4> of_tip{{
-    {TipKind::ball, "ball", "Ball", "Half a sphere"},
-    {TipKind::flat, "flat", "End mill", "Flat below"},
-    {TipKind::v, "v", "V", "A cone that ends in a point"},
-    {TipKind::point, "point", "Point", "Without width: each pixel gets its own depth, as in the thesis"},
+    {TipKind::ball, "ball", "Ball", "Hemispherical tip"},
+    {TipKind::flat, "flat", "End mill", "Flat tip"},
+    {TipKind::v, "v", "V", "Conical tip"},
+    {TipKind::point, "point", "Point", "Zero width: each pixel gets its own depth, as in the thesis"},
 }};
 
 constexpr std::array<Choice<CutterSide>, 3> of_side{{
-    {CutterSide::on_line, "on-line", "On line", "The middle of the tool on the strokes"},
-    {CutterSide::outside, "outside", "Outside", "Where the outer size matters"},
-    {CutterSide::inside, "inside", "Inside", "Where the size of a hole matters"},
+    {CutterSide::on_line, "on-line", "On line", "The tool centre follows the stroke"},
+    {CutterSide::outside, "outside", "Outside", "The tool stays outside, so that the outer size is right"},
+    {CutterSide::inside, "inside", "Inside", "The tool stays inside, so that the size of a hole is right"},
 }};
 
 constexpr std::array<Choice<Corners>, 2> of_corners{{
-    {Corners::sharp, "sharp", "Sharp", "Cut square beyond four times the offset"},
-    {Corners::round, "round", "Round", "An arc around the corner"},
+    {Corners::sharp, "sharp", "Sharp", "Mitred; cut square beyond four times the offset"},
+    {Corners::round, "round", "Round", "An arc around each corner"},
 }};
 
 constexpr std::array<Choice<FillMode>, 3> of_fill{{
-    {FillMode::hatched, "hatched", "Hatched", "As their fill type says; solid ones a pen width apart"},
-    {FillMode::outline, "outline", "Outlines", "Their edges alone"},
-    {FillMode::none, "none", "Nothing", "They are left out"},
+    {FillMode::hatched,
+     "hatched",
+     "Hatched",
+     "As the fill type specifies; solid fills are hatched at pen width"},
+    {FillMode::outline, "outline", "Outlines", "Edges only"},
+    {FillMode::none, "none", "None", "Filled areas are skipped"},
 }};
 
 constexpr std::array<Choice<LineEnds>, 3> of_line_ends{{
-    {LineEnds::automatic, "automatic", "As the file shows", "Refused where it does not show"},
-    {LineEnds::join, "join", "Nothing", "Listings are wrapped in the middle of numbers"},
-    {LineEnds::separate, "separate", "Separators", "As blanks between numbers"},
+    {LineEnds::automatic, "automatic", "Automatic", "Detected from the file; an ambiguous file is rejected"},
+    {LineEnds::join, "join", "Ignored", "For listings that are wrapped in the middle of numbers"},
+    {LineEnds::separate, "separate", "Separators", "Treated as spaces between numbers"},
 }};
 
 constexpr std::array<Choice<TurnPolicy>, 6> of_turns{{
-    {TurnPolicy::minority, "minority", "Minority", "What there is less of nearby is connected"},
-    {TurnPolicy::majority, "majority", "Majority", "What there is more of nearby is connected"},
-    {TurnPolicy::connect_black, "black", "Black", "What is dark is connected"},
-    {TurnPolicy::connect_white, "white", "White", "What is bright is connected"},
-    {TurnPolicy::left, "left", "Left", "Outlines turn left"},
-    {TurnPolicy::right, "right", "Right", "Outlines turn right"},
+    {TurnPolicy::minority, "minority", "Minority", "Connects the locally less frequent colour"},
+    {TurnPolicy::majority, "majority", "Majority", "Connects the locally more frequent colour"},
+    {TurnPolicy::connect_black, "black", "Black", "Connects dark areas"},
+    {TurnPolicy::connect_white, "white", "White", "Connects bright areas"},
+    {TurnPolicy::left, "left", "Left", "Outlines always turn left"},
+    {TurnPolicy::right, "right", "Right", "Outlines always turn right"},
 }};
 
 } // namespace

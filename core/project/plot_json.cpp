@@ -39,7 +39,7 @@ std::vector<plot::Level> levels_of(const JsonValue& value) {
         levels.push_back(level_of(level));
     }
     if (levels.size() > static_cast<std::size_t>(most_levels)) {
-        value.fail(fmt::format("there are {} levels, and {} at most", levels.size(), most_levels));
+        value.fail(fmt::format("{} levels, but at most {} are allowed", levels.size(), most_levels));
     }
     return levels;
 }
@@ -64,7 +64,7 @@ void read_name(const JsonValue& from, std::string_view key, std::string& to) {
     if (const auto value = from.find(key)) {
         to = value->text();
         if (to.empty()) {
-            value->fail("it has no name");
+            value->fail("the name is empty");
         }
     }
 }

@@ -70,12 +70,11 @@ void check_trims(Faults& faults, const SurfaceInput& surface) {
     }
     for (std::size_t n = 0; n < surface.trims.size(); ++n) {
         if (!can_be_trimmed(surface.trims[n])) {
-            faults.push_back(
-                fmt::format("surface/patches[{}]/trim: at most {} outlines of 3 or more, together at most {} "
-                            "corners with u and v from 0 to 1",
-                            n,
-                            geometry::most_trim_loops,
-                            geometry::most_trim_corners));
+            faults.push_back(fmt::format("surface/patches[{}]/trim: needs at most {} outlines of 3 or more "
+                                         "corners and at most {} corners in all, with u and v from 0 to 1",
+                                         n,
+                                         geometry::most_trim_loops,
+                                         geometry::most_trim_corners));
         }
     }
 }
@@ -105,9 +104,10 @@ void check_surface(Faults& faults, const SurfaceInput& surface) {
     check_trims(faults, surface);
     check_part_size(faults, surface);
     if (surface.machined_patch < 0 || surface.machined_patch >= std::max(count, 1)) {
-        faults.push_back(fmt::format("surface/machined_patch: there is no patch {} among {}, counted from 0",
-                                     surface.machined_patch,
-                                     count));
+        faults.push_back(
+            fmt::format("surface/machined_patch: no patch {}; the surface has {}, numbered from 0",
+                        surface.machined_patch,
+                        count));
     }
     const auto presets = geometry::surface_presets();
     const bool known = std::any_of(
@@ -119,17 +119,17 @@ void check_surface(Faults& faults, const SurfaceInput& surface) {
 
 void check_machine(Faults& faults, const MachineInput& machine) {
     if (machine.file.empty()) {
-        faults.emplace_back("machine/file: no machine is named");
+        faults.emplace_back("machine/file: no machine is specified");
     }
     if (machine.workpiece_offset && !within(*machine.workpiece_offset, farthest_point_mm)) {
         faults.push_back(
-            fmt::format("machine/workpiece_offset: not finite, or more than {} mm", farthest_point_mm));
+            fmt::format("machine/workpiece_offset: must be finite and at most {} mm", farthest_point_mm));
     }
     if (machine.tool_set) {
         for (const NumberSetting<ToolSetInput>& number : tool_set_numbers()) {
             if (!lies_between(number.value(*machine.tool_set), number.min, number.max)) {
                 faults.push_back(fmt::format(
-                    "machine/tool_set/{}: not within {} and {} mm", number.id, number.min, number.max));
+                    "machine/tool_set/{}: must be between {} and {} mm", number.id, number.min, number.max));
             }
         }
     }
@@ -143,11 +143,12 @@ void check_arm(Faults& faults, const ArmInput& arm) {
                       arm.path.turned_deg.allFinite() &&
                       arm.path.turned_deg.cwiseAbs().maxCoeff() <= most_deg;
     if (!near) {
-        faults.emplace_back("arm/path: its place is within 100 m and 360 degrees");
+        faults.emplace_back(
+            "arm/path: the position must be within 100 m and the rotation within 360 degrees");
     }
     constexpr double right_angle_deg = 90.0;
     if (!(arm.path.most_lean_deg >= 0.0 && arm.path.most_lean_deg <= right_angle_deg)) {
-        faults.emplace_back("arm/path/most_lean_deg: the tool leans by 0 to 90 degrees");
+        faults.emplace_back("arm/path/most_lean_deg: must be between 0 and 90 degrees");
     }
 }
 
@@ -159,7 +160,7 @@ void check_tool(Faults& faults, const Project& project) {
     }
     const bool has_body = project.tool.cutter != toolpath::CutterKind::point;
     if (has_body && project.machine.angle_mode != kinematics::AngleMode::consistent) {
-        faults.emplace_back("tool/cutter: the faulty angle formulas are for a point alone");
+        faults.emplace_back("tool/cutter: the faulty angle formulas work with a point tool only");
     }
 }
 
@@ -168,13 +169,13 @@ void check_sequencing(Faults& faults, const Project& project) {
     check<SequencingInput>(faults, "sequencing", sequencing, sequencing_numbers());
     constexpr double least_deg = 0.01;
     if (sequencing.largest_step_deg > 0.0 && sequencing.largest_step_deg < least_deg) {
-        faults.push_back(fmt::format("sequencing/largest_step_deg: {} is neither 0 nor at least {}",
+        faults.push_back(fmt::format("sequencing/largest_step_deg: {} must be 0 or at least {}",
                                      sequencing.largest_step_deg,
                                      least_deg));
     }
     if (!(sequencing == SequencingInput{}) &&
         project.machine.angle_mode != kinematics::AngleMode::consistent) {
-        faults.emplace_back("sequencing: the faulty angle formulas leave no rotary angle to choose");
+        faults.emplace_back("sequencing: the faulty angle formulas leave no choice of rotary angles");
     }
 }
 
@@ -195,15 +196,15 @@ bool can_be_drawn(const grid::Region& region) {
 void check_weight(Faults& faults, const EllipticInput& input) {
     check<grid::MixSettings>(faults, "grid/elliptic/mix", input.mix, mix_numbers());
     if (input.mix.high < input.mix.low) {
-        faults.push_back("grid/elliptic/mix: the highest weight is below the lowest");
+        faults.push_back("grid/elliptic/mix: the maximum weight is below the minimum");
     }
     if (input.painted && !can_be_painted(*input.painted)) {
-        faults.push_back(fmt::format("grid/elliptic/painted: 2 to {} rows and columns of values from 0 to 1",
-                                     most_painted));
+        faults.push_back(fmt::format(
+            "grid/elliptic/painted: needs 2 to {} rows and columns of values from 0 to 1", most_painted));
     }
     check<grid::Region>(faults, "grid/elliptic/region", input.region, region_numbers());
     if (!can_be_drawn(input.region)) {
-        faults.push_back(fmt::format("grid/elliptic/region: {} to {} corners with u and v from 0 to 1",
+        faults.push_back(fmt::format("grid/elliptic/region: needs {} to {} corners with u and v from 0 to 1",
                                      grid::fewest_corners,
                                      grid::most_corners));
     }
@@ -211,7 +212,7 @@ void check_weight(Faults& faults, const EllipticInput& input) {
         faults.emplace_back("grid/elliptic/region: the outline encloses no area");
     }
     if (input.solver == grid::EllipticMethod::harmonic) {
-        faults.emplace_back("grid/elliptic/solver: the harmonic map is a method of its own");
+        faults.emplace_back("grid/elliptic/solver: the harmonic map is a separate grid method");
     }
 }
 
@@ -219,15 +220,15 @@ void check_plot(Faults& faults, const PlotSettings& set) {
     check<PlotSettings>(faults, "plot", set, plot_numbers());
     check<plot::Level>(faults, "plot/level", set.level, level_numbers());
     if (set.levels.size() > static_cast<std::size_t>(most_levels)) {
-        faults.push_back(
-            fmt::format("plot/levels: there are {}, and {} at most", set.levels.size(), most_levels));
+        faults.push_back(fmt::format(
+            "plot/levels: {} levels, but at most {} are allowed", set.levels.size(), most_levels));
     }
     for (std::size_t n = 0; n < set.levels.size(); ++n) {
         check<plot::Level>(faults, fmt::format("plot/levels[{}]", n), set.levels[n], level_numbers());
     }
     if (set.machine.empty() || set.post.empty()) {
-        faults.emplace_back(set.machine.empty() ? "plot/machine: no machine is named"
-                                                : "plot/post: no post is named");
+        faults.emplace_back(set.machine.empty() ? "plot/machine: no machine is specified"
+                                                : "plot/post: no post is specified");
     }
 }
 

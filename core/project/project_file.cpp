@@ -45,7 +45,7 @@ std::vector<std::vector<JsonValue>> rows_of_table(const JsonValue& value) {
     }
     constexpr std::size_t most = geometry::max_degree + 1;
     if (rows.size() < 2 || rows.size() > most || rows.front().size() < 2 || rows.front().size() > most) {
-        value.fail(fmt::format("a control net has 2 to {} rows and columns", most));
+        value.fail(fmt::format("a control net needs 2 to {} rows and columns", most));
     }
     return rows;
 }
@@ -62,11 +62,11 @@ geometry::Trim trim(const JsonValue& value) {
         }
         corners += read.size();
         if (read.size() < fewest_corners) {
-            loop.fail("an outline has three corners or more");
+            loop.fail("an outline needs at least three corners");
         }
     }
     if (result.loops.size() > geometry::most_trim_loops || corners > geometry::most_trim_corners) {
-        value.fail(fmt::format("outlines have at most {} loops and {} corners",
+        value.fail(fmt::format("outlines can have at most {} loops and {} corners",
                                geometry::most_trim_loops,
                                geometry::most_trim_corners));
     }
@@ -83,7 +83,7 @@ geometry::ControlNet net(const JsonValue& value) {
     const auto weight_rows = weights ? rows_of_table(*weights) : std::vector<std::vector<JsonValue>>{};
     if (weights &&
         (weight_rows.size() != points.size() || weight_rows.front().size() != points.front().size())) {
-        weights->fail(fmt::format("expected {} x {} weights, one a point", rows, columns));
+        weights->fail(fmt::format("expected {} x {} weights, one per point", rows, columns));
     }
     constexpr double largest_weight = 1e6;
     for (int i = 0; i < rows; ++i) {
@@ -132,7 +132,7 @@ SurfaceInput read_surface(const JsonValue& value) {
         }
     }
     if (result.patches.empty()) {
-        value.fail("a surface needs a \"preset\" or at least one of \"patches\"");
+        value.fail("a surface needs a \"preset\" or at least one patch in \"patches\"");
     }
     if (const auto machined = value.find("machined_patch")) {
         result.machined_patch = machined->integer(0, static_cast<int>(result.patches.size()) - 1);
@@ -159,7 +159,7 @@ MachineInput read_machine(const JsonValue& value) {
     MachineInput result;
     result.file = value.at("file").text();
     if (result.file.empty()) {
-        value.at("file").fail("no machine is named");
+        value.at("file").fail("no machine is specified");
     }
     if (const auto offset = value.find("workpiece_offset")) {
         result.workpiece_offset = point(*offset);

@@ -47,7 +47,7 @@ UnsavedWork read_recovery(const fs::path& copy) {
     const JsonValue json = JsonValue::read(copy);
     json.expect_only({"format", "version", "file", "time", "project"});
     if (json.at("format").text() != recovery_format_name) {
-        json.at("format").fail("this is no copy of unsaved work");
+        json.at("format").fail("this is not a copy of unsaved work");
     }
     (void)json.at("version").integer(recovery_format_version, recovery_format_version);
     constexpr double latest = 1e11; // s; the year 5138

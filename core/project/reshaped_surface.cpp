@@ -24,8 +24,8 @@ using geometry::Trim;
 
 BezierPatch patch_of(const SurfaceInput& surface, int patch) {
     if (patch < 0 || patch >= std::ssize(surface.patches)) {
-        throw Error(fmt::format(
-            "there is no patch {}: the design has {}, counted from 0", patch, surface.patches.size()));
+        throw Error(
+            fmt::format("no patch {}; the design has {}, numbered from 0", patch, surface.patches.size()));
     }
     return BezierPatch(surface.patches[static_cast<std::size_t>(patch)]);
 }
@@ -120,14 +120,14 @@ SineAndCosine sine_and_cosine(double degrees) {
 SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int degree_v) {
     const BezierPatch before = patch_of(surface, patch);
     if (degree_u < before.degree_u() || degree_v < before.degree_v()) {
-        throw Error(fmt::format("patch {} is of degree {} x {}: a lower one would change its shape",
+        throw Error(fmt::format("patch {} has degree {} x {}: a lower degree would change its shape",
                                 patch,
                                 before.degree_u(),
                                 before.degree_v()));
     }
     if (degree_u > geometry::max_degree || degree_v > geometry::max_degree) {
         throw Error(fmt::format(
-            "degree {} x {} is too high: {} is the highest", degree_u, degree_v, geometry::max_degree));
+            "degree {} x {} is too high: the maximum is {}", degree_u, degree_v, geometry::max_degree));
     }
     surface.patches[static_cast<std::size_t>(patch)] = geometry::elevated(before, degree_u, degree_v).net();
     return surface;
@@ -135,7 +135,7 @@ SurfaceInput with_degrees(SurfaceInput surface, int patch, int degree_u, int deg
 
 SurfaceInput with_turn(SurfaceInput surface, const Vec3& degrees) {
     if (!degrees.allFinite()) {
-        throw Error("an angle by which the part is turned is not finite");
+        throw Error("a rotation angle of the part is not finite");
     }
     for (int axis = 0; axis < 3; ++axis) {
         const auto [sine, cosine] = sine_and_cosine(degrees[axis]);
@@ -157,8 +157,10 @@ SurfaceInput with_turn(SurfaceInput surface, const Vec3& degrees) {
 SurfaceInput with_split(SurfaceInput surface, int patch, Parameter parameter, double at) {
     const BezierPatch whole = patch_of(surface, patch);
     if (!(at >= narrowest_split && at <= 1.0 - narrowest_split)) {
-        throw Error(fmt::format(
-            "a patch is split between {} and {}, not at {:.4g}", narrowest_split, 1.0 - narrowest_split, at));
+        throw Error(fmt::format("a patch can be split between {} and {}, not at {:.4g}",
+                                narrowest_split,
+                                1.0 - narrowest_split,
+                                at));
     }
     const auto [before, behind] = geometry::split(whole, parameter, at);
     const Trim trim = surface.trim(patch);

@@ -12,11 +12,11 @@ using kinematics::AngleMode;
 using toolpath::SequencingGoal;
 
 constexpr std::array<NumberSetting<ToolSetInput>, 4> of_tool_set{{
-    {"e", "Eccentricity e", "mm", "Of the tilt axis B", -1e4, 1e4, 3, field<&ToolSetInput::e>},
+    {"e", "Eccentricity e", "mm", "Eccentricity of the tilt axis B", -1e4, 1e4, 3, field<&ToolSetInput::e>},
     {"OF",
      "Tip to base OF",
      "mm",
-     "From the tool tip to the machine's base; the machine has the difference B4 - OF",
+     "From tool tip to machine base; the machine has the difference B4 - OF",
      -1e4,
      1e4,
      3,
@@ -24,7 +24,7 @@ constexpr std::array<NumberSetting<ToolSetInput>, 4> of_tool_set{{
     {"AB",
      "Table to tilt AB",
      "mm",
-     "From the rotary table, axis A, to the tilt axis B",
+     "From the rotary table (axis A) to the tilt axis B",
      -1e4,
      1e4,
      3,
@@ -32,7 +32,7 @@ constexpr std::array<NumberSetting<ToolSetInput>, 4> of_tool_set{{
     {"B4",
      "Tilt to base B4",
      "mm",
-     "From the tilt axis B to the machine's base",
+     "From the tilt axis B to the machine base",
      -1e4,
      1e4,
      3,
@@ -43,7 +43,7 @@ constexpr std::array<NumberSetting<ToolpathInput>, 1> of_toolpath{{
     {"tolerance_mm",
      "Tolerance",
      "mm",
-     "How far the true tip may be off the surface curve between two points",
+     "Maximum deviation of the tool tip from the surface curve between two points",
      1e-4,
      100.0,
      4,
@@ -52,9 +52,9 @@ constexpr std::array<NumberSetting<ToolpathInput>, 1> of_toolpath{{
 
 constexpr std::array<NumberSetting<SequencingInput>, 1> of_sequencing{{
     {"largest_step_deg",
-     "Largest turn",
+     "Max. rotary step",
      "deg",
-     "Points are added where a rotary axis would turn by more from one to the next; 0 adds none",
+     "Points are added where a rotary axis would turn further than this between two points; 0 = none",
      0.0,
      180.0,
      2,
@@ -63,9 +63,9 @@ constexpr std::array<NumberSetting<SequencingInput>, 1> of_sequencing{{
 
 constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
     {"feed_mm_per_min",
-     "Feed",
+     "Feed rate",
      "mm/min",
-     "Speed of the tool tip on the part while cutting; less where an axis cannot follow",
+     "Speed of the tool tip on the part while cutting; reduced where an axis cannot follow",
      0.1,
      1e5,
      1,
@@ -79,9 +79,9 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
      1,
      field<&ProgramInput::plunge_mm_per_min>},
     {"spindle_rpm",
-     "Spindle",
+     "Spindle speed",
      "1/min",
-     "Turning speed of the spindle; 0 leaves it alone",
+     "Spindle speed; 0 = no spindle commands",
      0.0,
      2e5,
      0,
@@ -89,7 +89,7 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
     {"link_clearance_mm",
      "Link clearance",
      "mm",
-     "How far the tool is lifted off the part between two tracks",
+     "Retract distance from the part between two tracks",
      0.01,
      1e3,
      2,
@@ -97,7 +97,7 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
     {"approach_clearance_mm",
      "Approach height",
      "mm",
-     "Height above the first and the last pose at which the tool comes and goes",
+     "Height above the first and last pose for approach and retract",
      0.01,
      1e3,
      2,
@@ -105,41 +105,44 @@ constexpr std::array<NumberSetting<ProgramInput>, 5> of_program{{
 }};
 
 constexpr std::array<Choice<StrategyInput>, 5> of_strategy{{
-    {StrategyInput::zigzag, "zigzag", "Zigzag", "The nodes of the grid, track after track, to and fro"},
+    {StrategyInput::zigzag, "zigzag", "Zigzag", "Grid nodes, track by track, in alternating directions"},
     {StrategyInput::iso_parametric,
      "iso-parametric",
      "Iso-parametric",
-     "To and fro over equal steps of the parameters, whatever grid was chosen"},
-    {StrategyInput::spiral,
-     "spiral",
-     "Spiral",
-     "The nodes of the grid, round after round inwards, without a lift"},
+     "Equal parameter steps in alternating directions, whichever grid is selected"},
+    {StrategyInput::spiral, "spiral", "Spiral", "Grid nodes in an inward spiral, without lifting"},
     {StrategyInput::constant_scallop,
      "constant-scallop",
      "Constant scallop",
-     "Tracks as far apart as the cutter may go everywhere; needs a cutter"},
+     "Tracks as far apart as the cutter allows everywhere; needs a cutter"},
     {StrategyInput::fewest_points,
      "fewest-points",
      "Fewest points",
-     "Straight tracks, each with the fewest points that keep the tolerance"},
+     "Straight tracks with the fewest points that meet the tolerance"},
 }};
 
 constexpr std::array<Choice<SequencingGoal>, 4> of_sequencing_goal{{
-    {SequencingGoal::nearest, "nearest", "Nearest", "Each point takes the rotary angles nearest to the last"},
+    {SequencingGoal::nearest,
+     "nearest",
+     "Nearest",
+     "Each point takes the rotary angles nearest to those of the point before"},
     {SequencingGoal::travel,
      "travel",
      "Least rotation",
-     "Of all ways through the branches and turns the one with the least travel of the rotary axes"},
+     "Least travel of the rotary axes over all branches and turns"},
     {SequencingGoal::error,
      "error",
      "Least error",
-     "Of all ways the one whose moves stay nearest to the surface"},
-    {SequencingGoal::time, "time", "Least time", "Of all ways the fastest at the axes' largest velocities"},
+     "Moves closest to the surface over all branches and turns"},
+    {SequencingGoal::time,
+     "time",
+     "Least time",
+     "Shortest time at the axes' maximum velocities, over all branches and turns"},
 }};
 
 constexpr std::array<Choice<LinkInput>, 2> of_link{{
-    {LinkInput::lifted, "lifted", "Lifted", "Off the part along the tool axis, across, and back down"},
-    {LinkInput::on_surface, "on-surface", "On the surface", "Straight to the next track, cutting"},
+    {LinkInput::lifted, "lifted", "Lifted", "Retracts along the tool axis, crosses, and returns"},
+    {LinkInput::on_surface, "on-surface", "On the surface", "Cuts straight across to the next track"},
 }};
 
 constexpr std::array<Choice<AngleMode>, 3> of_angles{{
@@ -147,11 +150,11 @@ constexpr std::array<Choice<AngleMode>, 3> of_angles{{
     {AngleMode::faulty_text,
      "faulty-text",
      "Faulty (text)",
-     "The table of the thesis's chapter 3, which tilts by the complement. For regression only"},
+     "The table in chapter 3 of the thesis, which tilts by the complement. For regression tests only"},
     {AngleMode::faulty_listing,
      "faulty-listing",
      "Faulty (listing)",
-     "The thesis's listing, with a wrong sign of A as well. For regression only"},
+     "The thesis's listing, which also has a wrong sign of A. For regression tests only"},
 }};
 
 } // namespace

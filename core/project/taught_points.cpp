@@ -54,7 +54,7 @@ std::vector<TaughtPoint> points_of(const JsonValue& array) {
             item.fail(faults.front());
         }
         if (!names.insert(points.back().name).second) {
-            item.at("name").fail("another point is called so");
+            item.at("name").fail("another point has the same name");
         }
     }
     return points;
@@ -143,16 +143,16 @@ std::vector<std::string> faults_of(const std::vector<TaughtPoint>& points) {
         if (point.name.empty() || !names.insert(point.name).second) {
             faults.push_back(point.name.empty()
                                  ? std::string("arm/points: a point has no name")
-                                 : fmt::format("arm/points: there are two points '{}'", point.name));
+                                 : fmt::format("arm/points: two points are named '{}'", point.name));
         }
         const bool sound = std::ranges::all_of(point.joints_deg, [](double joint) {
             return std::isfinite(joint) && std::abs(joint) <= farthest;
         });
         if (point.joints_deg.empty() || point.joints_deg.size() > most_joints || !sound) {
-            faults.push_back(fmt::format("arm/points: '{}' has no sound joints", point.name));
+            faults.push_back(fmt::format("arm/points: '{}' has invalid joint values", point.name));
         }
         if (!(point.speed_percent >= least_speed && point.speed_percent <= most_speed)) {
-            faults.push_back(fmt::format("arm/points: the speed of '{}' is to be from {} to {} percent",
+            faults.push_back(fmt::format("arm/points: the speed of '{}' must be from {} to {} percent",
                                          point.name,
                                          least_speed,
                                          most_speed));

@@ -21,11 +21,11 @@ constexpr double steepest = 80.0; // deg
 constexpr double most_tools = 9999.0;
 
 constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
-    {"diameter_mm", "Diameter", "mm", "Of the shank", 0.001, thickest, 3, field<&ToolInput::diameter_mm>},
+    {"diameter_mm", "Diameter", "mm", "Shank diameter", 0.001, thickest, 3, field<&ToolInput::diameter_mm>},
     {"corner_radius_mm",
      "Corner radius",
      "mm",
-     "Of a bull nose's corner, or of a cone's tip, where 0 is sharp",
+     "Corner radius of a bull nose, or tip radius of a tapered cutter; 0 = sharp tip",
      0.0,
      thickest,
      3,
@@ -33,7 +33,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"half_angle_deg",
      "Half angle",
      "deg",
-     "Of a cone, between its axis and its flank",
+     "Angle between axis and flank of a tapered cutter",
      0.01,
      89.0,
      2,
@@ -41,7 +41,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"length_mm",
      "Length",
      "mm",
-     "From the tip to the holder",
+     "Distance from tip to holder",
      0.001,
      longest,
      2,
@@ -49,7 +49,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"holder_diameter_mm",
      "Holder diameter",
      "mm",
-     "Of the cylinder that begins where the cutter ends; 0 for no holder",
+     "Diameter of the holder, a cylinder that begins where the cutter ends; 0 = no holder",
      0.0,
      thickest,
      2,
@@ -57,7 +57,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"holder_length_mm",
      "Holder length",
      "mm",
-     "Of that cylinder",
+     "Length of the holder",
      0.001,
      longest,
      2,
@@ -65,7 +65,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"number",
      "Tool number",
      "",
-     "T and H of the program; 0 calls no tool, and the positions of the axes contain its length",
+     "T and H number in the program; 0 = no tool call, axis positions include the tool length",
      0.0,
      most_tools,
      0,
@@ -73,8 +73,8 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"gauge_length_mm",
      "Gauge length",
      "mm",
-     "From the spindle's gauge line to the tip, as in the control's tool table; 0: cutter and holder "
-     "together",
+     "Distance from the spindle's gauge line to the tip, as in the control's tool table; 0 = cutter plus "
+     "holder",
      0.0,
      2.0 * longest,
      3,
@@ -82,7 +82,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"lead_deg",
      "Lead",
      "deg",
-     "By how much the tool leans forward, in the direction of the move, at the start of a track",
+     "Forward inclination of the tool in the direction of travel, at the start of a track",
      -steepest,
      steepest,
      2,
@@ -90,7 +90,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"tilt_deg",
      "Tilt",
      "deg",
-     "By how much the tool leans to the right of the move, at the start of a track",
+     "Inclination of the tool to the right of the direction of travel, at the start of a track",
      -steepest,
      steepest,
      2,
@@ -98,7 +98,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"lead_change_deg",
      "Lead change",
      "deg",
-     "What the lead grows by up to the end of the track, linear in its parameter",
+     "Change of the lead up to the end of the track, linear in the track parameter",
      -steepest,
      steepest,
      2,
@@ -106,7 +106,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"tilt_change_deg",
      "Tilt change",
      "deg",
-     "What the tilt grows by up to the end of the track, linear in its parameter",
+     "Change of the tilt up to the end of the track, linear in the track parameter",
      -steepest,
      steepest,
      2,
@@ -114,7 +114,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"scallop_mm",
      "Scallop height",
      "mm",
-     "What may be left between two tracks: the step-over is found for it",
+     "Maximum height left between two tracks; the step-over is calculated from it",
      0.0001,
      10.0,
      4,
@@ -122,7 +122,7 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
     {"gouge_limit_mm",
      "Gouge limit",
      "mm",
-     "Moves on which the cutter comes deeper than this below the surface are told",
+     "Moves where the cutter goes deeper than this below the surface are reported",
      0.0001,
      100.0,
      4,
@@ -130,11 +130,11 @@ constexpr std::array<NumberSetting<ToolInput>, 14> of_tool{{
 }};
 
 constexpr std::array<Choice<CutterKind>, 5> of_cutter{{
-    {CutterKind::point, "point", "Point", "No body: the tip is where the surface is touched"},
-    {CutterKind::ball, "ball", "Ball end", "A half ball under its shank"},
-    {CutterKind::flat, "flat", "Flat end", "A cylinder with a sharp edge"},
-    {CutterKind::bull_nose, "bull-nose", "Bull nose", "A flat end whose edge is rounded"},
-    {CutterKind::cone, "cone", "Cone", "A tapered cutter with a round or a sharp tip"},
+    {CutterKind::point, "point", "Point", "No cutter body: the tip is the contact point"},
+    {CutterKind::ball, "ball", "Ball end", "Hemispherical end"},
+    {CutterKind::flat, "flat", "Flat end", "Cylindrical with a sharp edge"},
+    {CutterKind::bull_nose, "bull-nose", "Bull nose", "Flat end with a rounded edge"},
+    {CutterKind::cone, "cone", "Tapered", "Conical with a rounded or sharp tip"},
 }};
 
 toolpath::CutterShape cutter_of(const ToolInput& input) {
@@ -196,8 +196,8 @@ std::string fault_of(const ToolInput& input) {
     const double most = std::max(steepest_of(input.lead_deg, input.lead_change_deg),
                                  steepest_of(input.tilt_deg, input.tilt_change_deg));
     return most <= steepest ? std::string()
-                            : fmt::format("lead and tilt stay within {} deg up to the end of the track, "
-                                          "and one of them reaches {:.6g}",
+                            : fmt::format("lead and tilt must stay within {} deg up to the end of the track; "
+                                          "one of them reaches {:.6g}",
                                           steepest,
                                           most);
 }
@@ -268,9 +268,9 @@ std::string tool_length_text(const ToolInput& input, const kinematics::MachineMo
     if (!length) {
         text = description.tool_length ? fmt::format("gauge length {} mm, that of the machine file's tool",
                                                      shortest(*description.tool_length))
-                                       : "that of the machine file's tool, which does not say it";
+                                       : "that of the machine file's tool, not specified there";
     } else if (!description.tool_length) {
-        text = fmt::format("gauge length {} mm; the machine's zeros hold for any", shortest(*length));
+        text = fmt::format("gauge length {} mm; the machine zeros do not depend on it", shortest(*length));
     } else {
         text = fmt::format("gauge length {} mm, {} the machine file's tool of {} mm",
                            shortest(*length),
@@ -280,7 +280,7 @@ std::string tool_length_text(const ToolInput& input, const kinematics::MachineMo
                                                   : "as long as",
                            shortest(*length - offset));
     }
-    return machine.swings_tool() ? text + "; the head swings: valid for this length only" : text;
+    return machine.swings_tool() ? text + "; the head tilts the tool: valid for this length only" : text;
 }
 
 std::string tool_text(const ToolInput& input) {

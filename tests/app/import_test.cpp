@@ -37,7 +37,7 @@ TEST_F(ImportCommand, AnExportTellsThatOutlinesStayBehind) {
     }
     const Ended cover = run({"export", path("cover.json"), "--out", path("cover.stl")});
     ASSERT_EQ(cover.exit_code, 0) << cover.err;
-    EXPECT_THAT(cover.out, HasSubstr("One patch is trimmed: the file has the whole patch"));
+    EXPECT_THAT(cover.out, HasSubstr("One patch is trimmed: the file contains the whole patch"));
     const Ended dome = run({"export", "assets/projects/dome.json", "--out", path("dome.stl")});
     EXPECT_EQ(dome.out, path("dome.stl") + "\n");
 }
@@ -165,8 +165,9 @@ TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
         written("big.obj", "v 0 0 0\nv 200000 0 0\nv 0 10 0\nv 200000 10 1\nf 1 2 4\nf 1 4 3\n");
     const Ended ended = run({"import", mesh, "--out", path("p.json")});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("big.obj: a point of the mesh is 200000 mm from the origin, more than 100000 mm"));
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("big.obj: a point of the mesh is 200000 mm from the origin, farther than 100000 mm"));
     EXPECT_FALSE(std::filesystem::exists(path("p.json")));
 }
 
@@ -174,9 +175,8 @@ TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
 TEST_F(ImportCommand, APartOfAWrongUnitIsToldOrRefusedWithItsSize) {
     const std::string plate = "v 0 0 0\nv 8e-3 0 0\nv 8e-3 5e-3 0\nv 0 5e-3 0\nf 1 2 3 4\n";
     const std::string mesh = written("metres.obj", plate);
-    const auto doubt =
-        HasSubstr("note: all of it is only 0.008 mm large: is the unit right? In inches it would be "
-                  "0.203 mm large, in metres 8 mm");
+    const auto doubt = HasSubstr("note: the whole part is only 0.008 mm in size: check the unit; in inches "
+                                 "the size would be 0.203 mm, in metres 8 mm");
     EXPECT_THAT(run({"import", mesh}).err, doubt);
     EXPECT_THAT(run({"import", mesh, "--out", path("p.json")}).err, doubt);
     EXPECT_THAT(run({"import", mesh, "--out", path("m.json"), "--unit", "m"}).err,
@@ -185,8 +185,9 @@ TEST_F(ImportCommand, APartOfAWrongUnitIsToldOrRefusedWithItsSize) {
         written("small.obj", "v 0 0 0\nv 5e-6 0 0\nv 5e-6 5e-6 0\nv 0 5e-6 0\nf 1 2 3 4\n");
     const Ended ended = run({"import", small, "--out", path("s.json")});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("small.obj: the mesh is 5e-06 mm large, less than 0.001 mm (is the unit right?"));
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("small.obj: the mesh is 5e-06 mm in size, below the minimum of 0.001 mm (check the unit"));
     EXPECT_FALSE(std::filesystem::exists(path("s.json")));
 }
 
@@ -200,7 +201,7 @@ TEST_F(ImportCommand, ASmallModelOfCadIsAskedAboutTheUnitThatItsFileNames) {
     ASSERT_NE(text.find(milli), std::string::npos);
     text.replace(text.find(milli), milli.size(), "SI_UNIT(.MICRO.,.METRE.)");
     const std::string small = written("small.step", text);
-    const auto doubt = HasSubstr("mm large: is the unit that the file names, micrometre, right?");
+    const auto doubt = HasSubstr("mm in size: check the unit; the file names micrometre");
     EXPECT_THAT(run({"import", small}).err, doubt);
     EXPECT_THAT(run({"import", small, "--out", path("p.json")}).err, doubt);
 }
@@ -215,9 +216,9 @@ TEST_F(ImportCommand, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"import", broken, "--out", path("p.json")}), HasSubstr("broken.step: "));
     EXPECT_FALSE(std::filesystem::exists(path("p.json")));
     EXPECT_THAT(refusal({"import", written("a.doc", "x")}),
-                HasSubstr("a.doc: this kind of file is not imported"));
+                HasSubstr("a.doc: cannot import this type of file"));
     EXPECT_THAT(refusal({"import", exported("d.step"), "--out", path("p.json"), "--face", "7"}),
-                HasSubstr("no face 7"));
+                HasSubstr("no usable face 7"));
     EXPECT_THAT(refusal({"import", exported("e.step"), "--out", path("p.json"), "--degree", "40"}),
                 HasSubstr("'40' is no degree"));
     EXPECT_THAT(refusal({"export", "assets/projects/dome.json", "--out", path("dome.dwg")}),

@@ -83,7 +83,7 @@ TEST_F(JoinCommand, SaysWhatIsWrong) {
     const std::string far_away = strip("far", 400.0, 0.0, 0.0);
     const Ended apart = run({"join", a, far_away, "--out", path("one.json")});
     EXPECT_NE(apart.exit_code, 0);
-    EXPECT_THAT(apart.err, HasSubstr("no two patches have sides"));
+    EXPECT_THAT(apart.err, HasSubstr("no two patches have edges"));
     EXPECT_FALSE(std::filesystem::exists(path("one.json")));
     EXPECT_NE(run({"join", a, "--continuity", "C2", "--out", path("one.json")}).exit_code, 0);
 }

@@ -59,7 +59,7 @@ TEST_F(ReshapeCommand, SaysWhatIsWrong) {
     EXPECT_THAT(refused({"--degree", "3"}), HasSubstr("--degree"));
     EXPECT_THAT(refused({"--split-v", "1"}), HasSubstr("between 0.01 and 0.99"));
     EXPECT_THAT(refused({"--split-u", "1e-9"}), HasSubstr("not at 1e-09"));
-    EXPECT_THAT(refused({"--split-v", "0.5", "--patch", "7"}), HasSubstr("there is no patch 7"));
+    EXPECT_THAT(refused({"--split-v", "0.5", "--patch", "7"}), HasSubstr("no patch 7"));
 }
 
 } // namespace

@@ -31,7 +31,7 @@ template <class Value> Value choice(const JsonValue& value, std::span<const Choi
         }
         known += (known.empty() ? "known: " : ", ") + std::string(row.id);
     }
-    value.fail(fmt::format("'{}' is none of the choices", text), known);
+    value.fail(fmt::format("'{}' is not a valid choice", text), known);
 }
 
 template <class Value>

@@ -159,7 +159,8 @@ TEST(ImportOf, OneOfSeveralFacesSaysThatNothingKeepsTheToolOffTheOthers) {
     choice.face = 1;
     const project::ImportedSurface one_of_two = project::import_of(source, choice, Progress());
     ASSERT_EQ(one_of_two.notes.size(), 1U);
-    EXPECT_EQ(one_of_two.notes[0], "one of 2 faces is imported: nothing keeps the tool off the others");
+    EXPECT_EQ(one_of_two.notes[0],
+              "only one of 2 faces is imported: the tool is not checked against the others");
     source.model->faces.pop_back();
     EXPECT_TRUE(project::import_of(source, choice, Progress()).notes.empty());
 }

@@ -65,7 +65,8 @@ TEST_F(ImportedPoints, FewRowsAreOnePatchThroughThem) {
 TEST_F(ImportedPoints, ManyRowsAreARasterOfPatchesOrOnePatchNearThem) {
     const ImportedSurface made = imported(saddle(9, 12));
     EXPECT_EQ(made.surface.patches.size(), 6U * 9U);
-    EXPECT_THAT(made.notes, ::testing::ElementsAre(HasSubstr("6 x 9 patches, the first one is cut")));
+    EXPECT_THAT(made.notes,
+                ::testing::ElementsAre(HasSubstr("6 x 9 patches and only the first is machined")));
     EXPECT_LT(made.points->deviation.max, 1e-9);
     ImportChoice one;
     one.degrees = FitDegrees{7, 3};
@@ -87,8 +88,7 @@ TEST_F(ImportedPoints, ACloudIsFittedByOneFairPatch) {
     EXPECT_EQ(made.points->rows, 0);
     EXPECT_EQ(made.points->points.size(), 9U * 12U + 1U);
     EXPECT_THAT(made.notes,
-                ::testing::ElementsAre(
-                    HasSubstr("1 point is in the place of an earlier one, the first in line 111")));
+                ::testing::ElementsAre(HasSubstr("1 duplicate point skipped, the first in line 111")));
     EXPECT_EQ(made.points->worst_line(), 110) << "the point that is nowhere near";
 }
 
@@ -98,7 +98,7 @@ TEST_F(ImportedPoints, SayWhatIsWrongWithFileAndLine) {
     EXPECT_THAT(why_not("0 0 0\n1 1 1\n2 2 2\n3 3 3\n"), HasSubstr("probe.csv: the points lie in a line"));
     EXPECT_THAT(why_not("0 0 0\n1 1 1\n"), HasSubstr("probe.csv: 2 points in different places are too few"));
     EXPECT_THAT(why_not("0 0 0\n0 1e9 0\n\n1 0 0\n1 1 0\n"), HasSubstr("more than 100000 mm"));
-    EXPECT_THAT(why_not("0 0 0\n0 1e-9 0\n\n1e-9 0 0\n1e-9 1e-9 0\n"), HasSubstr("is the unit right?"));
+    EXPECT_THAT(why_not("0 0 0\n0 1e-9 0\n\n1e-9 0 0\n1e-9 1e-9 0\n"), HasSubstr("check the unit"));
 }
 
 TEST(PointNames, OpenAsSurfacesOnlyWhereNothingElseHasThem) {

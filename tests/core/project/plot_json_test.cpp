@@ -107,11 +107,11 @@ TEST(PlotOfAProject, BesideItsProjectMovesWithIt) {
 TEST(PlotOfAProject, FaultsComeWithTheirField) {
     EXPECT_EQ(plot_fault("{}"), "no fault");
     EXPECT_THAT(plot_fault(R"({"link_mm": -1})"), HasSubstr("plot/link_mm: -1 is not between 0 and 100"));
-    EXPECT_THAT(plot_fault(R"({"use": "carpet"})"), HasSubstr("plot/use: 'carpet' is none of the choices"));
+    EXPECT_THAT(plot_fault(R"({"use": "carpet"})"), HasSubstr("plot/use: 'carpet' is not a valid choice"));
     EXPECT_THAT(plot_fault(R"({"levels": [{"pen": 1}, {"depth_mm": 2}]})"), HasSubstr("plot/levels[1]"));
     EXPECT_THAT(plot_fault(R"({"levels": [{"pen": 1, "passes": 0}]})"),
                 HasSubstr("plot/levels[0]/passes: 0 is not between 1 and 1000"));
-    EXPECT_THAT(plot_fault(R"({"machine": ""})"), HasSubstr("plot/machine: it has no name"));
+    EXPECT_THAT(plot_fault(R"({"machine": ""})"), HasSubstr("plot/machine: the name is empty"));
     EXPECT_THAT(plot_fault(R"({"speed": 3})"),
                 HasSubstr("plot/speed: the field \"speed\" is not known here"));
 }

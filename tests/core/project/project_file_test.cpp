@@ -130,7 +130,7 @@ TEST(ProjectFile, WhatIsWrongWithAMixOrThePaintIsSaidWithItsPlace) {
     };
     EXPECT_THAT(fault("[0, 0.25]", "[0, 1.25]"), HasSubstr("grid/elliptic/painted"));
     EXPECT_THAT(fault("[0, 0.25]", "[0]"), HasSubstr("grid/elliptic/painted"));
-    EXPECT_THAT(fault("\"high\": 50", "\"high\": 0.001"), HasSubstr("highest weight"));
+    EXPECT_THAT(fault("\"high\": 50", "\"high\": 0.001"), HasSubstr("maximum weight is below"));
     EXPECT_THAT(fault("\"sum\"", "\"difference\""), HasSubstr("difference"));
 }
 
@@ -177,7 +177,7 @@ TEST(ProjectFile, FaultsComeWithLineColumnAndField) {
     EXPECT_THAT(project_fault("millwright-project", "millwright-machine"),
                 HasSubstr("format: not a project file"));
     EXPECT_THAT(project_fault("\"rotary-tilt-listing\"", "\"\""),
-                HasSubstr("machine/file: no machine is named"));
+                HasSubstr("machine/file: no machine is specified"));
     EXPECT_THAT(project_fault("\"machined_patch\": 0", "\"machined_patch\": 1"),
                 HasSubstr("surface/machined_patch: 1"));
 }
@@ -225,9 +225,9 @@ TEST(ProjectFile, APartOfNanometresIsRefusedAtItsPatch) {
     const std::string text =
         R"({"format": "millwright-project", "version": 1, "name": "", "machine": {"file": "m"},
         "surface": {"patches": [{"points": [[[0, 0, 0], [0, 5e-6, 0]], [[5e-6, 0, 0], [5e-6, 5e-6, 0]]]}]}})";
-    EXPECT_THAT(
-        fault_in(text),
-        HasSubstr("part.json:2:33: surface/patches[0]: the part is 5e-06 mm large, less than 0.001 mm"));
+    EXPECT_THAT(fault_in(text),
+                HasSubstr("part.json:2:33: surface/patches[0]: the part is 5e-06 mm in size, below the "
+                          "minimum of 0.001 mm"));
 }
 
 TEST(ProjectFile, AMissingFileIsNamed) {

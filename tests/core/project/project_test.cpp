@@ -67,13 +67,13 @@ TEST(Project, FaultyAnglesAreForAPointAndLeaveNoChoice) {
     project.machine.angle_mode = kinematics::AngleMode::consistent;
     EXPECT_THAT(faults_of(project), ElementsAre());
     project.sequencing.largest_step_deg = 0.001;
-    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("neither 0 nor at least 0.01")));
+    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("must be 0 or at least 0.01")));
 }
 
 TEST(Project, ASurfaceNeedsItsPatches) {
     Project project = project_from_preset("dome");
     project.surface.machined_patch = 1;
-    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("there is no patch 1 among 1")));
+    EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("no patch 1; the surface has 1")));
     project.surface.patches.clear();
     project.surface.machined_patch = 0;
     EXPECT_THAT(faults_of(project), ElementsAre(HasSubstr("at least one patch")));
@@ -94,8 +94,9 @@ TEST(Project, APartBelowAMicrometreIsAFaultWithItsSize) {
     EXPECT_THAT(faults_of(shrunk(1e-4)), ElementsAre());
     EXPECT_THAT(
         faults_of(shrunk(1e-5)),
-        ElementsAre(AllOf(HasSubstr("surface/patches[0]: the part is 0.00089 mm large, less than 0.001 mm"),
-                          HasSubstr("In inches it would be 0.0226 mm large, in metres 0.89 mm"))));
+        ElementsAre(AllOf(
+            HasSubstr("surface/patches[0]: the part is 0.00089 mm in size, below the minimum of 0.001 mm"),
+            HasSubstr("in inches the size would be 0.0226 mm, in metres 0.89 mm"))));
 }
 
 TEST(Project, ARegionWithoutAreaIsAFault) {
@@ -119,8 +120,9 @@ TEST(Project, AnUnknownPresetOrNoMachineIsAFault) {
     Project project = project_from_preset("dome");
     project.surface.preset = "doom";
     project.machine.file.clear();
-    EXPECT_THAT(faults_of(project),
-                ElementsAre(HasSubstr("unknown surface preset 'doom'"), HasSubstr("no machine is named")));
+    EXPECT_THAT(
+        faults_of(project),
+        ElementsAre(HasSubstr("unknown surface preset 'doom'"), HasSubstr("no machine is specified")));
 }
 
 } // namespace

@@ -136,7 +136,7 @@ TEST(ReshapedSurface, WhatWouldChangeTheShapeIsRefused) {
     EXPECT_THAT(reshape_refusal([&] { return with_degrees(surface, 0, 1, 3); }),
                 testing::HasSubstr("change its shape"));
     EXPECT_THAT(reshape_refusal([&] { return with_degrees(surface, 0, 4, 99); }),
-                testing::HasSubstr("63 is the highest"));
+                testing::HasSubstr("the maximum is 63"));
     EXPECT_THAT(reshape_refusal([&] { return with_degrees(surface, 2, 3, 3); }),
                 testing::HasSubstr("no patch 2"));
     EXPECT_THAT(reshape_refusal([&] { return with_split(surface, 0, Parameter::u, 1.0); }),

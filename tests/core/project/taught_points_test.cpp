@@ -66,7 +66,7 @@ TEST(TaughtPointsC6, WhatIsWrongIsToldWithItsPlace) {
     EXPECT_THAT(
         taught_points_refusal(
             head + point("A", "\"joints_deg\": [], \"straight\": false, \"speed_percent\": 50") + "]}"),
-        HasSubstr("no sound joints"));
+        HasSubstr("invalid joint values"));
     EXPECT_THAT(
         taught_points_refusal(
             head + point("A", "\"joints_deg\": [1], \"straight\": false, \"speed_percent\": 500") + "]}"),

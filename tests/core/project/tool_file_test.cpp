@@ -47,7 +47,7 @@ TEST(ToolFile, TellsWhatIsWrongAndWhere) {
     EXPECT_THAT(tool_fault(scratch, begin + "{\"cutter\": \"ball\", \"diameter_mm\": 0}}"),
                 testing::AllOf(HasSubstr("tool.json:2"), HasSubstr("tool/diameter_mm")));
     EXPECT_THAT(tool_fault(scratch, begin + "{\"cutter\": \"drill\"}}"),
-                testing::AllOf(HasSubstr("'drill' is none of the choices"), HasSubstr("bull-nose")));
+                testing::AllOf(HasSubstr("'drill' is not a valid choice"), HasSubstr("bull-nose")));
     EXPECT_THAT(
         tool_fault(scratch,
                    begin + "{\"cutter\": \"bull-nose\", \"diameter_mm\": 2, \"corner_radius_mm\": 3}}"),

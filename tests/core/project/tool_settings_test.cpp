@@ -52,7 +52,7 @@ TEST(ToolSettings, TellWhatIsWrong) {
     EXPECT_THROW((void)tool_of(bull), Error);
     const ToolInput steep{.lead_deg = 60.0, .lead_change_deg = 40.0};
     EXPECT_EQ(fault_of(steep),
-              "lead and tilt stay within 80 deg up to the end of the track, and one of them reaches 100");
+              "lead and tilt must stay within 80 deg up to the end of the track; one of them reaches 100");
 }
 
 } // namespace

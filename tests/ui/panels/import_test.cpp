@@ -337,7 +337,7 @@ TEST_F(Import, AnExportTellsThatOutlinesStayBehind) {
     person_.wait_idle();
     person_.workshop().export_surface(person_.folder() / "out.ply");
     person_.wait_idle();
-    EXPECT_TRUE(was_told("Surface written. One patch is trimmed: the file has the whole patch"));
+    EXPECT_TRUE(was_told("Surface written. One patch is trimmed: the file contains the whole patch"));
     person_.keep("export-trimmed");
 }
 
