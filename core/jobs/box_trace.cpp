@@ -16,7 +16,7 @@ Job box_trace_job(const Job& job, const Survey& survey) {
     const Survey::Range& x = survey.cuts[x_axis];
     const Survey::Range& y = survey.cuts[y_axis];
     if (x.empty() || y.empty() || (!(x.min < x.max) && !(y.min < y.max))) {
-        throw Error("the program cuts nothing whose box could be traced", {job.project}, "");
+        throw Error("the program has no cuts to trace a box around", {job.project}, "");
     }
     std::string text = "(box of the cuts, machine coordinates)\nM5\nG21 G90 G94 G40\n";
     const Survey::Range& z = survey.ranges[z_axis];

@@ -50,7 +50,7 @@ public:
     explicit Turn(Dispatcher& dispatcher) : dispatcher_(dispatcher) {
         const std::scoped_lock lock(dispatcher_.mutex_);
         if (dispatcher_.running_) {
-            throw Error("a job is running already", {}, "stop it, or wait for its end");
+            throw Error("a job is already running", {}, "stop it, or wait until it ends");
         }
         dispatcher_.running_ = true;
         dispatcher_.requests_.clear();
@@ -122,7 +122,7 @@ public:
     void log_failure(const std::string& why) noexcept {
         try {
             remember(dispatcher_.driver_.status());
-            write_end(with_full_stop("The job was broken off: " + why));
+            write_end(with_full_stop("The job was aborted: " + why));
         } catch (const std::exception&) {
             // The failure itself is on its way to the user, and a log without an end promises nothing.
         }
@@ -142,7 +142,8 @@ public:
         } catch (const std::exception&) {
             // The last line that it has stays right.
         }
-        return {{file_}, with_clause(why, done), "look at the machine, and make room before the next job"};
+        return {
+            {file_}, with_clause(why, done), "inspect the machine, and free disk space before the next job"};
     }
 
 private:
@@ -347,7 +348,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
     const Job job = able.plans ? for_axes_of(asked, able.axes) : asked;
     const drivers::DriverStatus before = driver_.status();
     if (before.state != drivers::DriverState::idle && before.state != drivers::DriverState::stopped) {
-        throw Error(fmt::format("the machine is {} and takes no job", drivers::in_words(before.state)),
+        throw Error(fmt::format("the machine is {} and cannot start a job", drivers::in_words(before.state)),
                     {},
                     before.message);
     }
@@ -355,11 +356,11 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
     constexpr double planning = 0.02; // of the progress
     const bool text_alone = job.program == nullptr;
     if (text_alone && !able.plans) {
-        throw Error("the " + driver_.name() + " driver cannot run a text that was not made here");
+        throw Error("the " + driver_.name() + " driver cannot run G-code that Millwright did not generate");
     }
     if ((job.points != nullptr) != able.points) {
         throw Error(fmt::format(
-            "the {} driver {}", driver_.name(), able.points ? "plays points only" : "plays no points"));
+            "the {} driver {}", driver_.name(), able.points ? "runs points only" : "cannot run points"));
     }
     internal::PathEstimate estimate;
     std::optional<drivers::ToolChanges> changes;
@@ -414,27 +415,23 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
 /// line in the middle is gone to by that in any case.
 void Dispatcher::check_position(const Job& job, const drivers::DriverStatus& status) const {
     if (job.from_line > 1 && !status.position_known && driver_.capabilities().told_place) {
-        throw Error(
-            fmt::format("nobody has said where the machine stands, and it does not tell: line {} could begin "
-                        "anywhere",
-                        job.from_line),
-            {},
-            "read it at the machine and enter it");
+        throw Error(fmt::format("the machine does not report its position, and none was entered: line {} "
+                                "could start anywhere",
+                                job.from_line),
+                    {},
+                    "read the position at the machine and enter it");
     }
     if (job.from_line > 1 && !status.position_doubt.empty()) {
-        throw Error(fmt::format("{} Line {} could begin anywhere",
+        throw Error(fmt::format("{} Line {} could start anywhere",
                                 drivers::doubt_sentence(status.position_doubt),
                                 job.from_line),
                     {},
-                    "it begins there when the machine was homed, when every axis has a new zero, or when "
-                    "you confirm that it stands where it says");
+                    "home the machine, set a new zero for every axis, or confirm the reported position");
     }
     if (drivers::needs_confirmation(status, driver_.stored_offsets())) {
-        throw Error(
-            drivers::doubt_sentence(status.position_doubt) + " Stored work offsets may lead anywhere",
-            {},
-            "it begins when the machine was homed, when every axis has a new zero, or when you confirm "
-            "that it is where it says");
+        throw Error(drivers::doubt_sentence(status.position_doubt) + " Stored work offsets may be wrong",
+                    {},
+                    "home the machine, set a new zero for every axis, or confirm the reported position");
     }
 }
 

@@ -23,16 +23,17 @@ std::optional<Diagnostic> feeds_not_reached(const Job& job) {
             }
             if (++count == 1) {
                 first = {{job.project, job.listing->line_of_block[static_cast<std::size_t>(n)], 0, -1},
-                         fmt::format(
-                             "{:.0f} mm/min is more than axis {} reaches", 60.0 * block.feed, limits.letter),
-                         "it will be slower"};
+                         fmt::format("{:.0f} mm/min exceeds the maximum speed of axis {}",
+                                     60.0 * block.feed,
+                                     limits.letter),
+                         "the move will be slower"};
             }
             break;
         }
         from = &block.target;
     }
     if (count > 1) {
-        first->message += fmt::format(", and so are {} feeds after it", count - 1);
+        first->message += fmt::format(", and so do {} later feeds", count - 1);
     }
     return first;
 }

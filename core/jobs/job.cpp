@@ -42,7 +42,7 @@ void check_axes(const program::Program& program,
                                      wanted,
                                      program.machine,
                                      machine.name()),
-                         "make the program for this machine"});
+                         "generate the program for this machine"});
     }
 }
 
@@ -165,7 +165,7 @@ std::vector<Diagnostic> preflight(const Job& job) {
     }
     const bool says_where = !program.blocks.empty() && program.blocks.back().kind == BlockKind::end;
     if (!says_where && !job.points) { // points end with the last one
-        found.push_back({{program_file(job), 0, 0, -1}, "the program does not say where it ends", {}});
+        found.push_back({{program_file(job), 0, 0, -1}, "the program has no end block", {}});
     }
     BlockChecks checks(job, found);
     for (int n = 0; n < program.block_count() && !job.points; ++n) {

@@ -111,7 +111,7 @@ LogStart start_from(const JsonValue& value) {
         const std::string letter = axis.at("letter").text();
         const std::string unit = axis.at("unit").text();
         if (letter.size() != 1 || (unit != "mm" && unit != "deg")) {
-            axis.fail("expected one letter, and mm or deg as its unit");
+            axis.fail("expected one letter with mm or deg as its unit");
         }
         start.axes.push_back({letter.front(), unit == "deg" ? AxisKind::rotary : AxisKind::linear});
     }
@@ -240,9 +240,9 @@ JobLog::JobLog(const fs::path& folder, const std::string& name) {
         }
     }
     if (handle_ < 0) {
-        throw Error(fmt::format("{} job logs of this name are there already", most_logs),
+        throw Error(fmt::format("there are already {} job logs with this name", most_logs),
                     folder,
-                    "move the old ones away");
+                    "move the old ones to another folder");
     }
     // Ends with this program, however it ends. Where a file system knows no locks, there is none.
     (void)::flock(handle_, LOCK_EX | LOCK_NB);
@@ -393,7 +393,7 @@ ReadLog read_job_log(const fs::path& file) {
     log.torn = !rest.empty() && rest.back() != '\n';
     rest = rest.substr(0, rest.rfind('\n') + 1); // everything, or nothing if there is no whole line
     if (rest.empty()) {
-        throw Error("the job log has no whole line", file);
+        throw Error("the job log has no complete line", file);
     }
     for (int number = 1; !rest.empty(); ++number) {
         const std::size_t length = rest.find('\n');

@@ -83,7 +83,7 @@ std::shared_ptr<const Job> JobQueue::program_of(QueuedJobId id) const {
     const std::scoped_lock lock(mutex_);
     const auto found = std::ranges::find_if(entries_, [&](const Entry& one) { return one.shown.id == id; });
     if (found == entries_.end()) {
-        throw Error("that job is not in the queue any more");
+        throw Error("that job is no longer in the queue");
     }
     return found->job;
 }
@@ -141,12 +141,12 @@ void JobQueue::load(QueuedJobId id, Job job) {
         Entry& found = entry(entries, id);
         if (found.shown.state != QueueState::waiting && found.shown.state != QueueState::held) {
             throw Error(fmt::format(
-                "{} is {}: its program stays as it is", found.shown.name, to_text(found.shown.state)));
+                "{} is {}: its program cannot be changed", found.shown.name, to_text(found.shown.state)));
         }
         if (found.shown.hash != hash_of(job)) {
-            throw Error(fmt::format("{} is another program than the one that was queued", found.shown.name),
+            throw Error(fmt::format("{} is not the program that was queued", found.shown.name),
                         {},
-                        "take the old one out of the queue and add this one");
+                        "remove the old one from the queue and add this one");
         }
         found.shown.blocks = job.block_count();
         found.shown.from_line = job.from_line;
@@ -159,7 +159,7 @@ void JobQueue::load(QueuedJobId id, Job job) {
 void JobQueue::move(QueuedJobId id, int place) {
     change([&](Entries& entries) {
         if (entry(entries, id).shown.state != QueueState::waiting) {
-            throw Error("only a waiting job changes its place");
+            throw Error("only a waiting job can be moved");
         }
         std::vector<std::size_t> places; // of the waiting ones
         Entries waiting;
@@ -214,7 +214,7 @@ Job JobQueue::begin(QueuedJobId id) {
         const auto first = std::ranges::find_if(entries, unfinished, &Entry::shown);
         if (first == entries.end() || first->shown.id != id) {
             const bool held = first != entries.end() && first->shown.state == QueueState::held;
-            throw Error(fmt::format("{} does not come next", wanted.shown.name),
+            throw Error(fmt::format("{} is not the next job", wanted.shown.name),
                         {},
                         held ? first->shown.name + " holds the queue: " + first->shown.sentence : "");
         }
@@ -224,7 +224,7 @@ Job JobQueue::begin(QueuedJobId id) {
                         wanted.shown.sentence);
         }
         if (wanted.job == nullptr) {
-            throw Error(fmt::format("the program of {} was not loaded again", wanted.shown.name));
+            throw Error(fmt::format("the program of {} is not loaded", wanted.shown.name));
         }
         wanted.before = wanted.shown;
         wanted.shown.state = QueueState::running;
@@ -250,7 +250,7 @@ JobOutcome JobQueue::run(QueuedJobId id, const std::function<JobOutcome(const Jo
         }
         throw;
     } catch (const Cancelled&) {
-        failed("The job was cancelled before it began.");
+        failed("The job was cancelled before it started.");
         throw;
     }
 }
@@ -276,7 +276,7 @@ void JobQueue::ended(const JobOutcome& outcome) {
 
 /// One that was held before and could not go on keeps what became of it then.
 void JobQueue::failed(const std::string& why) {
-    constexpr std::string_view again = " It did not go on: ";
+    constexpr std::string_view again = " It could not continue: ";
     finish([&](Entry& entry) {
         QueuedJob& job = entry.shown;
         const QueuedJob& before = entry.before;

@@ -27,7 +27,7 @@ std::string JobReport::progress_text() const {
                                  ? fmt::format(", {} sent", driver.sent_blocks)
                                  : std::string();
     if (line > 0 && driver.block > driver.executed_blocks) {
-        return fmt::format("Block {} of {}, line about {}, {} confirmed{}",
+        return fmt::format("Block {} of {}, about line {}, {} confirmed{}",
                            driver.block,
                            blocks,
                            line,

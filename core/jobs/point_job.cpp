@@ -119,10 +119,10 @@ Job point_file_job(std::string_view text,
                    double period) {
     const std::vector<Vec3>& points = read.points;
     if (points.empty()) {
-        throw Error("there is no point to play", file);
+        throw Error("there are no points to run", file);
     }
     if (points.size() > plot::most_program_points) {
-        throw Error(fmt::format("{} points are more than {} million",
+        throw Error(fmt::format("{} points exceed the maximum of {} million",
                                 points.size(),
                                 plot::most_program_points / 1'000'000),
                     file);

@@ -28,7 +28,7 @@ KeptDoubt read_doubt(const std::filesystem::path& file) {
     const JsonValue whole = JsonValue::read(file);
     whole.expect_only({"format", "version", "controller", "doubt", "lost", "moving"});
     if (whole.at("format").text() != position_doubt_format_name) {
-        whole.at("format").fail("this is no doubt about a position");
+        whole.at("format").fail("this is not a position record");
     }
     (void)whole.at("version").integer(1, position_doubt_format_version);
     const auto lost = whole.find("lost");
@@ -53,12 +53,12 @@ void PositionMemory::remind(drivers::Driver& driver) {
         kept_moving_ = doubt.moving;
     } catch (const Error& error) {
         kept_lost_ = true;
-        kept_ =
-            "what was known of it when it was last connected cannot be read: " + to_text(error.diagnostic());
+        kept_ = "the position record of the last connection cannot be read: " + to_text(error.diagnostic());
     }
     // Found as if it had been switched on.
     if (const bool anew = !driver.status().position_doubt.empty(); kept_moving_ && anew && !kept_lost_) {
-        kept_ = "it was at work when it was last seen here, and it was reset or switched off since";
+        kept_ =
+            "the machine was running when it was last connected, and has been reset or switched off since";
         kept_lost_ = true;
     }
     if (kept_.empty()) {
@@ -82,7 +82,7 @@ void PositionMemory::keep(const drivers::DriverStatus& status) {
         std::error_code why;
         std::filesystem::remove(file_, why);
         if (why) {
-            throw Error("cannot be removed: " + why.message(), file_);
+            throw Error("cannot remove the file: " + why.message(), file_);
         }
     } else {
         const nlohmann::ordered_json whole{{"format", position_doubt_format_name},

@@ -34,20 +34,20 @@ std::string sentence_of(const JobStory& story, const std::string& fault) {
             "{} after {}: {}", to_text(*story.end), short_time(story.time), with_clause(fault, done + "."));
     }
     if (story.executed_blocks == blocks) {
-        return fmt::format("Millwright ended before it could write the end: {} {}.",
+        return fmt::format("Millwright ended before it could log the end of the job: {} {}.",
                            internal::all_blocks_text(blocks),
                            story.start.answers ? "executed" : "sent");
     }
     const int open = std::max(0, story.allowed_blocks - story.executed_blocks);
     const std::string where =
-        story.next_line > 0 ? fmt::format(" (line {} comes next)", story.next_line) : std::string();
-    return fmt::format(
-        "Millwright ended while the job ran, after {} or later: {}{}; the next {} may have been, too{}.",
-        short_time(story.time),
-        done,
-        where,
-        open,
-        story.allowed_blocks < blocks ? "; the others were never sent" : "");
+        story.next_line > 0 ? fmt::format(" (next line: {})", story.next_line) : std::string();
+    return fmt::format("Millwright ended while the job was running, after {} or later: {}{}; the next {} may "
+                       "have been as well{}.",
+                       short_time(story.time),
+                       done,
+                       where,
+                       open,
+                       story.allowed_blocks < blocks ? "; the rest were never sent" : "");
 }
 
 fs::path mark_of(fs::path log_file) {

@@ -52,13 +52,13 @@ void check_flow(const std::vector<std::string_view>& lines, const std::filesyste
         const std::string text = drivers::bare_line(lines[n]);
         const int number = static_cast<int>(n) + 1;
         if (drivers::is_flow(text)) {
-            refuse_start(file, number, "a program with subroutines or loops cannot be begun in its middle");
+            refuse_start(file, number, "a program with subroutines or loops cannot be started in the middle");
         }
         if (text.find('#') != std::string::npos) {
-            refuse_start(file, number, "a program with parameters cannot be begun in its middle");
+            refuse_start(file, number, "a program with parameters cannot be started in the middle");
         }
         if (text.find("G38.") != std::string::npos) {
-            refuse_start(file, number, "a program that probes cannot be begun in its middle");
+            refuse_start(file, number, "a program that probes cannot be started in the middle");
         }
     }
 }
@@ -181,8 +181,10 @@ ModalState state_before(
         const std::string words = drivers::bare_line(lines[static_cast<std::size_t>(next) - 1]);
         known.take(words, reader.state().incremental);
         if (has_code(words, "G10") || has_code(words, "G92") || has_code(words, "G52")) {
-            refuse_start(
-                file, next, "the lines before change offsets (G10, G52, G92)", "run it from its beginning");
+            refuse_start(file,
+                         next,
+                         "earlier lines change offsets (G10, G52, G92)",
+                         "run the program from the beginning");
         }
         if (!reader.errors().empty()) {
             throw Error(reader.errors().front());
@@ -192,18 +194,15 @@ ModalState state_before(
         }
     }
     if (const char axis = known.unknown(); axis != '\0') {
-        refuse_start(
-            file,
-            line,
-            known.left()
-                ? fmt::format(
-                      "the lines before go to a machine position (G53, G28, G30), and none tells {} since",
-                      axis)
-                : fmt::format(
-                      "none of the lines before tells where {} is (by G90), so nobody knows where the "
-                      "machine would be here",
-                      axis),
-            "begin a few lines later, or run it from its beginning");
+        refuse_start(file,
+                     line,
+                     known.left() ? fmt::format("earlier lines move to a machine position (G53, G28, G30), "
+                                                "and {} is not specified afterwards",
+                                                axis)
+                                  : fmt::format("no earlier line specifies {} (with G90), so the position of "
+                                                "the machine at this line is unknown",
+                                                axis),
+                     "start a few lines later, or run the program from the beginning");
     }
     return reader.state();
 }
@@ -216,20 +215,20 @@ void check_state(const ModalState& state,
     constexpr int no_motion = 800;
     constexpr int last_cycle = 890;
     if (state.cutter.on()) {
-        refuse_start(file, line, "cutter compensation is on here (G41, G42)", "begin where it is off");
+        refuse_start(file, line, "cutter compensation is active here (G41, G42)", "start where it is off");
     }
     if (state.motion >= first_cycle && state.motion <= last_cycle && state.motion != no_motion) {
-        refuse_start(file, line, "a canned cycle is in force here", "begin at its first line, or after G80");
+        refuse_start(file, line, "a canned cycle is active here", "start at its first line, or after G80");
     }
     if (state.constant_surface_speed) {
-        refuse_start(file, line, "constant surface speed is in force here (G96)");
+        refuse_start(file, line, "constant surface speed is active here (G96)");
     }
     const std::string text = drivers::bare_line(first_line);
     const bool straight = state.motion == 0 || state.motion == 10 || state.motion == no_motion;
     const bool names_motion = text.find('G') != std::string::npos;
     if (!straight && !names_motion) {
         refuse_start(
-            file, line, "the line goes on with an arc or a spline", "begin at a line that names its motion");
+            file, line, "the line continues an arc or a spline", "start at a line that specifies its motion");
     }
 }
 
@@ -337,10 +336,10 @@ void check_room(const std::vector<std::string>& before, const std::filesystem::p
     if (line <= std::ssize(before)) {
         refuse_start(file,
                      line,
-                     fmt::format("the approach to this line takes {}, and {} stand above it",
+                     fmt::format("the approach to this line needs {} above it, but there are only {}",
                                  counted(before.size(), "line"),
                                  line - 1),
-                     "run it from its beginning");
+                     "run the program from the beginning");
     }
 }
 
@@ -352,7 +351,7 @@ RunFrom run_from_line(std::string_view text,
                       const RunFromSettings& settings) {
     const std::vector<std::string_view> lines = lines_of(text);
     if (line < 1 || line > std::ssize(lines)) {
-        refuse_start(file, line, fmt::format("the program has {}", counted(lines.size(), "line")));
+        refuse_start(file, line, fmt::format("the program has only {}", counted(lines.size(), "line")));
     }
     check_flow(lines, file);
     Watcher watcher;
@@ -366,9 +365,9 @@ RunFrom run_from_line(std::string_view text,
             file,
             line,
             clearance
-                ? fmt::format("the clearance Z{:.3f} is below Z{:.3f}, where this line begins", *clearance, z)
-                : "the lines before do not tell at which Z the tool can go anywhere",
-            "name the clearance");
+                ? fmt::format("the clearance Z{:.3f} is below Z{:.3f}, the start of this line", *clearance, z)
+                : "the earlier lines give no Z at which the tool can travel safely",
+            "specify a clearance");
     }
     const std::vector<std::string> before = approach(
         state, watcher, settings, std::span(lines).first(static_cast<std::size_t>(line) - 1), *clearance);

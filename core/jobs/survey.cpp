@@ -223,14 +223,14 @@ void check_length(const drivers::MachineLimits::Axis& axis,
     }
     const bool up = range.max_line >= range.min_line; // the later end is the one that is too far
     faults.push_back({{file, up ? range.max_line : range.min_line, 0, -1},
-                      fmt::format("axis {} would go from {} to {} in machine coordinates, {}, and its whole "
-                                  "travel is {}",
+                      fmt::format("axis {} would move from {} to {} in machine coordinates, a distance of "
+                                  "{}, but its travel is only {}",
                                   axis.letter,
                                   in_people_units(axis.letter, up ? range.min : range.max),
                                   in_people_units(axis.letter, up ? range.max : range.min),
                                   in_people_units(axis.letter, way),
                                   in_people_units(axis.letter, *axis.travel)),
-                      "check unit and program, and the travel that the controller was told"});
+                      "check the unit, the program, and the travel configured in the controller"});
 }
 
 /// LinuxCNC's number of the first of the nine parameters of a stored offset; 0 for others.
@@ -348,10 +348,10 @@ Diagnostic missing_axes_fault(const Survey& of,
         line = line == 0 ? moved : std::min(line, moved);
     }
     return {{file, line, 0, -1},
-            fmt::format("the program moves {}, and the machine has {}", listed(missing), listed(there)),
+            fmt::format("the program moves {}, but the machine has only {}", listed(missing), listed(there)),
             dialect == gcode::Dialect::linuxcnc
-                ? "make the program for these axes, or name all that LinuxCNC has when it is connected"
-                : "make the program for these axes, or connect a machine that has all"};
+                ? "generate the program for these axes, or specify all axes of LinuxCNC when connecting"
+                : "generate the program for these axes, or connect a machine that has all of them"};
 }
 
 /// Said of the whole program, before what is wrong with a line: by Grbl's rules the first word of such an
@@ -396,13 +396,14 @@ faults_of(const Survey& survey, const drivers::MachineLimits& limits, const std:
         const std::size_t index = index_of(axis.letter);
         const Survey::Range& range = survey.ranges[index];
         const auto outside = [&](double value, int line) {
-            faults.push_back({{file, line, 0, -1},
-                              fmt::format("axis {} would go to {} in machine coordinates, outside {} ... {}",
-                                          axis.letter,
-                                          in_people_units(axis.letter, value),
-                                          in_people_units(axis.letter, axis.min.value_or(-0.0)),
-                                          in_people_units(axis.letter, axis.max.value_or(0.0))),
-                              "check work offset and program"});
+            faults.push_back(
+                {{file, line, 0, -1},
+                 fmt::format("axis {} would move to {} in machine coordinates, outside {} ... {}",
+                             axis.letter,
+                             in_people_units(axis.letter, value),
+                             in_people_units(axis.letter, axis.min.value_or(-0.0)),
+                             in_people_units(axis.letter, axis.max.value_or(0.0))),
+                 "check the work offset and the program"});
         };
         if (!range.empty() && axis.min && range.min < *axis.min - rounding) {
             outside(range.min, range.min_line);
@@ -428,26 +429,26 @@ warnings_of(const Survey& survey, const drivers::MachineLimits& limits, const st
         for (const int tool : survey.tools) {
             list += fmt::format("{}T{}", list.empty() ? "" : ", ", tool);
         }
-        warn(0, "the program calls for tools " + list, "have them ready");
+        warn(0, "the program uses tools " + list, "have them ready");
     }
     if (survey.first_cut_line > 0 && !survey.spindle_before_cut) {
-        warn(survey.first_cut_line, "the first cut comes before the spindle was started");
+        warn(survey.first_cut_line, "the first cut comes before the spindle is started");
     }
     double fastest = 0.0;
     for (const drivers::MachineLimits::Axis& axis : limits.axes) {
         fastest = std::hypot(fastest, axis.speed.value_or(std::numeric_limits<double>::infinity()));
     }
     if (!limits.axes.empty() && survey.greatest_feed > fastest) {
-        warn(
-            survey.greatest_feed_line,
-            fmt::format("the feed of {:.0f} mm/min is more than the machine reaches in any direction, {:.0f}",
-                        survey.greatest_feed * seconds_per_minute,
-                        fastest * seconds_per_minute),
-            "it will be slower");
+        warn(survey.greatest_feed_line,
+             fmt::format(
+                 "the feed of {:.0f} mm/min exceeds the machine's maximum in any direction, {:.0f} mm/min",
+                 survey.greatest_feed * seconds_per_minute,
+                 fastest * seconds_per_minute),
+             "the machine will be slower");
     }
     if (limits.spindle_rpm && survey.greatest_spindle_rpm > *limits.spindle_rpm) {
         warn(0,
-             fmt::format("the program wants {:.0f} rpm and the spindle reaches {:.0f}",
+             fmt::format("the program requests {:.0f} rpm, but the spindle reaches only {:.0f} rpm",
                          survey.greatest_spindle_rpm,
                          *limits.spindle_rpm));
     }

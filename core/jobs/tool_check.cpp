@@ -129,26 +129,26 @@ public:
     void check_machine() {
         if (place_.laser) {
             add(0,
-                "the controller is in laser mode ($32=1), in which the ways to and from a tool change could "
-                "burn",
+                "the controller is in laser mode ($32=1), so moves to and from a tool change could burn",
                 "set $32=0 for a spindle");
         }
         const bool by_machine_zero = job_.tool_change->way == drivers::ToolChangeWay::probe;
         if (!place_.status.position_doubt.empty() && (place_.status.position_lost || by_machine_zero)) {
             add(0,
-                "the way back from a tool change needs a sure position: " + place_.status.position_doubt,
-                "home the machine, or confirm that it is where it says");
+                "returning from a tool change needs a verified position: " + place_.status.position_doubt,
+                "home the machine, or confirm the reported position");
         }
         if (place_.status.modes.empty()) {
             add(0,
-                "the controller does not report its modes ($G), so that no tool change can bring them back");
+                "the controller does not report its modes ($G), so they cannot be restored after a tool "
+                "change");
         }
         for (const drivers::StoredOffset& offset : place_.offsets) {
             if (offset.name == "TLO" && offset.value.size() > 2 && std::abs(offset.value[2]) > 0.0) {
                 add(0,
-                    fmt::format("a tool length offset of {:.3f} mm is in force, of an earlier tool",
+                    fmt::format("a tool length offset of {:.3f} mm from an earlier tool is active",
                                 offset.value[2]),
-                    "cancel it with G49, and set the zero of Z for the tool in the spindle");
+                    "cancel it with G49, and set the Z zero for the tool in the spindle");
             }
         }
     }
@@ -160,39 +160,39 @@ public:
             constexpr int none = 800;
             if (before.modes.incremental) {
                 add(before.line,
-                    "G91 is in force at this tool change: the next line counts from where the machine is "
-                    "then",
+                    "G91 is active at this tool change: the next line would count from wherever the machine "
+                    "is then",
                     "put G90 before the M6");
             }
             if (motion >= clockwise && motion != none) {
                 add(before.line,
-                    "an arc or a probing is the motion in force at this tool change, which cannot be brought "
-                    "back without a move",
+                    "an arc or probing motion is active at this tool change and cannot be restored without a "
+                    "move",
                     "put G0 or G1 before the M6");
             }
             const double start = found.start[2].value_or(before.z.min);
             const bool went_up = before.z.max > start || before.knows_height;
             if (!before.z.empty() && !went_up) {
                 add(before.line,
-                    "the program has not raised Z before this tool change: no safe height is known in which "
-                    "the tool can come back",
-                    "let it go up (G0 Z) before the M6, or change the first tool before it moves");
+                    "the program has not raised Z before this tool change: no safe height for the return is "
+                    "known",
+                    "raise Z (G0 Z) before the M6, or change the first tool before any move");
             }
         }
     }
 
     void check_sensor(const drivers::ToolSensor& sensor, std::string_view text) {
         if (!(sensor.travel_z > sensor.deepest_z)) {
-            add(0, "the deepest Z of the search at the tool sensor is not below the height for travelling");
+            add(0, "the lowest Z of the tool sensor search is not below the travel height");
         }
         if (!(sensor.feed > 0.0)) {
-            add(0, "the search at the tool sensor needs a feed");
+            add(0, "the tool sensor search needs a feed rate");
         }
         constexpr double unset = 1e-9;
         if (std::abs(sensor.x) < unset && std::abs(sensor.y) < unset) {
             add(0,
-                "the place of the tool sensor is not set: it is X0 Y0",
-                "set its X and Y, in machine coordinates");
+                "the position of the tool sensor is not set (it is X0 Y0)",
+                "set its X and Y in machine coordinates");
         }
         check_reach('X', sensor.x);
         check_reach('Y', sensor.y);
@@ -208,8 +208,8 @@ public:
                 if (is_code(word, 'G', 43.0) || is_code(word, 'G', 43.1) || is_code(word, 'G', 43.2) ||
                     is_code(word, 'G', 49.0)) {
                     add(number,
-                        "the program sets a tool length itself, and the tool sensor does it, too",
-                        "take it out, or choose another way to change tools");
+                        "the program sets a tool length, and so does the tool sensor",
+                        "remove it from the program, or choose another way to change tools");
                     return;
                 }
             }
@@ -226,14 +226,15 @@ public:
             for (const WrittenWord& word : written_words(line)) {
                 empty = false;
                 if (is_code(word, 'M', 6.0) || is_code(word, 'M', 2.0) || is_code(word, 'M', 30.0)) {
-                    found_.push_back({{file, number, static_cast<int>(word.begin) + 1, -1},
-                                      fmt::format("the lines for a tool change hold M{:.0f}", word.value),
-                                      "no tool change and no end of a program can stand there"});
+                    found_.push_back(
+                        {{file, number, static_cast<int>(word.begin) + 1, -1},
+                         fmt::format("the tool change macro contains M{:.0f}", word.value),
+                         "remove it; a tool change macro must not change tools or end the program"});
                 }
             }
         }
         if (empty) {
-            found_.push_back({{file}, "there is nothing in the lines for a tool change", {}});
+            found_.push_back({{file}, "the tool change macro is empty", {}});
         }
         const Survey read = survey(plan.macro,
                                    file,
@@ -258,17 +259,16 @@ private:
             std::ranges::find(place_.limits.axes, letter, &drivers::MachineLimits::Axis::letter);
         if (axis == place_.limits.axes.end() || !axis->min || !axis->max) {
             add(0,
-                fmt::format("the tool sensor needs a machine that homes, and the travel of {} is not known",
+                fmt::format("the tool sensor needs a machine that homes, but the travel of {} is unknown",
                             letter),
-                "switch homing on ($22), or change tools without the sensor");
+                "enable homing ($22), or change tools without the sensor");
         } else if (!(value >= *axis->min && value <= *axis->max)) {
             add(0,
-                fmt::format(
-                    "the tool sensor's {} {:.3f} lies outside {:.3f} ... {:.3f} (machine coordinates)",
-                    letter,
-                    value,
-                    *axis->min,
-                    *axis->max));
+                fmt::format("the tool sensor's {} {:.3f} is outside {:.3f} ... {:.3f} (machine coordinates)",
+                            letter,
+                            value,
+                            *axis->min,
+                            *axis->max));
         }
     }
 };
@@ -357,7 +357,7 @@ std::vector<Diagnostic> tool_change_faults(const Job& job,
     }
     Faults faults(job, place);
     if (!able.tool_changes) {
-        faults.add(0, "this machine's controller changes tools itself", "leave the option out");
+        faults.add(0, "the controller of this machine changes tools itself", "omit the option");
         return faults.take();
     }
     faults.check_machine();
@@ -380,12 +380,12 @@ std::string tool_before_start(const Job& job, const Survey& found) {
     }
     const std::string measured = changes.reference_first ? ": it is measured first" : "";
     if (!job.tool_at_start) {
-        return fmt::format("The tool with which the zero of Z was set has to be in the spindle{}.", measured);
+        return fmt::format("The tool with which the Z zero was set must be in the spindle{}.", measured);
     }
     const std::string tool = *job.tool_at_start > 0
                                  ? fmt::format("Tool {}", *job.tool_at_start)
-                                 : "The tool of the lines before, which the program does not name,";
-    return fmt::format("{} has to be in the spindle at line {}, and the zero of Z has to be set with it{}.",
+                                 : "The tool of the earlier lines, which the program does not name,";
+    return fmt::format("{} must be in the spindle at line {}, and the Z zero must be set with it{}.",
                        tool,
                        job.from_line,
                        measured);

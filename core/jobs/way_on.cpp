@@ -36,7 +36,7 @@ refusal(const std::string& text, const JobStory& story, std::optional<double> cl
 
 WayOn way_through(const std::string& text, const JobStory& story) {
     if (program_hash(text) != story.start.program_hash) {
-        return {1, false, "the program was changed since"};
+        return {1, false, "the program has changed since then"};
     }
     if (const auto found = refusal(text, story, above_everything)) {
         return {1, false, to_text(*found)};
@@ -48,20 +48,21 @@ WayOn way_through(const std::string& text, const JobStory& story) {
 
 std::string why_not_from_line(const JobStory& story) {
     if (story.start.driver == "cordic") {
-        return "the cordic driver runs programs from their beginning alone";
+        return "the cordic driver runs programs from the beginning only";
     }
     if (story.start.driver == "points") {
-        return "points are always played from the first one";
+        return "points are always run from the first one";
     }
     if (story.next_line == 0) {
-        return "it is not known where it ended";
+        return "it is not known where the job ended";
     }
     const int taken = is_text(story.start) ? fewest_approach_lines : approach_lines;
-    return story.next_line > taken ? std::string()
-                                   : fmt::format("it ended at line {}, and the approach to a line takes {}{}",
-                                                 story.next_line,
-                                                 is_text(story.start) ? "at least " : "the first ",
-                                                 taken);
+    return story.next_line > taken
+               ? std::string()
+               : fmt::format("the job ended at line {}, but the approach needs {}{} lines",
+                             story.next_line,
+                             is_text(story.start) ? "at least " : "the first ",
+                             taken);
 }
 
 WayOn way_on(const JobStory& story) {

@@ -42,10 +42,10 @@ TEST(FullDisk, StopsAJobWhoseLogCannotBeWrittenAndJobsSaysSo) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("the job was stopped at block "),
-                      HasSubstr(" of 63, since its log cannot be written: No space left on device; ")));
+                      HasSubstr(" of 63 because its log cannot be written: No space left on device; ")));
     const Ended jobs = run({"jobs", logs});
     EXPECT_EQ(jobs.exit_code, 0) << jobs.err;
-    EXPECT_THAT(jobs.out, AllOf(HasSubstr("fault after "), HasSubstr(" of 63, since its log cannot be")));
+    EXPECT_THAT(jobs.out, AllOf(HasSubstr("fault after "), HasSubstr(" of 63 because its log cannot be")));
 }
 
 } // namespace

@@ -261,8 +261,8 @@ TEST(ProgramsAsPlots, ACutFromAnUnknownPlaceIsRefusedWithItsLine) {
     const Ended ended = run({"plot", "toolpath", file, "--out", out, "--machine", "router-xyz"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
-                HasSubstr("41.ngc:4: this cut begins where the program has not said what X and Y are (name X "
-                          "and Y in a rapid before the first cut)"));
+                HasSubstr("41.ngc:4: this cut begins where the program has not said what X and Y are "
+                          "(name X and Y in a rapid before the first cut)"));
     EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_EQ(run({"plot", "decode", file, "--velocity", "10", "--period", "0.01", "--out", out}).exit_code,
               1);

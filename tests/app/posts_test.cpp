@@ -345,10 +345,9 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     write_content(part, "G21 G90\nG0 Y10 A5\nG1 Z0 F600\nM2\n");
     ended = convert("ac-table", "heidenhain");
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(
-        ended.err,
-        HasSubstr("part.ngc:3: Heidenhain klartext with FUNCTION TCPM takes positions of the tool's tip, and "
-                  "the program has not said where X is when it begins to move"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("part.ngc:3: Heidenhain klartext with FUNCTION TCPM takes positions of the tool's "
+                          "tip, and the program has not said where X is when it begins to move"));
     write_content(part, "G21 G90\nG0 X10 Y0 Z0 A5 C0\nM2\n");
     ended = convert("ac-table", "heidenhain", {"--arcs", "0.01"});
     EXPECT_EQ(ended.exit_code, 1);
@@ -427,9 +426,9 @@ TEST_F(Posts, RunTakesAFiveAxisProjectToAControllerWithItsAxesAlone) {
     const Emulator emulator(port, {"--speed", "100"});
     Ended ended = run({"run", project, "--driver", "grbl", "--port", port, "--log", logs});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, and the machine has X, Y and Z"));
+    EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, but the machine has only X, Y and Z"));
     ended = run({"run", project, "--driver", "grbl", "--home", "--port", port, "--log", logs});
-    EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, and the machine has X, Y and Z"));
+    EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, but the machine has only X, Y and Z"));
     ended = run({"run", project, "--driver", "grbl", "--post", "grbl", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves X Y Z only"));

@@ -120,9 +120,8 @@ TEST_F(SendToolChange, NamesTheToolOfABeginningInTheMiddle) {
     all.insert(all.end(), {"--tool-change", "stop", "--from-line", "12", "--trust-position"});
     const Ended asked = run(all);
     EXPECT_EQ(asked.exit_code, 1);
-    EXPECT_THAT(
-        asked.err,
-        HasSubstr("Tool 2 has to be in the spindle at line 12, and the zero of Z has to be set with it."));
+    EXPECT_THAT(asked.err,
+                HasSubstr("Tool 2 must be in the spindle at line 12, and the Z zero must be set with it."));
     EXPECT_THAT(asked.err, HasSubstr("--right-tool"));
     EXPECT_TRUE(records().empty()) << "nothing was sent";
     all.emplace_back("--right-tool");

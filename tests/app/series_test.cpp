@@ -97,17 +97,17 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     EXPECT_THAT(ended.err, HasSubstr("did not come to its end: Fault: "));
     EXPECT_THAT(run({"jobs", logs}).out,
                 AnyOf(HasSubstr("send " + a + " --driver grbl --port " + port + " --from-line "),
-                      HasSubstr("from its beginning")));
+                      HasSubstr("from the beginning")));
     ended = send({"--continue"}, "20\n"); // it was switched on anew: nobody knows where the tool is
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("Line 20 could begin anywhere"));
+    EXPECT_THAT(ended.err, HasSubstr("Line 20 could start anywhere"));
     EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
     // Line 5 cannot be begun; from line 20, then the other.
     ended = send({"--continue", "--trust-position"}, "5\n20\ny\n");
     EXPECT_THAT(ended.out, HasSubstr("a limit switch was hit")) << "what ended it is still known";
-    EXPECT_THAT(ended.out, AnyOf(HasSubstr(" comes next."), HasSubstr("from its beginning alone")));
+    EXPECT_THAT(ended.out, AnyOf(HasSubstr(" comes next."), HasSubstr("from the beginning only")));
     EXPECT_THAT(ended.out, HasSubstr(logs + "/a-0001.jsonl"));
-    EXPECT_THAT(ended.out, HasSubstr("approach to this line takes 6 lines"));
+    EXPECT_THAT(ended.out, HasSubstr("approach to this line needs 6 lines"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(logs + "/a-0002.jsonl"), HasSubstr(R"("from_line":20)"));
     EXPECT_TRUE(fs::exists(logs + "/b-0001.jsonl"));
@@ -136,7 +136,7 @@ TEST_F(Series, AnotherProgramThanTheOneThatWasQueuedIsRefused) {
     write_content(b, "G0 X1\nM2\n");
     const Ended ended = send({"--continue"}, "y\n");
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("b is another program than the one that was queued"));
+    EXPECT_THAT(ended.err, HasSubstr("b is not the program that was queued"));
 }
 
 TEST_F(Series, AProgramThatCannotBeHadAgainIsLeftOutIfAPersonSaysSo) {

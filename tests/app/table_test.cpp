@@ -205,7 +205,7 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
     const std::string jobs = run({"jobs", (folder / "jobs").string()}).out;
     EXPECT_THAT(jobs, HasSubstr("fault after"));
     EXPECT_THAT(jobs, HasSubstr("the table said 'error'"));
-    EXPECT_THAT(jobs, HasSubstr("7 of 36 blocks were executed for certain"));
+    EXPECT_THAT(jobs, HasSubstr("7 of 36 blocks were confirmed as executed"));
     EXPECT_THAT(jobs,
                 HasSubstr("millwright plot play " + (folder / "line.txt").string() + " --port " + port));
     Emulator silent(port, {"--record", "{X},{Y},{Z}"}, "table");
@@ -287,7 +287,7 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     const std::string diagonal = (folder / "diagonal.txt").string();
     EXPECT_EQ(run({"plot", "play", diagonal, "--period", "0.04", "--speed", "50", "--log", log}).exit_code,
               0);
-    EXPECT_THAT(run({"jobs", log}).out, HasSubstr("36 of 36 blocks were executed for certain"));
+    EXPECT_THAT(run({"jobs", log}).out, HasSubstr("36 of 36 blocks were confirmed as executed"));
     const Ended fast = run({"plot", "play", diagonal, "--period", "0.02"});
     EXPECT_EQ(fast.exit_code, 1);
     EXPECT_THAT(fast.err, HasSubstr("and goes 10 mm/s at the most"));
@@ -341,7 +341,7 @@ TEST(TableCommand, PointsThatAreTooFastUpAndDownSayWhatToDo) {
     write_content(folder / "fast.csv", "0,0,5.00\n0,0,4.50\n");
     const Ended ended = run({"plot", "play", (folder / "fast.csv").string(), "--period", "0.02"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("axis Z would go"));
+    EXPECT_THAT(ended.err, HasSubstr("axis Z would move"));
     EXPECT_THAT(ended.err, HasSubstr("--plunge-velocity"));
     write_content(folder / "fast.csv", "0,0,5.00\n0.5,0,5.00\n");
     EXPECT_THAT(run({"plot", "play", (folder / "fast.csv").string(), "--period", "0.02"}).err,

@@ -15,7 +15,7 @@ std::string done_text(int executed_blocks, int blocks, bool answers) {
                        executed_blocks,
                        counted(blocks, "block"),
                        executed_blocks == 1 ? "was" : "were",
-                       answers ? "executed for certain" : "sent");
+                       answers ? "confirmed as executed" : "sent");
 }
 
 std::string all_blocks_text(int blocks) {
@@ -32,12 +32,11 @@ std::string end_sentence(
     switch (end) {
     case JobEnd::done:
         return capitalised(all_blocks_text(outcome.blocks)) +
-               (answers
-                    ? fmt::format(" executed in {}.", time)
-                    : fmt::format(" sent in {}. The machine gives no answers: whether it executed {} is not "
-                                  "known.",
-                                  time,
-                                  outcome.blocks == 1 ? "it" : "them"));
+               (answers ? fmt::format(" executed in {}.", time)
+                        : fmt::format(" sent in {}. The machine sends no replies, so it is not known whether "
+                                      "it executed {}.",
+                                      time,
+                                      outcome.blocks == 1 ? "it" : "them"));
     case JobEnd::stopped:
         return fmt::format("The machine was stopped: {}.", executed);
     case JobEnd::cancelled:
@@ -46,22 +45,22 @@ std::string end_sentence(
         break;
     }
     const std::string why = status.state == drivers::DriverState::disconnected ? "the link was lost"
-                            : status.message.empty() ? "the program did not get to its end"
-                                                     : status.message;
+                            : status.message.empty()                           ? "the program did not finish"
+                                                                               : status.message;
     return with_clause("Fault: " + why, executed + ".");
 }
 
 std::string log_lost_sentence(const drivers::DriverStatus& status, int blocks, const std::string& why) {
     if (status.executed_blocks == blocks) {
-        return "the job came to its end, but " + why;
+        return "the job finished, but " + why;
     }
     const int at = std::min(std::max(status.executed_blocks, status.block) + 1, blocks);
     return status.state == drivers::DriverState::disconnected
-               ? fmt::format("the link was lost at block {} of {} while the job was stopped, since {}",
+               ? fmt::format("the link was lost at block {} of {} while the job was being stopped because {}",
                              at,
                              blocks,
                              why)
-               : fmt::format("the job was stopped at block {} of {}, since {}", at, blocks, why);
+               : fmt::format("the job was stopped at block {} of {} because {}", at, blocks, why);
 }
 
 } // namespace millwright::jobs::internal

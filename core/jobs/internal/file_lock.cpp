@@ -20,7 +20,8 @@ FileLock::FileLock(const std::filesystem::path& file) {
     }
     if (::flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         ::close(handle_);
-        throw Error("is in use by another Millwright", file, "wait for it, or close it");
+        throw Error(
+            "is in use by another instance of Millwright", file, "wait until it has finished, or close it");
     }
 }
 

@@ -18,7 +18,7 @@ template <class Enum, std::size_t count>
             return one;
         }
     }
-    value.fail("\"" + name + "\" is not known here");
+    value.fail("\"" + name + "\" is not a valid value");
 }
 
 } // namespace millwright::jobs::internal

@@ -57,7 +57,7 @@ Job planned_text(std::string_view text,
         }
     }
     if (made.program.blocks.empty()) {
-        throw Error(Diagnostic{{file, 1, 1, -1}, "nothing in the program is to be executed", {}});
+        throw Error(Diagnostic{{file, 1, 1, -1}, "the program contains nothing to execute", {}});
     }
     Job job;
     job.name = file.stem().string();

@@ -34,11 +34,11 @@ using program::Program;
 int first_block(const Job& job, int line) {
     const Listing& listing = *job.listing;
     if (line < 1 || line > listing.line_count()) {
-        refuse(job, line, fmt::format("the program has {}", counted(listing.line_count(), "line")));
+        refuse(job, line, fmt::format("the program has only {}", counted(listing.line_count(), "line")));
     }
     const auto found = std::ranges::lower_bound(listing.line_of_block, line);
     if (found == listing.line_of_block.end()) {
-        refuse(job, line, "nothing is left of the program at this line");
+        refuse(job, line, "the program has no blocks from this line on");
     }
     return static_cast<int>(found - listing.line_of_block.begin());
 }
@@ -47,8 +47,10 @@ void check_room_above(const Job& job, int line, int block) {
     if (job.listing->line_of_block[static_cast<std::size_t>(block)] <= approach_lines) {
         refuse(job,
                line,
-               fmt::format("line {} is among the first {}, which the approach takes", line, approach_lines),
-               "run it from its beginning");
+               fmt::format("line {} is one of the first {} lines, which are needed for the approach",
+                           line,
+                           approach_lines),
+               "run the program from the beginning");
     }
 }
 
@@ -107,12 +109,12 @@ private:
             const char letter = machine_.axis(retract_.axis).letter;
             refuse(job_,
                    line_,
-                   fmt::format("the clearance {}{:.3f} is below {}{:.3f}, where this line begins",
+                   fmt::format("the clearance {}{:.3f} is below {}{:.3f}, the start of this line",
                                letter,
                                position,
                                letter,
                                begin_[retract_.axis]),
-                   "name the clearance");
+                   "specify a clearance");
         }
         return position;
     }

@@ -67,7 +67,8 @@ Json json_of(const QueuedJob& job) {
 void hold_interrupted(QueuedJob& job) {
     if (job.state == QueueState::running) {
         job.state = QueueState::held;
-        job.sentence = "Millwright ended while it ran: its log tells what was executed for certain.";
+        job.sentence =
+            "Millwright ended while the job was running: its log shows what was confirmed as executed.";
     }
 }
 
@@ -94,7 +95,7 @@ std::vector<QueuedJob> read_queue(const std::filesystem::path& file) {
     for (const JsonValue& value : whole.at("jobs").items()) {
         jobs.push_back(job_from(value));
         if (!ids.insert(jobs.back().id).second) {
-            value.at("id").fail("this id stands twice");
+            value.at("id").fail("this id occurs twice");
         }
         hold_interrupted(jobs.back());
     }

@@ -98,8 +98,8 @@ std::string Reach::beyond(const drivers::DriverStatus& status) const {
         const double room = rotary ? clearance_angle : clearance;
         if (at < low - room || at > high + room) {
             const auto shown = [rotary](double value) { return rotary ? to_degrees(value) : value; };
-            return fmt::format("the machine reports {} {:.3f}, and the program never goes beyond {} {:.3f} "
-                               "(machine coordinates): a line was changed on its way to the controller",
+            return fmt::format("the machine reports {} {:.3f}, but the program never goes beyond {} {:.3f} "
+                               "(machine coordinates): a line was altered on its way to the controller",
                                axis.letter,
                                shown(at),
                                axis.letter,

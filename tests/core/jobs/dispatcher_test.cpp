@@ -238,7 +238,7 @@ TEST(Dispatcher, TakesALostLinkForAFaultWithTheLastKnownPosition) {
         }
     });
     EXPECT_EQ(outcome.end, JobEnd::fault);
-    EXPECT_THAT(outcome.sentence, HasSubstr("the link was lost"));
+    EXPECT_THAT(outcome.sentence, HasSubstr("the connection was lost"));
     EXPECT_EQ(outcome.position, last);
 }
 
@@ -350,7 +350,7 @@ TEST(Dispatcher, NeverReportsDoneUnlessTheDriverExecutedEveryBlock) {
     const JobOutcome outcome = Dispatcher(driver, clock, folder.path()).run(job, {});
     EXPECT_EQ(outcome.end, JobEnd::fault);
     EXPECT_EQ(outcome.executed_blocks, job.program->block_count() - 1);
-    EXPECT_THAT(outcome.sentence, HasSubstr("did not get to its end"));
+    EXPECT_THAT(outcome.sentence, HasSubstr("the program did not finish"));
 }
 
 } // namespace

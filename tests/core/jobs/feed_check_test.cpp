@@ -21,12 +21,13 @@ TEST(FeedCheck, TellsFeedsThatNoAxisReaches) {
     EXPECT_FALSE(told(fastest));
     const auto fast = told(1.2 * fastest); // not on the diagonal
     ASSERT_TRUE(fast);
-    EXPECT_EQ(to_text(*fast),
-              fmt::format("part.ngc:3: {:.0f} mm/min is more than axis X reaches (it will be slower)",
-                          1.2 * fastest));
+    EXPECT_EQ(
+        to_text(*fast),
+        fmt::format("part.ngc:3: {:.0f} mm/min exceeds the maximum speed of axis X (the move will be slower)",
+                    1.2 * fastest));
     const auto both = told(2.0 * fastest, "G1 Y0\n");
     ASSERT_TRUE(both);
-    EXPECT_NE(both->message.find("and so are 2 feeds after it"), std::string::npos);
+    EXPECT_NE(both->message.find("and so do 2 later feeds"), std::string::npos);
 }
 
 } // namespace

@@ -56,8 +56,8 @@ TEST(FullDisk, StopsTheMachineAndSaysWhereInItsLogToo) {
     const std::string said = bench.said([&] { disk.fill(); });
     const std::string where = "the job was stopped at block [0-9]+ of " +
                               std::to_string(bench.job.block_count()) +
-                              ", since its log cannot be written: No space left on device; [0-9]+ of [0-9]+ "
-                              "blocks were executed for certain";
+                              " because its log cannot be written: No space left on device; [0-9]+ of [0-9]+ "
+                              "blocks were confirmed as executed";
     EXPECT_THAT(said, MatchesRegex(".*test-0001.jsonl: " + where + " \\(.*\\)"));
     EXPECT_EQ(bench.machine.status().state, drivers::DriverState::stopped);
     const ReadLog log = read_job_log(bench.log);

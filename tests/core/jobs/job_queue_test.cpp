@@ -61,10 +61,10 @@ struct Three : testing::Test {
 };
 
 TEST_F(Three, BeginInTheirOrderAndNeverTwoAtATime) {
-    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("b does not come next"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("b is not the next job"));
     EXPECT_EQ(queue.begin(a).name, "a");
     EXPECT_FALSE(queue.next());
-    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("b does not come next"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("b is not the next job"));
     EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("a is running"));
     queue.ended(outcome_of(JobEnd::done));
     EXPECT_EQ(queue.next()->id, b);
@@ -83,7 +83,7 @@ TEST_F(Three, AreHeldByOneThatDoesNotEndWell) {
         EXPECT_EQ(queue.held()->id, a);
         EXPECT_EQ(queue.held()->end, end);
         EXPECT_EQ(queue.held()->sentence, "it ended");
-        EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("does not come next"));
+        EXPECT_THAT(queue_refusal([&] { (void)queue.begin(b); }), HasSubstr("is not the next job"));
         EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("a is held"));
         queue.release(a); // a person has looked at the machine
         EXPECT_EQ(queue.next()->id, a);
@@ -112,7 +112,7 @@ TEST_F(Three, KeepWhatIsKnownOfAJobThatCannotGoOn) {
         EXPECT_EQ(held.state, QueueState::held);
         EXPECT_EQ(held.end, JobEnd::fault);
         EXPECT_EQ(held.log_file, "jobs/a-0001.jsonl");
-        EXPECT_EQ(held.sentence, std::string("it ended It did not go on: ") + why);
+        EXPECT_EQ(held.sentence, std::string("it ended It could not continue: ") + why);
     }
 }
 
@@ -141,7 +141,8 @@ TEST_F(Three, CanBeBegunInTheirMiddleAfterAFault) {
         run(id, JobEnd::done);
     }
     run(d, JobEnd::fault);
-    EXPECT_THAT(queue_refusal([&] { queue.load(d, small_job("d")); }), HasSubstr("another program"));
+    EXPECT_THAT(queue_refusal([&] { queue.load(d, small_job("d")); }),
+                HasSubstr("not the program that was queued"));
     queue.load(d, job_from_line(whole, 15, {}));
     EXPECT_EQ(queue.held()->from_line, 15);
     queue.release(d);
@@ -162,7 +163,7 @@ TEST(JobQueue, RunsJobsOnAMachine) {
     EXPECT_EQ(queue.jobs().front().log_file.filename(), "test-0001.jsonl");
     machine.emergency_stop();
     EXPECT_THROW((void)queue.run(second, on_machine), Error);
-    EXPECT_THAT(queue.held()->sentence, HasSubstr("takes no job"));
+    EXPECT_THAT(queue.held()->sentence, HasSubstr("cannot start a job"));
 }
 
 TEST(JobQueue, OutlivesItsProgram) {
@@ -182,7 +183,7 @@ TEST(JobQueue, OutlivesItsProgram) {
     }
     JobQueue queue(file);
     EXPECT_THAT(names(queue), ElementsAre("b done", "a held", "c waiting"));
-    EXPECT_THAT(queue.held()->sentence, HasSubstr("its log tells"));
+    EXPECT_THAT(queue.held()->sentence, HasSubstr("its log shows"));
     for (QueuedJob& job : before) {
         job.has_program = false;
     }
@@ -192,7 +193,7 @@ TEST(JobQueue, OutlivesItsProgram) {
 
     const QueuedJobId a = queue.held()->id;
     queue.release(a);
-    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("was not loaded"));
+    EXPECT_THAT(queue_refusal([&] { (void)queue.begin(a); }), HasSubstr("is not loaded"));
     queue.load(a, small_job("a"));
     EXPECT_EQ(queue.begin(a).name, "a");
     EXPECT_GT(queue.add(small_job("d")), before[2].id);

@@ -61,7 +61,7 @@ TEST(Preflight, FindsAProgramWithoutAnEnd) {
     program.blocks.pop_back();
     const auto found = preflight(test::job_of(program));
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].message, HasSubstr("where it ends"));
+    EXPECT_THAT(found[0].message, HasSubstr("no end block"));
 }
 
 TEST(Preflight, RefusesAListingOfAnotherProgram) {

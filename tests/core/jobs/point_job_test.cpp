@@ -128,7 +128,7 @@ TEST(PointJob, PointsOutsideTheTableAreRefusedWithTheLineOfTheirBlock) {
     }
     const auto faults = preflight(played(path, plot::DecodeMode::path));
     ASSERT_FALSE(faults.empty());
-    EXPECT_THAT(faults.front().message, HasSubstr("axis X would go to 48"));
+    EXPECT_THAT(faults.front().message, HasSubstr("axis X would move to 48"));
     EXPECT_GT(faults.front().place.line, 1);
     EXPECT_EQ(faults.front().place.file, "six.plt");
 }

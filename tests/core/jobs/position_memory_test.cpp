@@ -129,7 +129,7 @@ TEST_F(PositionMemoryOf, AControllerThatWasResetWhileAProgramRanHasLostItsPositi
     ASSERT_FALSE(fresh.session.status().position_lost);
     memory().remind(found);
     EXPECT_THAT(fresh.session.status().position_doubt,
-                HasSubstr("it was at work when it was last seen here"));
+                HasSubstr("the machine was running when it was last connected"));
     EXPECT_TRUE(fresh.session.status().position_lost);
 }
 

@@ -59,8 +59,8 @@ TEST(Recovery, TellsARunningJobFromOneWhoseProgramWasKilled) {
     EXPECT_EQ(story.allowed_blocks, 60);
     EXPECT_EQ(story.next_line, 15);
     EXPECT_THAT(story.sentence,
-                HasSubstr("12 of 100 blocks were executed for certain (line 15 comes next); the "
-                          "next 48 may have been, too; the others were never sent"));
+                HasSubstr("12 of 100 blocks were confirmed as executed (next line: 15); the next 48 may have "
+                          "been as well; the rest were never sent"));
 }
 
 TEST(Recovery, AJobThatEndedInItsApproachGoesOnFromItsLine) {

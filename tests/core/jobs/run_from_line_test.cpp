@@ -204,18 +204,19 @@ TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
     EXPECT_THAT(start_line_refusal(with_head("G92 X0\n"), 14), HasSubstr("offsets"));
     EXPECT_THAT(start_line_refusal(with_head("G10 L2 P2 X5\n"), 14), HasSubstr("offsets"));
     EXPECT_THAT(start_line_refusal(with_head("G53 G0 Z0\n"), 14), HasSubstr("machine position"));
-    EXPECT_THAT(start_line_refusal(with_head("G28\nG0 X1 Y1\n"), 15), HasSubstr("tells Z since"));
+    EXPECT_THAT(start_line_refusal(with_head("G28\nG0 X1 Y1\n"), 15),
+                HasSubstr("Z is not specified afterwards"));
     const std::string blank(9, '\n');
     EXPECT_THAT(start_line_refusal("G21 G90\nF600\nG0 X60 Y50\n" + blank + "G1 X61\nG1 X62\n", 14),
-                HasSubstr("tells where Z is"));
+                HasSubstr("specifies Z"));
     EXPECT_THAT(start_line_refusal("G21 G90\nF600\nG0 Z5\nG91\n" + blank + "G1 X1 Y1\nG1 X1\n", 15),
-                HasSubstr("tells where X is"))
+                HasSubstr("specifies X"))
         << "ways alone lead from nowhere";
     EXPECT_THAT(start_line_refusal(with_head("G2 X2 I1\n", "X4 I1\nM2\n"), 14), HasSubstr("arc or a spline"));
     EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 3),
-                HasSubstr("takes 5 lines, and 2 stand above it"));
+                HasSubstr("needs 5 lines above it, but there are only 2"));
     EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 6),
-                HasSubstr("takes 6 lines, and 5 stand above it"));
+                HasSubstr("needs 6 lines above it, but there are only 5"));
     EXPECT_EQ(start_line_refusal(with_head("G1 X1\n"), 7), "");
     EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 99), HasSubstr("has 15 lines"));
     EXPECT_THAT(start_line_refusal(with_head("M2\n"), 14), HasSubstr("ends at line 13"));

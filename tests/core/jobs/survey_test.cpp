@@ -69,8 +69,8 @@ TEST(Survey, SaysWhatIsLongerThanATravelWithoutAnOrigin) {
     ASSERT_EQ(far.size(), 1U);
     EXPECT_EQ(far[0].place.line, 2);
     EXPECT_THAT(far[0].message,
-                HasSubstr("axis X would go from 0.000 mm to 99999.000 mm in machine coordinates, "
-                          "99999.000 mm, and its whole travel is 200.000 mm"));
+                HasSubstr("axis X would move from 0.000 mm to 99999.000 mm in machine coordinates, a "
+                          "distance of 99999.000 mm, but its travel is only 200.000 mm"));
     const auto back = faults("G21\nG0 X150\nG0 Y1\nG0 X-50.01\nM2\n", 0.0);
     ASSERT_EQ(back.size(), 1U);
     EXPECT_EQ(back[0].place.line, 4);
@@ -91,7 +91,7 @@ TEST(Survey, SaysWhatAPersonShouldKnow) {
     }
     EXPECT_THAT(all, HasSubstr("T3, T5"));
     EXPECT_THAT(all, HasSubstr("a.ngc:4: the first cut comes before the spindle"));
-    EXPECT_THAT(all, HasSubstr("9000 mm/min is more than the machine reaches in any direction, 3000"));
+    EXPECT_THAT(all, HasSubstr("9000 mm/min exceeds the machine's maximum in any direction, 3000 mm/min"));
     EXPECT_THAT(all, HasSubstr("2000 rpm"));
 }
 
@@ -112,7 +112,8 @@ TEST(Survey, NamesAllAxesThatTheMachineLacks) {
         const auto faults = faults_of(three, {}, "a.ngc");
         ASSERT_FALSE(faults.empty());
         EXPECT_EQ(faults.front().place.line, 4);
-        EXPECT_EQ(faults.front().message, "the program moves A, B and C, and the machine has X, Y and Z");
+        EXPECT_EQ(faults.front().message,
+                  "the program moves A, B and C, but the machine has only X, Y and Z");
         settings.axes.push_back({'A', AxisKind::rotary});
         EXPECT_EQ(survey(text, "a.ngc", settings).missing_axes, "BC");
         settings.axes.push_back({'B', AxisKind::rotary});

@@ -119,19 +119,19 @@ TEST(ToolCheck, TellsWhereTheJobStopsAndHowHighItWas) {
 TEST(ToolCheck, RefusesWhatItCouldNotComeBackFrom) {
     EXPECT_EQ(faults(job_of(two_tools)), "");
     EXPECT_THAT(faults(job_of("G21 G90\nG0 Z5\nG91\nT2 M6\nG1 X1 F100\n")),
-                HasSubstr("test.ngc:4: G91 is in force at this tool change"));
+                HasSubstr("test.ngc:4: G91 is active at this tool change"));
     EXPECT_THAT(faults(job_of("G21 G90\nG0 X5\nT2 M6\nG0 Z5\n")),
                 HasSubstr("test.ngc:3: the program has not raised Z before this tool change"));
     EXPECT_THAT(faults(job_of("G21 G90\nG0 Z5\nG2 X5 I2 F100\nT2 M6\nG0 Z5\n")),
-                HasSubstr("test.ngc:4: an arc or a probing is the motion in force"));
+                HasSubstr("test.ngc:4: an arc or probing motion is active"));
     drivers::DriverStatus doubted = machine_at_rest();
     doubted.position_doubt = "the controller was reset";
     EXPECT_EQ(faults(job_of(two_tools), doubted), "") << "all distances count from where it is";
     EXPECT_THAT(faults(job_of(two_tools, drivers::ToolChangeWay::probe), doubted),
-                HasSubstr("needs a sure position"));
+                HasSubstr("needs a verified position"));
     doubted.position_lost = true;
     EXPECT_THAT(faults(job_of(two_tools), doubted),
-                HasSubstr("needs a sure position: the controller was reset"));
+                HasSubstr("needs a verified position: the controller was reset"));
     EXPECT_THAT(faults(job_of(two_tools), machine_at_rest(), homed(), 3.0),
                 HasSubstr("a tool length offset of 3.000 mm is in force"));
     EXPECT_THAT(faults(job_of(two_tools), machine_at_rest(), homed(), 0.0, true), HasSubstr("laser mode"));
@@ -144,28 +144,28 @@ TEST(ToolCheck, CoversTheWayToTheSensor) {
     job.tool_change->sensor.x = 3.0;
     EXPECT_THAT(faults(job), HasSubstr("the tool sensor's X 3.000 lies outside -300.000 ... 0.000"));
     job.tool_change->sensor.x = job.tool_change->sensor.y = 0.0;
-    EXPECT_THAT(faults(job), HasSubstr("the place of the tool sensor is not set"));
+    EXPECT_THAT(faults(job), HasSubstr("the position of the tool sensor is not set"));
     job.tool_change->sensor.x = -3.0;
     job.tool_change->sensor.deepest_z = -95.0;
     EXPECT_THAT(faults(job), HasSubstr("the tool sensor's Z -95.000 lies outside"));
     job.tool_change->sensor.deepest_z = -1.0;
-    EXPECT_THAT(faults(job), HasSubstr("is not below the height for travelling"));
+    EXPECT_THAT(faults(job), HasSubstr("is not below the travel height"));
     EXPECT_THAT(
         faults(job_of(two_tools, drivers::ToolChangeWay::probe), machine_at_rest(), drivers::MachineLimits{}),
         HasSubstr("the tool sensor needs a machine that homes"));
     EXPECT_THAT(faults(job_of("G21 G90\nG0 Z5\nT2 M6\nG49\nG0 Z5\n", drivers::ToolChangeWay::probe)),
-                HasSubstr("test.ngc:4: the program sets a tool length itself"));
+                HasSubstr("test.ngc:4: the program sets a tool length"));
     EXPECT_EQ(faults(job_of("G21 G90\nG0 Z5\nT2 M6\nG49\nG0 Z5\n")), "");
 }
 
 TEST(ToolCheck, ReadsTheMacroBeforeTheJob) {
     Job job = job_of(two_tools, drivers::ToolChangeWay::macro);
     job.tool_change->macro_file = "change.nc";
-    EXPECT_THAT(faults(job), HasSubstr("change.nc: there is nothing in the lines"));
+    EXPECT_THAT(faults(job), HasSubstr("change.nc: the tool change macro is empty"));
     job.tool_change->macro = "G53 G0 Z-1\n";
     EXPECT_EQ(faults(job), "");
     job.tool_change->macro = "G53 G0 Z-1\n T1 M6\n";
-    EXPECT_THAT(faults(job), HasSubstr("change.nc:2:5: the lines for a tool change hold M6"));
+    EXPECT_THAT(faults(job), HasSubstr("change.nc:2:5: the tool change macro contains M6"));
     job.tool_change->macro = "G43 H1\n";
     EXPECT_THAT(faults(job), HasSubstr("change.nc:1"));
     job.tool_change->macro = "G53 G0 Z-1\nG53 G0 X-310\n";
@@ -185,14 +185,14 @@ TEST(ToolCheck, ABeginningInTheMiddleNamesTheTool) {
     EXPECT_EQ(rest.tool_at_start, 2);
     EXPECT_EQ(faults(rest), "") << "the approach cancels a length itself";
     EXPECT_EQ(tool_before_start(rest, surveyed(rest)),
-              "Tool 2 has to be in the spindle at line 12, and the zero of Z has to be set with it: it is "
-              "measured first.");
+              "Tool 2 must be in the spindle at line 12, and the Z zero must be set with it: it is measured "
+              "first.");
     EXPECT_THAT(watched_lines(rest), ElementsAre(17)) << "the line numbers are those of the file";
     EXPECT_TRUE(tool_changes(rest, surveyed(rest)).reference_first);
     EXPECT_EQ(tool_before_start(whole, surveyed(whole)), "");
     const Job last = job_from_line(whole, 18, {.dialect = gcode::Dialect::grbl, .clearance = {}});
     EXPECT_EQ(tool_before_start(last, surveyed(last)),
-              "Tool 3 has to be in the spindle at line 18, and the zero of Z has to be set with it.");
+              "Tool 3 must be in the spindle at line 18, and the Z zero must be set with it.");
     EXPECT_TRUE(tool_changes(last, surveyed(last)).needs_zero);
     whole.tool_change.reset();
     whole.listing = text_job(without_tool_changes(text), "test.ngc").listing;
@@ -210,13 +210,13 @@ TEST(ToolCheck, ABeginningInTheMiddleNamesTheToolInTheSpindle) {
     const Job job = job_of(text);
     const Job rest = job_from_line(job, 13, {.dialect = gcode::Dialect::grbl, .clearance = {}});
     EXPECT_EQ(tool_before_start(rest, surveyed(rest)),
-              "Tool 1 has to be in the spindle at line 13, and the zero of Z has to be set with it.");
+              "Tool 1 must be in the spindle at line 13, and the Z zero must be set with it.");
 }
 
 TEST(ToolCheck, AToolThatIsMeasuredBeforeTheFirstLineIsAskedFor) {
     const Job job = job_of(two_tools, drivers::ToolChangeWay::probe);
     EXPECT_EQ(tool_before_start(job, surveyed(job)),
-              "The tool with which the zero of Z was set has to be in the spindle: it is measured first.");
+              "The tool with which the Z zero was set must be in the spindle: it is measured first.");
     EXPECT_TRUE(tool_changes(job, surveyed(job)).needs_zero);
     EXPECT_EQ(tool_before_start(job_of(two_tools), surveyed(job)), "");
 }

@@ -143,7 +143,7 @@ TEST(PlotProgram, OfMorePointsThanMemoryIsKeptForIsRefused) {
         static_cast<void>(plot_program(path));
         FAIL() << "nothing was refused";
     } catch (const Error& error) {
-        EXPECT_NE(error.diagnostic().message.find("more than 4 million"), std::string::npos);
+        EXPECT_NE(error.diagnostic().message.find("exceed the maximum of 4 million"), std::string::npos);
     }
 }
 

@@ -162,7 +162,8 @@ TEST_F(MachineLink, AfterReconnectAGrblThatWasResetInMotionIsNotTrusted) {
     person.click("inspector/connection/machine_reconnect");
     ASSERT_TRUE(person.live_until([this] { return !machine().status.link_lost; }));
     ASSERT_TRUE(person.live_until([this] { return machine().status.position_lost; }));
-    EXPECT_THAT(machine().status.position_doubt, HasSubstr("it was at work when it was last seen here"));
+    EXPECT_THAT(machine().status.position_doubt,
+                HasSubstr("the machine was running when it was last connected"));
     person.keep("machine-reset-in-motion");
 }
 

@@ -125,7 +125,7 @@ TEST_F(MachineQueue, OutlivesTheWindowAndIsTheCommandLinesToo) {
     choose(person, 3);
     person.click("lower/queue/open");
     person.wait_idle();
-    EXPECT_THAT(person.workshop().session().log.back(), HasSubstr("another program than the one"));
+    EXPECT_THAT(person.workshop().session().log.back(), HasSubstr("not the program that was queued"));
     EXPECT_FALSE(queue(person)[2].has_program);
     EXPECT_NE(person.refusal("lower/queue/queue_run_next"), "");
     EXPECT_NEAR(grbl.position()[0], 4.0, 0.01);
@@ -149,7 +149,7 @@ TEST_F(MachineQueue, HoldsAJobThatWasRunningWhenTheWindowWasKilled) {
     Person person({1280, 800}, {}, left.path());
     ASSERT_EQ(queue(person).size(), 2U);
     EXPECT_EQ(queue(person)[0].state, QueueState::held);
-    EXPECT_THAT(queue(person)[0].sentence, HasSubstr("Millwright ended while it ran"));
+    EXPECT_THAT(queue(person)[0].sentence, HasSubstr("Millwright ended while the job was running"));
     person.workshop().run("view.machine");
     person.frames(3);
     person.click("lower/tabs/queue");
@@ -164,7 +164,8 @@ TEST_F(MachineQueue, BelongsToOneWindowAndIsFreeWhenItIsEmpty) {
     second.frames(3);
     second.click("lower/tabs/queue");
     ASSERT_TRUE(second.workshop().look().queue_problem);
-    EXPECT_THAT(second.workshop().look().queue_problem->message, HasSubstr("in use by another Millwright"));
+    EXPECT_THAT(second.workshop().look().queue_problem->message,
+                HasSubstr("in use by another instance of Millwright"));
     EXPECT_FALSE(second.sees("lower/queue/queue_add"));
     second.keep("machine-queue-in-use");
     second.click("lower/queue/retry");

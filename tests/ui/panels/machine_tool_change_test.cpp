@@ -113,7 +113,7 @@ TEST_P(ToolChangeAtGrbl, TheSensorHasItsFieldsAndIsCheckedBefore) {
     person.frames(3);
     EXPECT_NE(person.refusal("dialogs/start/start_go"), "");
     EXPECT_THAT(person.workshop().look().start_check->tool,
-                HasSubstr("The tool with which the zero of Z was set has to be in the spindle"));
+                HasSubstr("The tool with which the Z zero was set must be in the spindle"));
     const auto faults = person.workshop().look().start_check->faults;
     EXPECT_TRUE(std::ranges::any_of(faults, [](const Diagnostic& fault) {
         return fault.message.find("needs a machine that homes") != std::string::npos;

@@ -203,7 +203,7 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
     const auto wish = std::make_shared<const actions::StartWish>(actions::start_wish(job, {}, grbl_view));
     const actions::StartCheck check = actions::check_start(wish, {});
     ASSERT_FALSE(check.faults.empty());
-    EXPECT_EQ(check.faults.front().message, "the program moves A, and the machine has X, Y and Z");
+    EXPECT_EQ(check.faults.front().message, "the program moves A, but the machine has only X, Y and Z");
 }
 
 TEST_F(StartSheetAtGrbl, AMachineThatIsGoneIsNotReplacedByAVirtualOne) {

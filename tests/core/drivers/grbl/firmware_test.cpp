@@ -364,7 +364,8 @@ TEST(GrblFirmware, AProgramForAxesThatTheMachineLacksIsRefused) {
     const std::vector<program::ProgramAxis> four = {
         {'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}, {'A', AxisKind::rotary}};
     ASSERT_THAT(found(four).errors, Not(IsEmpty()));
-    EXPECT_EQ(found(four).errors.front().message, "the program moves B, and the machine has X, Y, Z and A");
+    EXPECT_EQ(found(four).errors.front().message,
+              "the program moves B, but the machine has only X, Y, Z and A");
     EXPECT_EQ(found(four).errors.back().message,
               "this Grbl has the axes XYZA and does not know B words (error 20)");
     std::vector<program::ProgramAxis> five = four;

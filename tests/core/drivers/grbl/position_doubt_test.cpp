@@ -196,7 +196,7 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
         (void)dispatcher.run(rest, {});
         FAIL() << "it began at a line although nobody knows where the machine stands";
     } catch (const Error& error) {
-        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Line 20 could begin anywhere"));
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Line 20 could start anywhere"));
     }
     EXPECT_EQ(wire.grbl.truth().lines.size(), lines);
     driver.trust_position();
@@ -220,7 +220,7 @@ TEST(GrblPositionDoubt, KeepsWholeProgramsBackUntilAPersonConfirmsThePositionWhi
         (void)dispatcher.run(next, {});
         FAIL() << "it began although the position is lost";
     } catch (const Error& error) {
-        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Stored work offsets may lead anywhere"));
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Stored work offsets may be wrong"));
     }
     EXPECT_EQ(wire.grbl.truth().lines.size(), lines);
     driver.trust_position();

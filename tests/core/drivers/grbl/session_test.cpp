@@ -524,7 +524,7 @@ TEST(GrblSession, NoticesALostLink) {
     wire.start(zigzag_with_spindle(30));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("the link was lost"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the connection was lost"));
     EXPECT_THROW(wire.start("G0 X0\n"), Error);
 }
 

@@ -189,7 +189,7 @@ TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
         }
     });
     EXPECT_EQ(goes.kept.records.size(), 7U);
-    EXPECT_THAT(gone.sentence, HasSubstr("the link was lost: unplugged"));
+    EXPECT_THAT(gone.sentence, HasSubstr("the connection was lost: unplugged"));
 }
 
 TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {

@@ -129,7 +129,7 @@ TEST(PointsDriver, AStopIsInTheLogWithWhatWasExecuted) {
     EXPECT_EQ(log.executed_blocks(), outcome.executed_blocks);
     EXPECT_EQ(static_cast<std::int64_t>(bench.sent().size()), bench.driver.played().sent);
     EXPECT_EQ(jobs::way_on(jobs::job_story(outcome.log_file)).why_the_beginning,
-              "points are always played from the first one");
+              "points are always run from the first one");
 }
 
 TEST(PointsDriver, AnEmergencyStopIsAFaultUntilItIsReset) {

@@ -213,7 +213,7 @@ TEST(VirtualCommand, IsRefusedWithPlaceAndReasonAndChangesNothing) {
         EXPECT_EQ(bench.state(), DriverState::idle);
         EXPECT_EQ(bench.axes.status().work_system, 1);
     }
-    EXPECT_THAT(bench.execute("G0 X0\nG0 X99999").text, HasSubstr("axis X would go to"));
+    EXPECT_THAT(bench.execute("G0 X0\nG0 X99999").text, HasSubstr("axis X would move to"));
 }
 
 TEST(VirtualCommand, SetsWorkOffsetsAndUsesThem) {

@@ -142,7 +142,7 @@ TEST(ProgramFromLine, ComesToEachLineFromAboveAndGoesOnAsTheProgramDoes) {
             try {
                 rest = job_from_line(job, line, {});
             } catch (const Error& error) {
-                ASSERT_TRUE(std::string(error.what()).find("among the first") != std::string::npos &&
+                ASSERT_TRUE(std::string(error.what()).find("one of the first") != std::string::npos &&
                             line <= 20)
                     << error.what();
                 continue;
@@ -221,8 +221,8 @@ TEST(ProgramFromLine, RefusesLinesThatCannotBeBegun) {
     };
     EXPECT_THAT(refusal(0), HasSubstr("the program has"));
     EXPECT_THAT(refusal(10'000), HasSubstr("the program has"));
-    EXPECT_THAT(refusal(2), HasSubstr("line 2 is among the first 7"));
-    EXPECT_THAT(refusal(7), HasSubstr("line 7 is among the first 7"));
+    EXPECT_THAT(refusal(2), HasSubstr("line 2 is one of the first 7 lines"));
+    EXPECT_THAT(refusal(7), HasSubstr("line 7 is one of the first 7 lines"));
     EXPECT_EQ(refusal(8), "");
     EXPECT_THAT(refusal(30, -50.0), HasSubstr("is below"));
     EXPECT_EQ(refusal(30, 55.0), "");
