@@ -74,7 +74,7 @@ void check(const PlannedMachineChoice& choice) {
 
 void check_from_line(const PlannedMachineChoice& choice, int from_line) {
     if (from_line > 1 && choice.driver == "cordic") {
-        throw Error("the cordic driver runs programs from their beginning alone");
+        throw Error("the cordic driver can only run programs from the beginning");
     }
 }
 

@@ -317,7 +317,7 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
 
 int import_file(const ImportOptions& options) {
     if (!project::is_importable(options.file)) {
-        throw Error("this kind of file is not imported", options.file, project::importable_kinds);
+        throw Error("this type of file cannot be imported", options.file, project::importable_kinds);
     }
     if (options.mm_per_unit && exchange::is_cad_file(options.file)) {
         throw UsageError(

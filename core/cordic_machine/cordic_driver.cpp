@@ -191,7 +191,8 @@ void CordicDriver::start(drivers::Work work) {
     expects(work.listing != nullptr, "a program has a listing");
     const drivers::DriverStatus before = machine_.status();
     if (before.state != drivers::DriverState::idle && before.state != drivers::DriverState::stopped) {
-        throw Error(fmt::format("the machine is {} and takes no program", drivers::in_words(before.state)));
+        throw Error(
+            fmt::format("the machine is {} and cannot accept a program", drivers::in_words(before.state)));
     }
     const AxisValues start = values_of(before.position, *model_);
     CordicProgram made = compiled(*work.listing, start, work.program ? work.program->tool : std::nullopt);

@@ -35,11 +35,11 @@ void Driver::break_off(std::string) {
 void Driver::trust_position() {}
 
 void Driver::stands_at(const kinematics::AxisPositions&) {
-    refuse_unsupported(*this, "be told where it stands");
+    refuse_unsupported(*this, "accept a position");
 }
 
 void Driver::enable() {
-    refuse_unsupported(*this, "switch the power of its motors");
+    refuse_unsupported(*this, "switch the motor power");
 }
 
 void Driver::doubt_position(std::string, bool) {}
@@ -53,22 +53,22 @@ int Driver::command(const std::string&) {
 }
 
 int Driver::check_there(const program::Listing&) {
-    refuse_unsupported(*this, "read a program without moving");
+    refuse_unsupported(*this, "check a program without moving");
 }
 
 int Driver::load(const std::vector<std::string>&) {
-    refuse_unsupported(*this, "load files of settings");
+    refuse_unsupported(*this, "load settings files");
 }
 
 void Driver::set_single_block(bool on) {
     if (on) {
-        refuse_unsupported(*this, "go block by block");
+        refuse_unsupported(*this, "run single blocks");
     }
 }
 
 void Driver::set_optional_stop(bool on) {
     if (on) {
-        refuse_unsupported(*this, "stop at M1 by a switch of ours");
+        refuse_unsupported(*this, "handle optional stops (M1)");
     }
 }
 
@@ -83,7 +83,7 @@ bool needs_confirmation(const DriverStatus& status, const std::vector<StoredOffs
 
 std::string doubt_sentence(std::string_view why) {
     return fmt::format(
-        "The position may be lost ({}): home the machine, set its zero, or say where it stands.", why);
+        "The position may be lost ({}): home the machine, set its zero, or confirm the position.", why);
 }
 
 std::string_view to_text(Activity activity) {

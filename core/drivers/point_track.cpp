@@ -14,9 +14,9 @@ namespace {
 
 /// What to do about an axis that is too slow: strokes go up and down at a velocity of their own.
 std::string slower(char axis) {
-    return axis == 'Z' ? "decode it with a lower velocity up and down (--plunge-velocity), or more digits"
-                       : "decode it with a lower velocity, with the pen up too (--travel-velocity), samples "
-                         "rounded up, or more digits";
+    return axis == 'Z' ? "decode it with a lower plunge velocity (--plunge-velocity), or with more digits"
+                       : "decode it with a lower velocity, also with the pen up (--travel-velocity), with "
+                         "samples rounded up, or with more digits";
 }
 
 class PointChecks {
@@ -54,7 +54,7 @@ private:
             report(n,
                    k,
                    true,
-                   fmt::format("axis {} would go to {:.3f}, outside {:.3f} ... {:.3f} mm",
+                   fmt::format("axis {} would move to {:.3f}, outside {:.3f} ... {:.3f} mm",
                                axis.letter,
                                at,
                                axis.min,
@@ -67,7 +67,7 @@ private:
                    k,
                    false,
                    fmt::format(
-                       "axis {} would go {:.{}f} mm in {} s, {:.6g} mm/s, and goes {:.6g} mm/s at the most",
+                       "axis {} would move {:.{}f} mm in {} s at {:.6g} mm/s, but its maximum is {:.6g} mm/s",
                        axis.letter,
                        way,
                        point_decimals,

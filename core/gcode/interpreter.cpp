@@ -294,7 +294,7 @@ void Interpreter::Parts::expect_text(std::string_view text) {
     }
     if (no_text) {
         internal::refuse(
-            static_cast<int>(zero) + 1, "byte 0x00 is in no text: this is a binary file", "choose a program");
+            static_cast<int>(zero) + 1, "byte 0x00 found: this is a binary file", "choose a G-code file");
     }
 }
 

@@ -54,7 +54,7 @@ Job file_job(const std::filesystem::path& file,
             text, file, std::move(machine), {.start = settings.start, .origin = settings.origin});
     }
     if (std::ranges::none_of(job.program->blocks, &program::Block::moves)) {
-        throw Error(Diagnostic{{file, 1, 1, -1}, "the program contains no moves", {}});
+        throw Error(Diagnostic{{file, 1, 1, -1}, "the program contains no motion", {}});
     }
     return job;
 }

@@ -48,7 +48,7 @@ WayOn way_through(const std::string& text, const JobStory& story) {
 
 std::string why_not_from_line(const JobStory& story) {
     if (story.start.driver == "cordic") {
-        return "the cordic driver runs programs from the beginning only";
+        return "the cordic driver can only run programs from the beginning";
     }
     if (story.start.driver == "points") {
         return "points are always run from the first one";

@@ -12,7 +12,7 @@ std::string beyond_travel(const MachineAxis& axis, double position) {
     }
     const bool rotary = axis.kind == AxisKind::rotary;
     const auto shown = [&](double value) { return rotary ? to_degrees(value) : value; };
-    return fmt::format("axis {} would go to {:.3f}, outside {:.3f} ... {:.3f} {}",
+    return fmt::format("axis {} would move to {:.3f}, outside {:.3f} ... {:.3f} {}",
                        axis.letter,
                        shown(position),
                        shown(axis.min),

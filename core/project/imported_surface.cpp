@@ -223,7 +223,7 @@ ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, con
 
 ImportSource read_source(const std::filesystem::path& file, const Progress& progress) {
     if (!is_importable(file)) {
-        throw Error("cannot import this type of file", file, importable_kinds);
+        throw Error("this type of file cannot be imported", file, importable_kinds);
     }
     ImportSource source;
     source.file = file;

@@ -216,7 +216,7 @@ TEST_F(ImportCommand, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"import", broken, "--out", path("p.json")}), HasSubstr("broken.step: "));
     EXPECT_FALSE(std::filesystem::exists(path("p.json")));
     EXPECT_THAT(refusal({"import", written("a.doc", "x")}),
-                HasSubstr("a.doc: cannot import this type of file"));
+                HasSubstr("a.doc: this type of file cannot be imported"));
     EXPECT_THAT(refusal({"import", exported("d.step"), "--out", path("p.json"), "--face", "7"}),
                 HasSubstr("no usable face 7"));
     EXPECT_THAT(refusal({"import", exported("e.step"), "--out", path("p.json"), "--degree", "40"}),

@@ -60,7 +60,7 @@ TEST_F(Send, LetsGrblReadAProgramBeforeItRuns) {
     };
     const Ended read = with({"--check-only"});
     EXPECT_EQ(read.exit_code, 0) << read.err;
-    EXPECT_THAT(read.out, HasSubstr("Grbl read 4 lines in check mode and refuses none"));
+    EXPECT_THAT(read.out, HasSubstr("Grbl read 4 lines in check mode without errors"));
     EXPECT_TRUE(last_record(logs).is_null()) << "no job was done";
     const Ended checked = with({"--check"});
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
@@ -147,7 +147,7 @@ TEST_F(Send, RestsAfterTheFirstBlockWhereThatIsWanted) {
     auto listening = words();
     listening.insert(listening.end(), {"--keys", "--single-block"});
     Program sender(listening);
-    sender.wait_for_error_text("single block: line 2 comes next");
+    sender.wait_for_error_text("single block: line 2 is next");
     sender.type("b");
     sender.type("r");
     const Ended ended = sender.end();
@@ -244,7 +244,7 @@ TEST_F(Send, DispatchesAFileToTheCordicProcessor) {
     EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor passes through corners"));
     EXPECT_EQ(last_record(logs).at("end"), "done");
     EXPECT_THAT(with({"--clock", "1000"}).err, HasSubstr("took longer to compute at 0.001 MHz"));
-    EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from the beginning only"));
+    EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from the beginning"));
     EXPECT_THAT(run({"send", file, "--driver", "cordic"}).err,
                 HasSubstr("the cordic driver needs a machine"));
     write_content(file, "G21 F600\nG38.2 X5\nM2\n");
@@ -256,7 +256,7 @@ TEST_F(Send, TellsWhichFaultEndedTheJob) {
     Emulator emulator(port, {"--speed", "20", "--faults", "alarm=3000"});
     const Ended ended = run(words());
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.out, HasSubstr("a limit switch was hit"));
+    EXPECT_THAT(ended.out, HasSubstr("a limit switch was triggered"));
     EXPECT_EQ(last_record(logs).at("end"), "fault");
 }
 
@@ -326,7 +326,7 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
                     std::to_string(std::max(next, 2900)),
                     "--clearance",
                     "5"});
-        if (rest.err.find("the machine takes no job: it was moving") == std::string::npos) {
+        if (rest.err.find("the machine takes no job: the machine was moving") == std::string::npos) {
             break;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -349,7 +349,7 @@ TEST_F(Send, AnotherCommandStopsWhatAKilledOneLeftMoving) {
     }
     const Ended refused = run(words());
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("it was moving when the link was made"));
+    EXPECT_THAT(refused.err, HasSubstr("the machine was moving when the connection was made"));
     EXPECT_THAT(refused.err, HasSubstr("millwright stop --driver grbl --port " + port));
     const std::vector<std::string> stop{"stop", "--driver", "grbl", "--port", port, "--log", logs};
     const Ended stopped = run(stop);
@@ -538,7 +538,7 @@ TEST_F(Send, SaysWhichAlarmEndedAHoming) {
     homing.emplace_back("--home");
     const Ended ended = run(homing);
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("alarm 9: homing found no limit switch"));
+    EXPECT_THAT(ended.err, HasSubstr("alarm 9: homing failed: no limit switch was found"));
 }
 
 TEST_F(Send, RefusesMistWhereGrblWasBuiltWithoutIt) {

@@ -104,8 +104,8 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
     // Line 5 cannot be begun; from line 20, then the other.
     ended = send({"--continue", "--trust-position"}, "5\n20\ny\n");
-    EXPECT_THAT(ended.out, HasSubstr("a limit switch was hit")) << "what ended it is still known";
-    EXPECT_THAT(ended.out, AnyOf(HasSubstr(" comes next."), HasSubstr("from the beginning only")));
+    EXPECT_THAT(ended.out, HasSubstr("a limit switch was triggered")) << "what ended it is still known";
+    EXPECT_THAT(ended.out, AnyOf(HasSubstr(" comes next."), HasSubstr("from the beginning")));
     EXPECT_THAT(ended.out, HasSubstr(logs + "/a-0001.jsonl"));
     EXPECT_THAT(ended.out, HasSubstr("approach to this line needs 6 lines"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

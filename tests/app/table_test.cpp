@@ -204,7 +204,7 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
     // Of all that there is a log, as of every job, and the command that plays it again.
     const std::string jobs = run({"jobs", (folder / "jobs").string()}).out;
     EXPECT_THAT(jobs, HasSubstr("fault after"));
-    EXPECT_THAT(jobs, HasSubstr("the table said 'error'"));
+    EXPECT_THAT(jobs, HasSubstr("the table sent 'error'"));
     EXPECT_THAT(jobs, HasSubstr("7 of 36 blocks were confirmed as executed"));
     EXPECT_THAT(jobs,
                 HasSubstr("millwright plot play " + (folder / "line.txt").string() + " --port " + port));
@@ -227,7 +227,7 @@ TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
     words.insert(words.begin() + 1, {"--at", "0,0,5"}); // before the file, which is no number
     const Ended far = run(words);
     EXPECT_EQ(far.exit_code, 1);
-    EXPECT_THAT(far.err, HasSubstr("axis X would go to 480.500, outside 0.000 ... 480.000 mm"));
+    EXPECT_THAT(far.err, HasSubstr("axis X would move to 480.500, outside 0.000 ... 480.000 mm"));
     const Ended good = run(send_words((folder / "good.path").string(), port, folder));
     EXPECT_EQ(good.exit_code, 0) << good.err;
     EXPECT_THAT(table.stop().out,
@@ -290,7 +290,7 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     EXPECT_THAT(run({"jobs", log}).out, HasSubstr("36 of 36 blocks were confirmed as executed"));
     const Ended fast = run({"plot", "play", diagonal, "--period", "0.02"});
     EXPECT_EQ(fast.exit_code, 1);
-    EXPECT_THAT(fast.err, HasSubstr("and goes 10 mm/s at the most"));
+    EXPECT_THAT(fast.err, HasSubstr("but its maximum is 10 mm/s"));
     write_content(folder / "bad.txt", "0,0,0\n1,nan,0\n");
     const Ended bad = run({"plot", "play", (folder / "bad.txt").string(), "--period", "1"});
     EXPECT_EQ(bad.exit_code, 1);
@@ -331,7 +331,7 @@ TEST(TableCommand, AnAnswerThatComesTwiceEndsTheJobBeforeTheNextRecord) {
     Emulator table(port, {"--answer", "ok", "--double", "4"}, "table");
     const Ended ended = run(send_words(program, port, folder));
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.out + ended.err, HasSubstr("the machine said 'ok' before record 5 was sent"));
+    EXPECT_THAT(ended.out + ended.err, HasSubstr("the machine sent 'ok' before record 5 was sent"));
     EXPECT_THAT(table.stop().out, HasSubstr("4 records obeyed"));
 }
 

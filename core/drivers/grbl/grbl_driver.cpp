@@ -41,7 +41,7 @@ Capabilities GrblDriver::capabilities() const {
             .other_overrides = true,
             .jog = true,
             .home = homes,
-            .why_no_home = homes ? "" : "Homing is switched off in this controller ($22=0).",
+            .why_no_home = homes ? "" : "Homing is disabled in this controller ($22=0).",
             .command = true,
             .check_mode = true,
             .probe = true,
@@ -123,8 +123,9 @@ std::vector<ControllerSetting> GrblDriver::settings() const {
     for (const auto& [number, value] : talk().readout().settings) {
         const GrblSetting* known = find_grbl_setting(number, talk().readout().firmware);
         const GrblSetting words =
-            known != nullptr ? *known
-                             : GrblSetting{number, "Not of Grbl 1.1", "", "see the controller's makers"};
+            known != nullptr
+                ? *known
+                : GrblSetting{number, "Not a Grbl 1.1 setting", "", "see the controller's documentation"};
         table.push_back({"$" + std::to_string(number), value, words.title, words.unit, words.explanation});
     }
     return table;

@@ -22,7 +22,7 @@ std::unique_ptr<ShellSession> make_session(const LinuxCncOptions& options) {
         options.axes.starts_with("XYZ") && std::string("XYZABC").starts_with(options.axes.substr(0, 3)) &&
         options.axes.find_first_not_of("XYZABC") == std::string::npos && options.axes.size() <= 6;
     if (!known) {
-        throw Error("LinuxCNC's axes are XYZ, and any of ABC behind them, not " + options.axes);
+        throw Error("LinuxCNC's axes must be XYZ, followed by none or any of ABC, not " + options.axes);
     }
     return std::make_unique<ShellSession>(
         linuxcnc::ShellSettings{.password = options.password,

@@ -26,7 +26,7 @@ void expect_within(double value, double least, double most, const char* what) {
 std::shared_ptr<const PointTrack> checked_track(std::shared_ptr<const PointTrack> track) {
     expect_within(track->period, 0.0005, 10.0, "period");
     if (track->points.empty()) {
-        throw Error("there is no point to play");
+        throw Error("there are no points to run");
     }
     return track;
 }
@@ -42,8 +42,7 @@ void expect_all_named(const std::vector<Vec3>& points, const std::string& patter
         const char letter = "XYZ"[k];
         const auto changes = [&](const Vec3& point) { return std::abs(point[k] - points.front()[k]) > 0.0; };
         if (pattern.find({'{', letter, '}'}) == std::string::npos && std::ranges::any_of(points, changes)) {
-            throw Error(
-                fmt::format("the record '{}' leaves out {}, which the points change", pattern, letter));
+            throw Error(fmt::format("the record '{}' omits {}, which the points change", pattern, letter));
         }
     }
 }
@@ -154,10 +153,10 @@ std::string PointPlayer::heard(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     const bool awaited = std::exchange(awaits_answer_, false);
     if (line != options_.format.answer) {
-        return fmt::format("the table said '{}'", line);
+        return fmt::format("the table sent '{}'", line);
     }
     if (!awaited) {
-        return "the table answered a point that it was not sent";
+        return "the table answered a point that was not sent";
     }
     take_answer();
     return {};
@@ -270,7 +269,7 @@ PlayStatus PointPlayer::play(const std::stop_token& stop, const Listener& listen
     {
         const std::scoped_lock lock(mutex_);
         if (std::exchange(begun_, true)) {
-            throw Error("these points were played before");
+            throw Error("these points have already been run");
         }
         if (status_.state == PlayState::ready) {
             status_.state = PlayState::playing;

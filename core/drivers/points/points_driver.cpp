@@ -123,8 +123,8 @@ DriverStatus PointsDriver::status() const {
                          : std::string();
     status.link_lost = status.state == DriverState::alarm && link_ && link_->lost().has_value();
     if (played.unsure) {
-        status.position_doubt =
-            fmt::format("point {} was on its way, and the table may or may not have obeyed it", played.sent);
+        status.position_doubt = fmt::format(
+            "point {} had been sent, and it is not known whether the table executed it", played.sent);
     }
     add_progress(status, played, player_->track(), blocks_);
     return status;
@@ -142,11 +142,11 @@ void PointsDriver::connect() {
 
 void PointsDriver::start(Work work) {
     if (!work.points) {
-        throw Error("the points driver plays points only");
+        throw Error("the points driver runs points only");
     }
     const DriverState now = status().state;
     if (now != DriverState::idle && now != DriverState::stopped) {
-        throw Error(fmt::format("the table is {} and takes no points", in_words(now)));
+        throw Error(fmt::format("the table is {} and cannot accept points", in_words(now)));
     }
     auto player = std::make_shared<PointPlayer>(link_.get(), clock_, work.points, *model_, options_);
     constexpr double near = 1e-4; // mm: as it is written
@@ -154,18 +154,17 @@ void PointsDriver::start(Work work) {
     const Vec3 here = player_ ? player_->status().position : position_;
     const Vec3& first = work.points->points.front();
     if (!((here - first).cwiseAbs().maxCoeff() <= near)) {
-        throw Error(
-            fmt::format("the points start at X {:.3f} Y {:.3f} Z {:.3f}, and the table is at X {:.3f} "
-                        "Y {:.3f} Z {:.3f}",
-                        first.x(),
-                        first.y(),
-                        first.z(),
-                        here.x(),
-                        here.y(),
-                        here.z()));
+        throw Error(fmt::format(
+            "the points start at X {:.3f} Y {:.3f} Z {:.3f}, but the table is at X {:.3f} Y {:.3f} Z {:.3f}",
+            first.x(),
+            first.y(),
+            first.z(),
+            here.x(),
+            here.y(),
+            here.z()));
     }
     if (locked_) { // since it was asked above
-        throw Error("emergency stop", {}, "look at the table, then reset it");
+        throw Error("emergency stop", {}, "inspect the table, then reset it");
     }
     thread_ = {};
     player_ = std::move(player);

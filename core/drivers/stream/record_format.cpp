@@ -16,13 +16,13 @@ RecordText::RecordText(const RecordFormat& format, const kinematics::MachineMode
     const auto refuse = [&](const std::string& why) {
         throw Error(fmt::format("the record '{}': {}", format.pattern, why),
                     {},
-                    "letters of axes in braces, {a} and {s}, as in 't {X} {Y} {Z} {a} {s}'");
+                    "write axis letters in braces, and {a} and {s}, as in 't {X} {Y} {Z} {a} {s}'");
     };
     if (!(format.patience > 0.0) || !std::isfinite(format.patience)) {
-        throw Error(fmt::format("an answer within {} s; that has to be above 0", format.patience));
+        throw Error(fmt::format("the time limit of {} s for an answer must be above 0", format.patience));
     }
     if (format.pattern.find_first_of("\r\n") != std::string::npos) {
-        refuse("it has a line end in its middle");
+        refuse("it contains a line break");
     }
     std::string_view rest = format.pattern;
     bool moves = false;
@@ -39,16 +39,16 @@ RecordText::RecordText(const RecordFormat& format, const kinematics::MachineMode
             field.axis = model.axis_index(name.front());
             moves = true;
         } else {
-            refuse(fmt::format("there is no '{}' on {}", name, model.name()));
+            refuse(fmt::format("'{}' does not exist on {}", name, model.name()));
         }
         if (!fields_.empty() && field.before.empty()) {
-            refuse("two numbers have nothing between them");
+            refuse("two numbers have no separator");
         }
         fields_.push_back(std::move(field));
         rest.remove_prefix(close + 1);
     }
     if (!moves) {
-        refuse("it names no axis");
+        refuse("it contains no axis");
     }
     behind_ = rest;
 }
@@ -96,9 +96,10 @@ void RecordText::expect_all_told(const program::Program& program,
         for (int n = 0; n < model.axis_count(); ++n) {
             const bool moves = block.target.size() > n && std::abs(block.target[n] - program.start[n]) > 0.0;
             if (moves && silent[static_cast<std::size_t>(n)]) {
-                throw Error(fmt::format("the program moves {}, which no record tells", model.axis(n).letter),
+                throw Error(fmt::format("the program moves {}, which the record does not contain",
+                                        model.axis(n).letter),
                             {},
-                            fmt::format("put {{{}}} into the record", model.axis(n).letter));
+                            fmt::format("add {{{}}} to the record", model.axis(n).letter));
             }
         }
     }

@@ -236,7 +236,7 @@ std::optional<std::string> StreamDriver::exchange(const std::string& text, const
         return std::nullopt;
     }
     if (const auto unasked = next_answer()) {
-        return fmt::format("the machine said '{}' before record {} was sent", *unasked, samples_ + 1);
+        return fmt::format("the machine sent '{}' before record {} was sent", *unasked, samples_ + 1);
     }
     link_->write(text);
     const RecordFormat& format = *options_.record;
@@ -265,7 +265,7 @@ template <class Act> auto StreamDriver::between_records(const Act& act) {
     std::unique_lock lock(mutex_);
     landed_.wait(lock, [this] { return !in_flight_ || !lost_.empty(); });
     if (!lost_.empty()) {
-        throw Error(links::loss_sentence(lost_), {}, "look at the machine, then reset it");
+        throw Error(links::loss_sentence(lost_), {}, "inspect the machine, then reset it");
     }
     return act();
 }
@@ -288,11 +288,13 @@ void StreamDriver::reset() {
 
 void StreamDriver::stands_at(const AxisPositions& position) {
     if (const std::string why = lost(); !why.empty()) {
-        throw Error(links::loss_sentence(why), {}, "look at the machine, then reset it");
+        throw Error(links::loss_sentence(why), {}, "inspect the machine, then reset it");
     }
     if (const DriverState now = machine_.status().state;
         now != DriverState::idle && now != DriverState::stopped) {
-        throw Error(fmt::format("the machine is {}", to_text(now)), {}, "say it when it is at rest");
+        throw Error(fmt::format("the machine is {}", to_text(now)),
+                    {},
+                    "enter the position when the machine is at rest");
     }
     thread_ = {}; // it would follow to there
     machine_.stands_at(position);

@@ -22,7 +22,7 @@ void check_speed(VirtualSpeed speed) {
     const bool in_range = factor >= VirtualSpeed::slowest && factor <= VirtualSpeed::fastest;
     if (!in_range && !(factor >= 0.0 && unlimited(speed))) {
         throw Error(
-            fmt::format("the virtual machine's speed of {} is not between {} and {}, nor 0 for unlimited",
+            fmt::format("the speed of the virtual machine, {}, must be between {} and {}, or 0 for unlimited",
                         factor,
                         VirtualSpeed::slowest,
                         VirtualSpeed::fastest));

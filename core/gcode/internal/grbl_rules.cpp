@@ -39,7 +39,7 @@ void check_g92(const Block& block, const ModalState& state) {
     if (block.code(GGroup::non_modal) == g92_1 && block.has_any(axis_words) && shifted) {
         refuse(block.column_of(GGroup::non_modal),
                "Grbl moves by the old G92 in a line with G92.1",
-               "write it in two lines");
+               "split it into two lines");
     }
 }
 
@@ -50,7 +50,7 @@ void check_cancelled_motion(const Block& block, const ModalState& state) {
     if ((given == no_code ? state.motion : given) == g80 && block.has_any(axis_words)) {
         refuse(given == no_code ? 1 : block.column_of(GGroup::motion),
                "Grbl takes no axis words while G80 is in force (error 31)",
-               "put G0 or G1 in force first");
+               "activate G0 or G1 first");
     }
 }
 

@@ -79,7 +79,7 @@ TEST(ProgramText, WhatIsNoPlainTextIsRefusedOnceInEveryDialect) {
         EXPECT_THAT(errors("\xFF\xFE\0\0G\0\0\0\n\0\0\0"s, dialect),
                     MatchesRegex(".*:1:1: the text is UTF-32 \\(save it as plain text\\)\n"));
         EXPECT_THAT(errors("G21\nG0\0 X1\nG0\0 X2\nM2\n"s, dialect),
-                    MatchesRegex(".*:2:3: byte 0x00 is in no text: this is a binary file.*\n"));
+                    MatchesRegex(".*:2:3: byte 0x00 found: this is a binary file.*\n"));
         EXPECT_EQ(errors("G21\nG0 X1\nM2\n\0\0\0\0"s, dialect), "");
     }
 }

@@ -238,7 +238,7 @@ TEST(Dispatcher, TakesALostLinkForAFaultWithTheLastKnownPosition) {
         }
     });
     EXPECT_EQ(outcome.end, JobEnd::fault);
-    EXPECT_THAT(outcome.sentence, HasSubstr("the connection was lost"));
+    EXPECT_THAT(outcome.sentence, HasSubstr("the link was lost"));
     EXPECT_EQ(outcome.position, last);
 }
 

@@ -116,7 +116,7 @@ TEST(FileJob, SaysWhatIsWrongAndWhere) {
     const test::ScratchFolder folder;
     expect_error(written(folder / "bad.ngc", "G21\nG1 X5\n"), "bad.ngc:2");
     expect_error(written(folder / "bad.path", "# millwright path 9\n1,2,3\n"), "bad.path:1");
-    expect_error(written(folder / "empty.ngc", "G21\nM2\n"), "contains no moves");
+    expect_error(written(folder / "empty.ngc", "G21\nM2\n"), "contains no motion");
     expect_error(written(folder / "axis.ngc", "G21 G0 A5\nM2\n"), "A");
     expect_error(folder / "missing.ngc", "missing.ngc");
 }

@@ -38,7 +38,7 @@ TEST(Preflight, NamesTheLineAxisAndRangeOncePerAxis) {
     const Job job = test::job_of(program);
     const auto found = preflight(job);
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].message, "axis X would go to 600.000, outside -500.000 ... 500.000 mm");
+    EXPECT_EQ(found[0].message, "axis X would move to 600.000, outside -500.000 ... 500.000 mm");
     EXPECT_EQ(found[0].place.line, job.listing->line_of_block[7]);
 }
 

@@ -54,7 +54,7 @@ TEST_F(PositionMemoryOf, AControllerIsRemindedOfWhatWasInDoubt) {
 TEST_F(PositionMemoryOf, WhatHappenedIsToldAndNotHowTheControllerWasFound) {
     driver.doubt_position("the controller was reset", true);
     memory().keep(driver.status());
-    driver.doubt_position("Grbl was locked when it was found", true);
+    driver.doubt_position("Grbl was found locked", true);
     memory().remind(driver);
     EXPECT_EQ(doubt(), "the controller was reset");
 }

@@ -49,7 +49,7 @@ TEST(ArmAtPmacF2, TheLogKeepsAlarmsWithTheirReason) {
     bench.person.workshop().run("machine.disconnect");
     ASSERT_TRUE(
         bench.person.live_until([&] { return !bench.person.workshop().look().controller.connected(); }));
-    EXPECT_THAT(log, testing::Contains(testing::StartsWith("Alarm: The connection was lost")));
+    EXPECT_THAT(log, testing::Contains(testing::StartsWith("Alarm: The link was lost")));
 }
 
 TEST(ArmAtPmacF2, DisconnectingTakesThePower) {

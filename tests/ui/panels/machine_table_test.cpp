@@ -149,7 +149,7 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
         60.0));
     person.workshop().run("machine.emergency_stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
-    EXPECT_THAT(now().job.outcome->sentence, HasSubstr("was on its way, and nobody knows how far"));
+    EXPECT_THAT(now().job.outcome->sentence, HasSubstr("had been sent, and it is not known how far"));
     ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::alarm); }));
     person.workshop().run("machine.reset");
     ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::idle); }));

@@ -131,17 +131,16 @@ std::vector<std::string> setup_remarks(const Readout& readout) {
         not_homed.append(!checked && travel && *travel > 0.0 ? 1 : 0, readout.axes[n]);
     }
     if (!lengths.empty()) {
-        remarks.push_back(
-            fmt::format("Setting $376 does not mark {} as rotary: a program in inches would turn it 25.4 "
-                        "times as far. Add 1 for A, 2 for B, 4 for C to $376.",
-                        listed(lengths)));
+        remarks.push_back(fmt::format("Setting $376 does not mark {} as rotary: a program in inches would "
+                                      "rotate it 25.4 times too far. Add 1 for A, 2 for B, 4 for C to $376.",
+                                      listed(lengths)));
     }
     if (!unknown.empty()) {
-        remarks.push_back(
-            fmt::format("The travel of {} is not known: no program is checked against it.", listed(unknown)));
+        remarks.push_back(fmt::format("The travel of {} is unknown, so no program is checked against it.",
+                                      listed(unknown)));
     }
     if (!not_homed.empty()) {
-        remarks.push_back(fmt::format("{} {} not home: no program is checked against {} travel.",
+        remarks.push_back(fmt::format("{} {} not home, so no program is checked against {} travel.",
                                       listed(not_homed),
                                       not_homed.size() > 1 ? "do" : "does",
                                       not_homed.size() > 1 ? "their" : "its"));

@@ -51,7 +51,8 @@ kinematics::AxisPositions positions_of(const Axes& axes, std::string_view letter
 
 Jog in_axis_units(const Jog& jog, std::string_view letters) {
     if (jog.way.size() > std::ssize(letters)) {
-        throw Error(fmt::format("the machine has the axes {}, and the jog has {}", letters, jog.way.size()));
+        throw Error(
+            fmt::format("the machine has the axes {}, but the jog has {} values", letters, jog.way.size()));
     }
     Jog result = jog;
     for (Eigen::Index n = 0; n < jog.way.size(); ++n) {

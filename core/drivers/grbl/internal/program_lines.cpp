@@ -31,8 +31,8 @@ void expect_text(const program::Listing& listing, const std::filesystem::path& f
         const auto line = std::ranges::upper_bound(listing.line_starts, zero) - listing.line_starts.begin();
         const std::size_t begin = listing.line_starts[static_cast<std::size_t>(line - 1)];
         fail({file, static_cast<int>(line), static_cast<int>(zero - begin) + 1, -1},
-             "byte 0x00 is in no text: this is a binary file",
-             "choose a program");
+             "byte 0x00 found: this is a binary file",
+             "choose a G-code file");
     }
 }
 
@@ -48,7 +48,7 @@ std::string bare_text(std::string_view line, Place place) {
             if (comment) {
                 continue; // it is not sent
             }
-            fail(place, "this character is a real-time command to Grbl", "take it out of the program");
+            fail(place, "this character is a real-time command in Grbl", "remove it from the program");
         }
         if (comment) {
             comment = c != ')';
@@ -57,11 +57,11 @@ std::string bare_text(std::string_view line, Place place) {
         } else if (c == '(') {
             comment = true;
         } else if (c == '$') {
-            fail(place, "a program has no $ commands", "send them by themselves");
+            fail(place, "$ commands are not allowed in a program", "send them separately");
         } else if (c > ' ' && c != '/') {
             text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
         } else if (c < ' ' && c != '\t' && c != '\r') {
-            fail(place, "this is no character of a program", "is it a text file?");
+            fail(place, "this character is not allowed in a program", "check that it is a text file");
         }
     }
     return text == "%" ? std::string() : text;
@@ -184,12 +184,12 @@ std::string_view why_not(std::string_view text) {
         return {};
     }
     if (text.starts_with("$H")) {
-        return "use homing for it";
+        return "use homing instead";
     }
     if (text.starts_with("$J")) {
-        return "use a jog for it, which a dead man cannot keep going";
+        return "use a jog instead, which stops when it is no longer renewed";
     }
-    return text.starts_with("$X") ? "use reset for it" : "it changes how the controller works as a whole";
+    return text.starts_with("$X") ? "use reset instead" : "it affects the whole controller";
 }
 
 /// Column of the first character of `line` that Grbl would not take any more.
@@ -207,8 +207,8 @@ void check_length(std::string_view text, std::string_view whole, Place place, st
     if (text.size() > longest) {
         place.column = whole.find('$') == std::string_view::npos ? column_beyond(whole, place, longest) : 1;
         fail(place,
-             fmt::format("the line has {} characters and Grbl takes {}", text.size(), longest),
-             "write it in two lines");
+             fmt::format("the line has {} characters, but Grbl accepts only {}", text.size(), longest),
+             "split it into two lines");
     }
 }
 
@@ -255,7 +255,7 @@ ProgramLines command_lines(std::string_view text, std::size_t longest) {
         const bool setting = first != std::string_view::npos && line[first] == '$';
         std::string bare = (setting ? "$" : "") + bare_text(setting ? line.substr(first + 1) : line, place);
         if (const std::string_view why = setting ? why_not(bare) : std::string_view(); !why.empty()) {
-            fail(place, fmt::format("{} is not taken as a line", bare), std::string(why));
+            fail(place, fmt::format("{} cannot be sent as a line", bare), std::string(why));
         }
         if (!bare.empty()) {
             check_length(bare, line, place, longest);
@@ -265,7 +265,7 @@ ProgramLines command_lines(std::string_view text, std::size_t longest) {
         }
     }
     if (result.lines.empty()) {
-        throw Error("there is nothing in the command");
+        throw Error("the command is empty");
     }
     return result;
 }

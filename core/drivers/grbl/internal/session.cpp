@@ -54,11 +54,11 @@ void Session::closed() {
 /// A controller without its host goes on with what it has.
 std::string Session::what_it_may_execute(bool in_program) const {
     if (!in_program) {
-        return "; the controller may still execute what it has";
+        return "; the controller may still execute what it has received";
     }
     const int open = next_line_ - proof_.executed_lines();
     return open == 0 ? std::string()
-                     : fmt::format("; the controller may still execute up to {} line{} that it has",
+                     : fmt::format("; the controller may still execute up to {} line{} that it has received",
                                    open,
                                    open == 1 ? "" : "s");
 }
@@ -144,8 +144,8 @@ void Session::watch_silence(double now) {
         const double silence = now - ending_since_;
         if (silence > settings_.greeting_time) {
             stage_ = Stage::alarm;
-            message_ = "no Grbl answers at this port";
-            message_ += stray_line_.empty() ? "" : fmt::format("; somebody says '{}'", stray_line_);
+            message_ = "no Grbl controller answers at this port";
+            message_ += stray_line_.empty() ? "" : fmt::format("; received '{}'", stray_line_);
         } else if (stage_ == Stage::greeting && silence > settings_.greeting_time / 2.0) {
             // After a limit switch Grbl is deaf to all but a reset, and a board that begins anew waits for a
             // boot loader. Both stand still.
@@ -159,10 +159,10 @@ void Session::watch_silence(double now) {
         return;
     }
     if (active()) {
-        fail("the controller does not answer any more", now);
+        fail("the controller no longer answers", now);
     } else if (stage_ == Stage::ready || stage_ == Stage::stopped) {
         stage_ = Stage::alarm;
-        message_ = "the controller does not answer any more";
+        message_ = "the controller no longer answers";
     }
 }
 
@@ -215,11 +215,11 @@ void Session::watch_ending(double now) {
         }
     } else if (stage_ == Stage::flushing) {
         if (now - ending_since_ > flushing_time) {
-            doubt_.arise("the controller did not answer to a reset");
+            doubt_.arise("the controller did not respond to a reset");
             ending_in_fault_ = true;
             ending_message_ += ending_message_.empty() ? "" : "; ";
             ending_message_ +=
-                "the controller does not answer to a reset, so look whether the machine stands still";
+                "the controller does not respond to a reset; check that the machine has stopped";
             finish_ending(now);
         } else if (now - last_reset_ > 2.0 * repeat_time) {
             send_reset(now);
@@ -295,7 +295,7 @@ void Session::watch_answers(double now) {
     }
     constexpr int enough_reports = 10; // a controller that is itself kept from its work has said less
     if (now - last_answer_ > answer_time + dwells && idle_unanswered_ >= enough_reports) {
-        fail("an acknowledgement was lost on the way, so that lines can no longer be told apart", now);
+        fail("an acknowledgement was lost, so answers can no longer be matched to lines", now);
     }
 }
 

@@ -60,8 +60,7 @@ void Session::take_tool_changes(ProgramLines& program) const {
         const auto stop = std::ranges::find(changes_->stops, line.line, &ToolStop::line);
         const bool stops = stop != changes_->stops.end();
         if (!stops && std::ranges::find(changes_->same_tool, line.line) == changes_->same_tool.end()) {
-            throw Error(fmt::format("the tool change at line {} is written in a way that is not read here",
-                                    line.line),
+            throw Error(fmt::format("the tool change at line {} is written in an unsupported way", line.line),
                         {},
                         "write it as M6");
         }
@@ -83,12 +82,12 @@ void Session::begin_job(std::optional<ToolChanges> changes, ProgramLines& progra
         return;
     }
     if (!changes_->stops.empty() && has_tool_length()) {
-        throw Error("a tool length offset of an earlier tool is in force", {}, "cancel it with G49");
+        throw Error("a tool length offset of an earlier tool is active", {}, "cancel it with G49");
     }
     if (changes_->needs_zero && zero_of_other_) {
-        throw Error("tools were changed since the zero of Z was set, so that it is that of another tool",
+        throw Error("tools were changed since the Z zero was set, so it belongs to another tool",
                     {},
-                    "set the zero of Z with the tool in the spindle");
+                    "set the Z zero with the tool in the spindle");
     }
     take_tool_changes(program);
     reference_due_ = changes_->reference_first;
@@ -121,7 +120,8 @@ std::string Session::zero_set_anew() const {
         const bool counts = name != "TLO" && name != "G28" && name != "G30";
         if (counts && now != readout_.offsets.end() &&
             std::abs(now->second[z_axis] - before[z_axis]) > rounding) {
-            return fmt::format("Z of {} was {:.3f} and is {:.3f}", name, before[z_axis], now->second[z_axis]);
+            return fmt::format(
+                "Z of {} was {:.3f} and is now {:.3f}", name, before[z_axis], now->second[z_axis]);
         }
     }
     return {};
@@ -133,11 +133,11 @@ std::string Session::why_not_on() const {
         return {};
     }
     if (const std::string anew = zero_set_anew(); reference_z_ && !anew.empty()) {
-        return "the zero of Z was set anew, and with the sensor only the first tool sets it: " + anew +
-               "; set it back (G10 L2), or stop";
+        return "the Z zero was changed, but with the sensor only the first tool sets it: " + anew +
+               "; restore it (G10 L2), or stop";
     }
     if (!reference_z_ && has_tool_length()) {
-        return "a tool length offset is in force: cancel it with G49, and set the zero of Z";
+        return "a tool length offset is active: cancel it with G49, and set the Z zero";
     }
     return {};
 }
@@ -145,15 +145,15 @@ std::string Session::why_not_on() const {
 /// What a person has to know while it waits, after the sentence of the stop.
 std::string Session::what_to_do() const {
     if (change_->held) {
-        return "; on hold: resume ends the hold, and the job waits on";
+        return "; on hold: resume ends the hold, and the job continues to wait";
     }
     if (changes_->plan.way == ToolChangeWay::probe) {
-        return reference_z_ ? "; leave the zero of Z as it is: the tool is measured"
-                            : "; the zero of Z has to be set with this tool: it is the reference";
+        return reference_z_ ? "; do not change the Z zero: the tool is measured"
+                            : "; set the Z zero with this tool, which is the reference";
     }
     return stop_at_hand().highest_z
                ? ""
-               : "; no safe height is known yet, so that the machine does not move back by itself";
+               : "; no safe height is known yet, so the machine does not move back automatically";
 }
 
 /// Whether the next line waits for another tool, or for the first to be measured.
@@ -305,7 +305,7 @@ void Session::go_on_measuring(double now) {
     constexpr double alike = 0.5; // mm between two touches of one tool
     if (change_->step == ChangeStep::second_touch && std::abs(z - change_->first_touch_z) > alike) {
         stage_ = Stage::running;
-        fail(fmt::format("the two touches of the tool sensor are {:.3f} mm apart",
+        fail(fmt::format("the two touches of the tool sensor differ by {:.3f} mm",
                          std::abs(z - change_->first_touch_z)),
              now);
         return;
@@ -375,22 +375,20 @@ std::string Session::why_no_way_back(WayBack& way) const {
         constexpr double rounding = 1e-3; // mm, of reports
         if (way.to[n] < *axis.min - rounding || way.to[n] > *axis.max + rounding) {
             return fmt::format(
-                "the way back would lead to {} {:.3f} in machine coordinates, outside {:.3f} ... "
-                "{:.3f}: {}",
+                "the return move would go to {} {:.3f} in machine coordinates, outside {:.3f} ... {:.3f}: {}",
                 axis.letter,
                 way.to[n],
                 *axis.min,
                 *axis.max,
                 changes_->plan.way == ToolChangeWay::probe && reference_z_ && !change_->made_reference
-                    ? "take a tool of another length, or stop"
-                    : "look at the zero of the tool");
+                    ? "use a tool of another length, or stop"
+                    : "check the zero of the tool");
         }
         if (n == z_axis) {
             if (const double lacking = lacking_height(*axis.max); lacking > 0.0) {
                 return fmt::format(
-                    "the height of the program would be {:.3f} mm above the travel of Z with this "
-                    "tool, and below it the way back is not known to be free: take a shorter one, or "
-                    "stop",
+                    "with this tool the program's height would be {:.3f} mm above the Z travel, and a lower "
+                    "return move is not known to be clear: use a shorter tool, or stop",
                     lacking);
             }
             way.top = std::max(std::min(way.top, *axis.max), way.from[z_axis]);
@@ -455,9 +453,10 @@ void Session::drop_change() {
         length_set_ = false;
         length_left_ = stage_ == Stage::alarm || has_tool_length(); // a stop ends with a reset, and asks
         own_lines_.emplace_back(
-            stage_ == Stage::alarm ? "(a tool length may be in force: no job begins before it is gone)"
-            : length_left_ ? "(the tool length is in force: no job begins before G49 has cancelled it)"
-                           : "(the tool length was cancelled by the reset of the stop)");
+            stage_ == Stage::alarm
+                ? "(a tool length offset may be active: no job starts until it is cancelled)"
+            : length_left_ ? "(the tool length offset is active: no job starts until G49 has cancelled it)"
+                           : "(the reset after the stop cancelled the tool length offset)");
     }
 }
 

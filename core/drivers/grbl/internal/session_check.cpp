@@ -45,21 +45,21 @@ std::string modes_line(std::string_view modes) {
 int Session::check(ProgramLines program, double now) {
     require_rest("check");
     if (change_) {
-        throw Error("a job waits for another tool", {}, "go on with it, or stop it");
+        throw Error("a job is waiting for a tool change", {}, "resume it, or stop it");
     }
     for (const char* name : {"G92", "TLO"}) {
         const auto offset = readout_.offsets.find(name);
         if (offset != readout_.offsets.end() &&
             std::ranges::any_of(offset->second, [](double value) { return !exactly_equal(value, 0.0); })) {
-            throw Error(fmt::format("{} of the controller is not zero, and is lost when the check ends",
-                                    offset->first == "TLO" ? "the tool length offset" : "the offset G92"),
+            throw Error(fmt::format("{} of the controller is not zero and would be lost when the check ends",
+                                    offset->first == "TLO" ? "the tool length offset" : "the G92 offset"),
                         {},
                         "set the zero of a work system instead (G10 L20), or run without this check");
         }
     }
     for (const ProgramLine& line : program.lines) {
         if (line.writes_eeprom) {
-            throw Error(fmt::format("line {} stores an offset, in check mode too: {}", line.line, line.text),
+            throw Error(fmt::format("line {} stores an offset even in check mode: {}", line.line, line.text),
                         {},
                         "run without this check");
         }
@@ -87,7 +87,7 @@ bool Session::leaves_check_mode() const {
 
 void Session::refused_in_check(const SentLine& line, const std::string& why, double now) {
     if (line.text == "$C\n") {
-        fail(fmt::format("{} has no check mode here: {}", name(), why), now);
+        fail(fmt::format("{} has no check mode: {}", name(), why), now);
         return;
     }
     constexpr int most_shown = 100;
@@ -108,7 +108,7 @@ void Session::finish_check(double now) {
     answer_.state = all_read ? CommandAnswer::State::done : CommandAnswer::State::refused;
     if (all_read) {
         answer_.text =
-            fmt::format("{} read {} in check mode and refuses none", name(), counted(checked_lines_, "line"));
+            fmt::format("{} read {} in check mode without errors", name(), counted(checked_lines_, "line"));
     }
     overrides_.forget();
     ask_again(Stage::ready, now, modes_before_check_);

@@ -32,7 +32,7 @@ void Session::jog(const Jog& jog, double now) {
     if (stage_ != Stage::jogging || jog_stopping_) {
         require_rest("jog");
     } else if (held_at_machine()) {
-        throw Error(fmt::format("{} takes no jog: {}", name(), why_held(report_->state)));
+        throw Error(fmt::format("{} cannot accept a jog: {}", name(), why_held(report_->state)));
     }
     if (change_) {
         change_->confirmed = false;

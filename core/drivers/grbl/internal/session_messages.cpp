@@ -118,10 +118,11 @@ void Session::finish_asking(const StatusMessage& report) {
     }
     stage_ = Stage::alarm;
     if (report.state != MachineState::alarm) {
-        message_ = name() + " is neither idle nor locked after its reset: the door is open, or it sleeps";
+        message_ =
+            name() + " is neither idle nor locked after its reset: the door is open, or it is in sleep mode";
         return;
     }
-    message_ = !kept_lock_.empty()     ? fmt::format("{} stays locked, {}", name(), kept_lock_)
+    message_ = !kept_lock_.empty()     ? fmt::format("{} remains locked, {}", name(), kept_lock_)
                : !found_alarm_.empty() ? fmt::format("{} is locked, {}", name(), found_alarm_)
                                        : name() + " is locked: home the machine, or unlock it without moving";
 }
@@ -129,12 +130,11 @@ void Session::finish_asking(const StatusMessage& report) {
 /// After the link was made: nobody knows what happened before.
 void Session::doubt_what_was_found(const StatusMessage& report) {
     if (report.state == MachineState::alarm) {
-        doubt_.arise(name() + " was locked when it was found: after an alarm, or since it was switched on");
+        doubt_.arise(name() + " was found locked: after an alarm, or since it was switched on");
     } else if (std::ranges::all_of(readout_.machine_position,
                                    [](double axis) { return exactly_equal(axis, 0.0); })) {
         constexpr bool known_loss = false; // where its zero was set since, all is well
-        doubt_.arise(name() + " is at zero in all axes, as it is after it was switched on and not homed",
-                     known_loss);
+        doubt_.arise(name() + " is at zero in all axes, as after switching on without homing", known_loss);
     }
 }
 
@@ -160,7 +160,7 @@ void Session::handle(const Garbage&, double now) {
     if (stage_ == Stage::foreign) {
         return; // the rest of a line that was meant for somebody else
     }
-    fail("bytes from the controller were changed or lost on the way", now);
+    fail("data from the controller was corrupted or lost", now);
 }
 
 void Session::handle(const StartupLine& line, double now) {
@@ -210,7 +210,7 @@ void Session::handle(const Ack&, double now) {
         return; // for something before the reset, or before this link
     }
     if (window_.empty()) {
-        fail("the controller acknowledged a line that it was not sent", now);
+        fail("the controller acknowledged a line that was not sent", now);
         return;
     }
     last_answer_ = now;
@@ -228,7 +228,7 @@ void Session::handle(const ErrorAnswer& error, double now) {
         return;
     }
     if (window_.empty()) {
-        fail("the controller refused a line that it was not sent", now);
+        fail("the controller refused a line that was not sent", now);
         return;
     }
     last_answer_ = now;
@@ -314,14 +314,14 @@ void Session::handle(const Welcome& welcome, double now) {
     case Stage::greeting:
         readout_.began_anew = true;
         doubt_.arise(name() +
-                     " began anew when the link was made, and counts from where the machine stood then");
+                     " restarted when the connection was made, and counts from where the machine was then");
         begin_asking(now, false);
         break;
     case Stage::asking:
         ask_first();
         break;
     case Stage::foreign:
-        doubt_.arise("the controller was reset while it moved");
+        doubt_.arise("the controller was reset while the machine was moving");
         begin_asking(now, false);
         break;
     case Stage::flushing:
@@ -361,7 +361,7 @@ void Session::check_echo(std::string_view text, double now) {
         return;
     }
     if (window_.empty() || one_line(window_.lines().front().text) != text) {
-        fail(fmt::format("the controller read '{}', which is not what it was sent", text), now);
+        fail(fmt::format("the controller read '{}', which differs from what was sent", text), now);
     }
 }
 

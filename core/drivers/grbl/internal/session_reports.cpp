@@ -16,8 +16,8 @@ constexpr double mm_per_inch = 25.4;
 
 std::string_view why_held(MachineState state) {
     return state == MachineState::door   ? "the safety door is open: close it, then resume"
-           : state == MachineState::tool ? "the program asks for another tool (M6): change it, then resume"
-                                         : "the program pauses (M0), or hold was pressed at the machine";
+           : state == MachineState::tool ? "the program requests another tool (M6): change it, then resume"
+                                         : "the program is paused (M0), or hold was pressed at the machine";
 }
 
 /// mm of a unit of the controller's reports.
@@ -102,7 +102,8 @@ void Session::handle(const StatusMessage& report, double now) {
             stage_ = Stage::foreign;
             proof_closed_ = true;
             rest_reports_ = 0;
-            message_ = "it was moving when the link was made, and goes on with what it has";
+            message_ = "the machine was moving when the connection was made, and continues with what it has "
+                       "received";
         } else {
             begin_asking(now, false);
         }
@@ -149,7 +150,7 @@ void Session::watch_state(const StatusMessage& report, double now) {
     }
     const bool strays = report.state == MachineState::check && !checks();
     if (report.state == MachineState::sleep || strays) {
-        fail("the controller was put to sleep or into check mode", now);
+        fail("the controller entered sleep or check mode", now);
         return;
     }
     if (checks()) {

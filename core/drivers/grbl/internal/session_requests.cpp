@@ -10,24 +10,24 @@ namespace millwright::drivers::grbl {
 
 void Session::require_rest(std::string_view what) const {
     if (change_ && !waits_for_tool()) {
-        throw Error(fmt::format("{} is on its way to or from a tool change and takes no {}", name(), what),
+        throw Error(fmt::format("{} is moving to or from a tool change and cannot accept a {}", name(), what),
                     {},
                     "wait until it has stopped, or stop it");
     }
     if (held_at_machine()) { // it would begin when somebody resumes
-        throw Error(fmt::format("{} takes no {}: {}", name(), what, why_held(report_->state)));
+        throw Error(fmt::format("{} cannot accept a {}: {}", name(), what, why_held(report_->state)));
     }
     if (stage_ == Stage::ready || stage_ == Stage::stopped) {
         return;
     }
     if (stage_ == Stage::foreign) {
-        throw Error(fmt::format("{} takes no {}: {}", name(), what, message_),
+        throw Error(fmt::format("{} cannot accept a {}: {}", name(), what, message_),
                     {},
-                    "wait until it has stopped; the window can hold and stop it meanwhile");
+                    "wait until it has stopped; the window can hold or stop it");
     }
-    throw Error(fmt::format("{} is {} and takes no {}", name(), in_words(status().state), what),
+    throw Error(fmt::format("{} is {} and cannot accept a {}", name(), in_words(status().state), what),
                 {},
-                stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
+                stage_ == Stage::alarm ? message_ + "; inspect the machine, then reset it" : "");
 }
 
 void Session::start(ProgramLines program,
@@ -36,17 +36,17 @@ void Session::start(ProgramLines program,
                     std::optional<ToolChanges> changes) {
     require_rest("program");
     if (change_) {
-        throw Error("a job waits for another tool", {}, "go on with it, or stop it");
+        throw Error("a job is waiting for a tool change", {}, "resume it, or stop it");
     }
     if (const std::string_view mode = unfollowed_mode(readout_.modes.text); !mode.empty()) {
-        throw Error(
-            fmt::format(
-                "{} has {} in force, which bends every path in a way that is not checked here", name(), mode),
-            {},
-            mode == "G51" ? "cancel it with G50" : "cancel it with G8");
+        throw Error(fmt::format("{} has {} active, which distorts every path in a way that is not checked",
+                                name(),
+                                mode),
+                    {},
+                    mode == "G51" ? "cancel it with G50" : "cancel it with G8");
     }
     if (length_left_ && has_tool_length()) {
-        throw Error("the tool length offset of an earlier job is still in force", {}, "cancel it with G49");
+        throw Error("the tool length offset of an earlier job is still active", {}, "cancel it with G49");
     }
     begin_job(std::move(changes), program);
     answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
@@ -145,7 +145,7 @@ void Session::stop(double now) {
         end(false, {}, now);
     }
     if (homing) { // a homing cycle knows no hold
-        doubt_.arise("homing was broken off");
+        doubt_.arise("homing was interrupted");
         stage_ = Stage::flushing;
         send_reset(now);
     }
@@ -175,7 +175,7 @@ void Session::emergency_stop(double now) {
         return;
     }
     if (((active() || stage_ == Stage::braking) && !checks()) || (report_ && report_->moving())) {
-        doubt_.arise("an emergency stop cut the motion off");
+        doubt_.arise("an emergency stop interrupted the motion");
     }
     stage_ = Stage::flushing;
     ending_in_fault_ = true;
@@ -189,19 +189,19 @@ void Session::reset(double now) {
         return;
     }
     if (report_ && report_->moving()) { // its reset would cut the motion off
-        throw Error("the machine moves", {}, "wait until it has stopped, or stop it");
+        throw Error("the machine is moving", {}, "wait until it has stopped, or stop it");
     }
     begin_asking(now, true);
 }
 
 void Session::home(double now) {
     if (stage_ != Stage::alarm || link_lost_) {
-        require_rest("homing");
+        require_rest("homing request");
     }
     if (change_ && !doubt_.was_homed()) {
-        throw Error("the machine was not homed before the job: homing now would move the zero under the job",
+        throw Error("the machine was not homed before the job: homing now would shift the zero of the job",
                     {},
-                    "stop the job, home, and set the zero of the work again");
+                    "stop the job, home, and set the work zero again");
     }
     proof_closed_ = true;
     window_ = Window(readout_.buffer_bytes, true);
@@ -214,7 +214,7 @@ void Session::home(double now) {
 
 void Session::set_overrides(const Overrides& wanted) {
     if (stage_ != Stage::ready && stage_ != Stage::stopped && !active()) {
-        throw Error(fmt::format("{} is {} and takes no overrides", name(), in_words(status().state)));
+        throw Error(fmt::format("{} is {} and cannot accept overrides", name(), in_words(status().state)));
     }
     overrides_.want(wanted);
 }

@@ -64,7 +64,7 @@ std::optional<Diagnostic> Session::stranger() const {
     if (stage_ != Stage::alarm || !readout_.settings.empty()) {
         return std::nullopt;
     }
-    return Diagnostic{{}, message_, "is it the right port, and switched on?"};
+    return Diagnostic{{}, message_, "check the port, and that the controller is switched on"};
 }
 
 DriverStatus Session::status() const {
@@ -151,7 +151,7 @@ void Session::show_program(DriverStatus& status) const {
     status.executed_blocks = executed > 0 || program_.lines.empty() ? program_.blocks_before(executed) : 0;
     status.block = std::min(program_.blocks_before(proof_.line_at_hand()), program_.blocks - 1);
     if (waits_between_blocks() && status.message.empty()) {
-        status.message = fmt::format("single block: line {} comes next",
+        status.message = fmt::format("single block: line {} is next",
                                      program_.lines[static_cast<std::size_t>(next_line_)].line);
     }
 }

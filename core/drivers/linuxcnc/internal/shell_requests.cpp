@@ -46,9 +46,9 @@ void ShellSession::require_rest(std::string_view what) const {
     if (stage_ == Stage::ready || stage_ == Stage::stopped) {
         return;
     }
-    throw Error(fmt::format("LinuxCNC is {} and takes no {}", in_words(status().state), what),
+    throw Error(fmt::format("LinuxCNC is {} and cannot accept a {}", in_words(status().state), what),
                 {},
-                stage_ == Stage::alarm     ? message_ + "; look at the machine, then reset it"
+                stage_ == Stage::alarm     ? message_ + "; inspect the machine, then reset it"
                 : stage_ == Stage::foreign ? message_
                                            : "");
 }
@@ -123,7 +123,7 @@ void ShellSession::reset(double now) {
 }
 
 void ShellSession::home(double now) {
-    require_rest("homing");
+    require_rest("homing request");
     finish(Stage::homing);
     quiet_rounds_ = 0;
     next_round_ = now;
@@ -137,7 +137,7 @@ void ShellSession::jog(const Jog& jog, double now) {
     }
     for (Eigen::Index n = 3; n < jog.way.size(); ++n) {
         if (std::abs(jog.way[n]) > 0.0) {
-            throw Error("the LinuxCNC driver jogs X, Y and Z alone");
+            throw Error("the LinuxCNC driver jogs X, Y and Z only");
         }
     }
     Jog linear = jog;
@@ -176,12 +176,12 @@ int ShellSession::command(const std::string& lines, double now) {
             wanted.push_back(std::exchange(line, {}));
         } else if (c != '\r') {
             const bool plain = (c >= ' ' && c <= '~') || c == '\t';
-            line += plain ? std::string(1, c) : throw Error("a command is plain text");
+            line += plain ? std::string(1, c) : throw Error("a command must be plain text");
         }
     }
     std::erase(wanted, std::string());
     if (wanted.empty()) {
-        throw Error("there is nothing in the command");
+        throw Error("the command is empty");
     }
     finish(Stage::commanding);
     lines_ = std::move(wanted);
@@ -194,7 +194,7 @@ int ShellSession::command(const std::string& lines, double now) {
 
 void ShellSession::set_overrides(const Overrides& wanted) {
     if (!greeted() || stage_ == Stage::closed || link_lost_) {
-        throw Error("LinuxCNC is not connected and takes no overrides");
+        throw Error("LinuxCNC is not connected and cannot accept overrides");
     }
     constexpr int most = 200;
     set(fmt::format("feed_override {}", std::clamp(wanted.feed, 0, most)));

@@ -61,9 +61,9 @@ void ShellSession::lost(const std::string& why) {
     link_lost_ = true;
     const std::string_view then =
         stage_ == Stage::running || stage_ == Stage::foreign
-            ? "; LinuxCNC goes on with the program, so look at the machine"
+            ? "; LinuxCNC continues the program: inspect the machine"
         : stage_ == Stage::stopping
-            ? "; nobody knows whether LinuxCNC was told to stop, so look at the machine"
+            ? "; it is not known whether LinuxCNC was told to stop: inspect the machine"
             : "";
     finish(Stage::alarm, links::loss_sentence(why) + std::string(then));
     output_.clear();
@@ -125,13 +125,11 @@ void ShellSession::fall_silent() {
     if (moves) {
         set("abort");
     }
-    finish(
-        Stage::alarm,
-        stage_ == Stage::greeting ? "no linuxcncrsh answers at this port"
-        : moves
-            ? "LinuxCNC does not answer any more; it was told to stop, but nobody knows whether it did, so "
-              "look at the machine"
-            : "LinuxCNC does not answer any more, so look at the machine");
+    finish(Stage::alarm,
+           stage_ == Stage::greeting ? "no linuxcncrsh answers at this port"
+           : moves ? "LinuxCNC no longer answers; it was told to stop, but it is not known whether it did: "
+                     "inspect the machine"
+                   : "LinuxCNC no longer answers: inspect the machine");
     outstanding_.clear();
 }
 

@@ -63,7 +63,7 @@ std::optional<Diagnostic> ShellSession::stranger() const {
     if (stage_ != Stage::alarm || message_.find("linuxcncrsh") == std::string::npos) {
         return std::nullopt;
     }
-    return Diagnostic{{}, message_, "does LinuxCNC run with linuxcncrsh?"};
+    return Diagnostic{{}, message_, "check that LinuxCNC runs with linuxcncrsh"};
 }
 
 DriverStatus ShellSession::status() const {

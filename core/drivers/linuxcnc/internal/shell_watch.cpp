@@ -17,7 +17,7 @@ using kinematics::AxisPositions;
 namespace {
 
 constexpr std::string_view all_letters = "XYZABC"; // in the order of ABS_ACT_POS
-constexpr const char* somebody_else = "LinuxCNC runs a program that somebody else has begun";
+constexpr const char* somebody_else = "LinuxCNC is running a program that was started elsewhere";
 
 } // namespace
 
@@ -50,8 +50,7 @@ bool ShellSession::watch_power(double now) {
         const bool takes_its_time = off && stage_ == Stage::waking && now - since_ < settings_.patience;
         if (!takes_its_time) {
             finish(off ? Stage::alarm : Stage::ready,
-                   off ? "LinuxCNC is in its emergency stop or switched off: look at the machine, then "
-                         "reset it"
+                   off ? "LinuxCNC is in emergency stop or switched off: inspect the machine, then reset it"
                        : "");
         }
         if (stage_ == Stage::ready && !idle_now()) { // before anybody is told that it is connected

@@ -57,7 +57,7 @@ RecordText checked_text(const RecordsOptions& options, const MachineModel& model
         }
     }
     if (!rotary.empty()) {
-        throw Error(fmt::format("the table is told straight moves, and '{}' has the rotary {} {}",
+        throw Error(fmt::format("the table accepts straight moves only, but '{}' has the rotary {} {}",
                                 model.name(),
                                 rotary.size() == 1 ? "axis" : "axes",
                                 fmt::join(rotary, " and ")));
@@ -124,7 +124,7 @@ void RecordSession::rest(DriverState state, std::string why) {
 void RecordSession::alarm(std::string why) {
     if (under_way_ && under_way_->record) {
         status_.position_doubt =
-            fmt::format("record {} was on its way, and nobody knows how far it was obeyed", records_);
+            fmt::format("record {} had been sent, and it is not known how far it was executed", records_);
         left_until_ = under_way_->over + (awaits_answers() ? format_.patience : 0.0);
     }
     under_way_.reset();
@@ -134,18 +134,18 @@ void RecordSession::alarm(std::string why) {
 
 void RecordSession::start(const Work& work, double now) {
     if (status_.state != DriverState::idle && status_.state != DriverState::stopped) {
-        throw Error(fmt::format("the table is {} and takes no program", in_words(status_.state)),
+        throw Error(fmt::format("the table is {} and cannot accept a program", in_words(status_.state)),
                     {},
                     status_.message);
     }
     if (!status_.position_doubt.empty()) {
         throw Error(doubt_sentence(status_.position_doubt) +
-                        " The first record could go through the work from there",
+                        " The first record could move through the workpiece from there",
                     {},
                     "read X, Y and Z at the table and enter them");
     }
     if (!work.program) {
-        throw Error("the records driver cannot run a text that was not made here");
+        throw Error("the records driver cannot run G-code that Millwright did not generate");
     }
     for (const Block& block : work.program->blocks) {
         expects(block.target.size() == model_->axis_count(), "the program is for this table");
@@ -179,16 +179,16 @@ void RecordSession::receive(std::string_view bytes, double now) {
 
 void RecordSession::answered(const std::string& line, double now) {
     if (!under_way_ || !under_way_->record) {
-        alarm(fmt::format("the machine said '{}' before record {} was sent", line, records_ + 1));
+        alarm(fmt::format("the machine sent '{}' before record {} was sent", line, records_ + 1));
         if (records_ > 0 && line == format_.answer) {
-            status_.position_doubt = "the table answers more often than it is told where to go";
+            status_.position_doubt = "the table answers more often than it receives records";
         }
     } else if (line != format_.answer) {
         alarm(fmt::format("the machine answered '{}' to record {}", line, records_));
         left_until_.reset();
     } else if (const double after = now - under_way_->sent; !pace_.fits(under_way_->way, after)) {
-        alarm(fmt::format("the machine answered record {} after {:.2f} s, whose way takes {:.2f} s: it "
-                          "answers more often than it is told",
+        alarm(fmt::format("the machine answered record {} after {:.2f} s, although its move takes {:.2f} s: "
+                          "it answers more often than it receives records",
                           records_,
                           after,
                           under_way_->way));
@@ -234,7 +234,7 @@ void RecordSession::look_at_clock(double now) {
         land(now);
     } else if (now > under_way_->over + format_.patience) {
         alarm(fmt::format(
-            "no answer to record {} within {} s of the time that it takes", records_, format_.patience));
+            "no answer to record {} within {} s after the time of its move", records_, format_.patience));
     }
 }
 
@@ -358,7 +358,7 @@ void RecordSession::reset(double now) {
     if (status_.state != DriverState::alarm) {
         return;
     }
-    rest(DriverState::stopping, "What was on its way when the alarm came is not over.");
+    rest(DriverState::stopping, "The move that was under way at the alarm has not finished.");
     tick(now);
 }
 
@@ -366,7 +366,7 @@ void RecordSession::stands_at(const AxisPositions& position) {
     if (status_.state != DriverState::idle && status_.state != DriverState::stopped) {
         throw Error(fmt::format("the table is {}", to_text(status_.state)),
                     {},
-                    "say it when the table is at rest and unlocked");
+                    "enter the position when the table is at rest and unlocked");
     }
     expects(position.size() == model_->axis_count() && position.allFinite(), "each axis stands somewhere");
     status_.position = position;
@@ -376,11 +376,11 @@ void RecordSession::stands_at(const AxisPositions& position) {
 }
 
 void RecordSession::home(double /*now*/) {
-    throw Error("a table that takes records cannot be homed from here");
+    throw Error("a table that runs records cannot be homed from Millwright");
 }
 
 void RecordSession::jog(const Jog& /*jog*/, double /*now*/) {
-    throw Error("a record cannot be taken back, so this table is not moved by hand from here");
+    throw Error("a record cannot be taken back, so this table cannot be jogged from Millwright");
 }
 
 void RecordSession::set_overrides(const Overrides& wanted) {

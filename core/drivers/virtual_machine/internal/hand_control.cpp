@@ -44,7 +44,7 @@ void refuse_o_words(const std::string& lines) {
     bool at_start = true;
     for (const char c : lines) {
         if (at_start && (c == 'o' || c == 'O')) {
-            throw Error("O-words are for programs, not for single lines");
+            throw Error("O-words are allowed in programs, not in single lines");
         }
         at_start = c == '\n' || (at_start && (std::isspace(static_cast<unsigned char>(c)) != 0));
     }
@@ -103,7 +103,7 @@ void HandControl::check_limits(const program::Program& program) const {
             if (!inside) {
                 const bool rotary = axis.kind == AxisKind::rotary;
                 const auto shown = [&](double value) { return rotary ? to_degrees(value) : value; };
-                throw Error(fmt::format("axis {} would go to {:.3f}, outside {:.3f} ... {:.3f} {}",
+                throw Error(fmt::format("axis {} would move to {:.3f}, outside {:.3f} ... {:.3f} {}",
                                         axis.letter,
                                         shown(block.target[n]),
                                         shown(axis.min),

@@ -181,20 +181,20 @@ void VirtualAxes::connect() {
 
 void VirtualAxes::require_model(std::string_view what) const {
     if (!model_) {
-        throw Error(fmt::format("this virtual machine has no model and takes no {}", what));
+        throw Error(fmt::format("this virtual machine has no model and cannot accept a {}", what));
     }
 }
 
 void VirtualAxes::require_rest(std::string_view what) const {
     if (state_ != DriverState::idle && state_ != DriverState::stopped) {
-        throw Error(fmt::format("the virtual machine is {} and takes no {}", in_words(state_), what),
+        throw Error(fmt::format("the virtual machine is {} and cannot accept a {}", in_words(state_), what),
                     {},
-                    state_ == DriverState::alarm ? message_ + "; look at the machine, then reset it" : "");
+                    state_ == DriverState::alarm ? message_ + "; inspect the machine, then reset it" : "");
     }
 }
 
 void VirtualAxes::stands_at(const AxisPositions& position) {
-    require_rest("place");
+    require_rest("position");
     expects(position.size() == rest_position_.size() && position.allFinite(), "each axis stands somewhere");
     rest_position_ = position;
 }
@@ -208,7 +208,7 @@ void VirtualAxes::start(Work work) {
     if (begin.size() != rest_position_.size() ||
         !((begin - rest_position_).cwiseAbs().maxCoeff() <= same_place)) {
         throw Error(
-            "the virtual machine does not stand where the motion begins", {}, "plan it from the position");
+            "the virtual machine is not where the motion starts", {}, "plan the motion from its position");
     }
     answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
     execute(std::move(work), Activity::program);
@@ -243,7 +243,7 @@ void VirtualAxes::execute(program::Program program, Activity activity) {
 
 void VirtualAxes::set_overrides(const Overrides& wanted) {
     if (state_ == DriverState::disconnected) {
-        throw Error("the virtual machine is disconnected and takes no overrides");
+        throw Error("the virtual machine is disconnected and cannot accept overrides");
     }
     constexpr int least = 1;
     constexpr int most = 200;

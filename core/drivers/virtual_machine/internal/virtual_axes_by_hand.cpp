@@ -34,7 +34,7 @@ void VirtualAxes::jog(const Jog& jog) {
     require_rest("jog");
     legs_.clear();
     if (!begin_leg({jog.way, jog.speed})) {
-        throw Error("the machine stands at the limit of its travel and can go no farther this way");
+        throw Error("the machine is at the limit of its travel and cannot move further in this direction");
     }
 }
 
@@ -86,9 +86,9 @@ void VirtualAxes::stop_jog() {
 }
 
 void VirtualAxes::home() {
-    require_model("homing");
+    require_model("homing request");
     if (state_ != DriverState::alarm) {
-        require_rest("homing");
+        require_rest("homing request");
     }
     AxisPositions zero = AxisPositions::Zero(model_->axis_count());
     for (int n = 0; n < model_->axis_count(); ++n) {

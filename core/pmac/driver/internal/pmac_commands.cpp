@@ -12,7 +12,7 @@ namespace millwright::pmac::internal {
 
 void PmacSession::check_command(const std::vector<std::string>& lines) const {
     if (lines.empty()) {
-        throw Error("there is nothing in the command");
+        throw Error("the command is empty");
     }
     for (const std::string& line : lines) {
         constexpr std::size_t longest = 240;

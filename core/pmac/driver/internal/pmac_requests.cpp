@@ -43,9 +43,9 @@ void PmacSession::require_rest(std::string_view what) const {
     if (rests()) {
         throw Error(fmt::format("the motors are moving, and take no {}", what));
     }
-    throw Error(fmt::format("the PMAC is {} and takes no {}", drivers::in_words(status().state), what),
+    throw Error(fmt::format("the PMAC is {} and cannot accept a {}", drivers::in_words(status().state), what),
                 {},
-                stage_ == Stage::alarm ? message_ + "; look at the machine, then reset it" : "");
+                stage_ == Stage::alarm ? message_ + "; inspect the machine, then reset it" : "");
 }
 
 void PmacSession::require_enabled(std::string_view what) const {
@@ -183,7 +183,7 @@ void PmacSession::reset(double /*now*/) {
 }
 
 void PmacSession::home(double now) {
-    require_rest("homing");
+    require_rest("homing request");
     require_enabled("homing");
     if (motors_.empty()) {
         throw Error("there is no axis that could be homed");
@@ -217,7 +217,7 @@ void PmacSession::home_axis(std::size_t n) {
 }
 
 void PmacSession::enable(double /*now*/) {
-    require_rest("power");
+    require_rest("power command");
     if (!guard_.runs()) {
         throw Error(guard_is_off, {}, "connect again: that writes it anew");
     }
@@ -228,7 +228,7 @@ void PmacSession::enable(double /*now*/) {
 
 void PmacSession::set_overrides(const drivers::Overrides& wanted) {
     if (stage_ == Stage::closed || link_lost_ || !greeted()) {
-        throw Error("the PMAC is not connected and takes no overrides");
+        throw Error("the PMAC is not connected and cannot accept overrides");
     }
     constexpr int most = 100; // faster than programmed is no business of a hand
     overrides_.feed = std::clamp(wanted.feed, 0, most);

@@ -42,7 +42,7 @@ TEST(GrblCommand, IsRefusedInPlainWordsAndLeavesTheMachineReady) {
     GrblWire wire;
     const DriverStatus status = execute(wire, "G0 X1\nG1 X2\nG0 X3");
     EXPECT_EQ(status.answer.state, CommandAnswer::State::refused);
-    EXPECT_THAT(status.answer.text, HasSubstr("G1X2: error 22: there is no feed"));
+    EXPECT_THAT(status.answer.text, HasSubstr("G1X2: error 22: the feed rate is not set"));
     EXPECT_EQ(status.state, DriverState::idle);
     EXPECT_EQ(wire.grbl.position()[0], 1.0);
     EXPECT_EQ(execute(wire, "G0 X5").answer.state, CommandAnswer::State::done);
@@ -125,7 +125,7 @@ TEST(GrblCommand, WritesASettingAndReadsItBack) {
     EXPECT_EQ(wire.session.readout().settings.at(110), 1234.5);
     const DriverStatus status = execute(wire, "$20=1");
     EXPECT_EQ(status.answer.state, CommandAnswer::State::refused);
-    EXPECT_THAT(status.answer.text, HasSubstr("soft limits need homing"));
+    EXPECT_THAT(status.answer.text, HasSubstr("soft limits require homing"));
     EXPECT_EQ(wire.session.readout().settings.at(20), 0.0);
 }
 

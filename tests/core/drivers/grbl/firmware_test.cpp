@@ -130,7 +130,7 @@ TEST(GrblFirmware, SomebodyElseIsQuoted) {
         session.tick(now);
     }
     ASSERT_TRUE(session.stranger());
-    EXPECT_EQ(session.stranger()->message, "no Grbl answers at this port; somebody says 'Smoothie'");
+    EXPECT_EQ(session.stranger()->message, "no Grbl controller answers at this port; received 'Smoothie'");
 }
 
 TEST(GrblFirmware, RunsAProgramOfFiveAxesAndNeverClaimsMoreThanWasExecuted) {
@@ -224,12 +224,12 @@ TEST(GrblFirmware, AGrblHalThatHasToBeHomedSaysSoAndIsHomed) {
     wire.grbl.power_cycle();
     link_anew(wire);
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 11: the machine has to be homed"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 11: the machine must be homed"));
     EXPECT_FALSE(wire.session.stranger());
     wire.session.reset(wire.now);
     wire.run_until([&] { return wire.session.greeted(); }, 10.0);
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("stays locked, error 46"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("remains locked, error 46"));
     wire.session.home(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 60.0))
         << wire.session.status().message;
@@ -262,7 +262,7 @@ TEST(GrblFirmware, AToolChangeWaitsForAPerson) {
     GrblWire wire({}, hal("XYZA"));
     (void)wire.session.command(command_lines("T2 M6\nG0 X1"), wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::holding; }, 5.0));
-    EXPECT_THAT(wire.session.status().message, HasSubstr("asks for another tool"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("requests another tool"));
     wire.session.resume(wire.now);
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
@@ -296,7 +296,7 @@ TEST(GrblFirmware, IsNotSentWhatIsNoPlainText) {
               "part.nc:1:1: the text is UTF-16 (save it as plain text)");
     EXPECT_EQ(refusal("G\0\0\0002\0\0\0\n\0\0\0"s),
               "part.nc:1:1: the text is UTF-32 (save it as plain text)");
-    EXPECT_THAT(refusal("G21\nG0 X1\0\nM2\n"s), HasSubstr("part.nc:2:6: byte 0x00 is in no text"));
+    EXPECT_THAT(refusal("G21\nG0 X1\0\nM2\n"s), HasSubstr("part.nc:2:6: byte 0x00 found"));
     EXPECT_EQ(refusal("G21\nG0 X1\nM2\n"), "");
 }
 
@@ -340,10 +340,11 @@ TEST(GrblFirmware, ModesThatNoCheckFollowsAreFound) {
 }
 
 TEST(GrblFirmware, ErrorsAndAlarmsAreThoseOfTheFirmware) {
-    EXPECT_THAT(explain_grbl_error(46, GrblFirmware::grblhal), HasSubstr("has to be homed"));
-    EXPECT_THAT(explain_grbl_error(46), HasSubstr("Grbl 1.1 does not have"));
-    EXPECT_THAT(explain_grbl_error(250, GrblFirmware::fluidnc), HasSubstr("does not know of FluidNC"));
-    EXPECT_THAT(explain_grbl_error(22, GrblFirmware::fluidnc), HasSubstr("no feed"));
+    EXPECT_THAT(explain_grbl_error(46, GrblFirmware::grblhal), HasSubstr("must be homed"));
+    EXPECT_THAT(explain_grbl_error(46), HasSubstr("Grbl 1.1 does not define"));
+    EXPECT_THAT(explain_grbl_error(250, GrblFirmware::fluidnc),
+                HasSubstr("is unknown to Millwright for FluidNC"));
+    EXPECT_THAT(explain_grbl_error(22, GrblFirmware::fluidnc), HasSubstr("the feed rate is not set"));
     EXPECT_THAT(explain_grbl_alarm(10, GrblFirmware::grblhal), HasSubstr("emergency stop"));
     EXPECT_THAT(explain_grbl_alarm(10, GrblFirmware::fluidnc), HasSubstr("spindle"));
     for (const GrblFirmware firmware : {GrblFirmware::grblhal, GrblFirmware::fluidnc}) {

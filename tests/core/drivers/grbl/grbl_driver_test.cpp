@@ -248,7 +248,7 @@ TEST(GrblDriver, TellsThatNobodyAnswers) {
         driver.connect();
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("no Grbl answers"));
+        EXPECT_THAT(error.what(), HasSubstr("no Grbl controller answers"));
     }
     EXPECT_EQ(driver.status().state, DriverState::disconnected);
 }
@@ -269,7 +269,7 @@ TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
     bench.driver->connect();
     bench.driver->start(work_of(jobs::text_job(zigzag_in_plane(2000), "zigzag.ngc")));
     bench.wait_for(DriverState::alarm);
-    EXPECT_THAT(bench.driver->status().message, HasSubstr("the connection was lost"));
+    EXPECT_THAT(bench.driver->status().message, HasSubstr("the link was lost"));
     EXPECT_THROW(bench.driver->start(work_of(jobs::text_job("G0 X0\n", "x"))), Error);
     test::wait_until([&] { return !bench.moving(); });
     const std::size_t lines = bench.truth().lines.size();
@@ -329,7 +329,7 @@ TEST(GrblDriver, GoesIntoAlarmWhenALimitSwitchIsHit) {
     bench.server->with_controller([](emulators::GrblEmulator& grbl) { grbl.raise_alarm(); });
     bench.wait_for(DriverState::alarm);
     test::wait_until([&] { return !bench.driver->status().message.empty(); });
-    EXPECT_THAT(bench.driver->status().message, HasSubstr("alarm 1: a limit switch was hit"));
+    EXPECT_THAT(bench.driver->status().message, HasSubstr("alarm 1: a limit switch was triggered"));
     bench.driver->reset();
     bench.wait_for(DriverState::idle);
     EXPECT_FALSE(bench.moving());

@@ -166,7 +166,8 @@ TEST(GrblHoming, ThatFailsEndsInTheAlarmThatSaysWhy) {
     wire.session.home(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return !is_at_work(wire.state()); }, 60.0));
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 9: homing found no limit switch"));
+    EXPECT_THAT(wire.session.status().message,
+                HasSubstr("alarm 9: homing failed: no limit switch was found"));
     wire.run_until([] { return false; }, 1.0);
     wire.session.reset(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));

@@ -184,7 +184,7 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
 
     const jobs::JobStory story = jobs::job_story(outcome.log_file);
     EXPECT_EQ(story.position_doubt, "the controller was reset");
-    EXPECT_THAT(story.sentence, HasSubstr("home the machine, set its zero, or say where it stands"));
+    EXPECT_THAT(story.sentence, HasSubstr("home the machine, set its zero, or confirm the position"));
     EXPECT_NEAR(story.position[1], outcome.position[1], 1e-5);
 
     unlock(wire);

@@ -155,7 +155,8 @@ TEST(GrblSession, StopsAtALineThatIsRefusedAndNamesIt) {
     wire.start("G0 X10\nG0 X20\nG1 X30\nG0 X40\n");
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("line 3 was refused, error 22: there is no feed"));
+    EXPECT_THAT(wire.session.status().message,
+                HasSubstr("line 3 was refused, error 22: the feed rate is not set"));
     wire.run_until([] { return false; }, 3.0);
     EXPECT_LT(wire.grbl.position()[0], 40.0);
 }
@@ -165,7 +166,7 @@ TEST(GrblSession, ExplainsAnAlarm) {
     wire.start("G38.2 Z-1 F100\nG0 X10\n");
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 5: the probe touched nothing"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("alarm 5: the probe did not make contact"));
     EXPECT_EQ(wire.grbl.position()[0], 0.0);
 }
 
@@ -362,7 +363,7 @@ TEST(GrblSession, NoticesThatTheControllerIsSilent) {
     wire.start(zigzag_with_spindle(50));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("does not answer"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("no longer answers"));
     EXPECT_FALSE(wire.grbl.moving());
 }
 
@@ -524,7 +525,7 @@ TEST(GrblSession, NoticesALostLink) {
     wire.start(zigzag_with_spindle(30));
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("the connection was lost"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("the link was lost"));
     EXPECT_THROW(wire.start("G0 X0\n"), Error);
 }
 

@@ -42,10 +42,10 @@ TEST(GrblToolSafety, AZeroThatIsSetForAMeasuredToolIsNotCountedTwice) {
     wire.begin(three_tools, probe_plan);
     ASSERT_TRUE(wire.run_to_change());
     EXPECT_FALSE(wire.session.status().tool_change->keeps_zero);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("it is the reference"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("which is the reference"));
     go_on_to_next_change(wire);
     EXPECT_TRUE(wire.session.status().tool_change->keeps_zero);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("leave the zero of Z as it is"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("do not change the Z zero"));
     wire.longer = -10.0;
     wire.jog({0.0, 0.0, -15.0});
     wire.command("G10 L20 P0 Z0");
@@ -54,7 +54,7 @@ TEST(GrblToolSafety, AZeroThatIsSetForAMeasuredToolIsNotCountedTwice) {
     wire.run_until([] { return false; }, 5.0);
     EXPECT_TRUE(wire.waits());
     EXPECT_EQ(wire.sent_lines(), "");
-    EXPECT_THAT(wire.session.status().message, HasSubstr("Z of G54 was -50.000 and is -60.000"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("Z of G54 was -50.000 and is now -60.000"));
     wire.command("G10 L2 P1 Z-50");
     wire.session.resume(wire.now);
     wire.run_until([&] { return !wire.session.status().tool_change; }, 120.0);
@@ -130,7 +130,7 @@ TEST(GrblToolSafety, TheLastToolOfAJobIsNotTheReferenceOfTheNext) {
     ASSERT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
     wire.sent.clear();
     EXPECT_THAT(refusal_of([&] { wire.begin(second_tool_alone, probe_plan); }),
-                HasSubstr("it is that of another tool"));
+                HasSubstr("it belongs to another tool"));
     wire.run_until([] { return false; }, 2.0);
     EXPECT_EQ(wire.sent_lines(), "");
     wire.command("G10 L20 P1 Z-3");
@@ -146,7 +146,7 @@ TEST(GrblToolSafety, AToolThatWasPutInBeforeAStopIsNoReference) {
     wire.session.stop(wire.now);
     wire.run_to_end();
     EXPECT_THAT(refusal_of([&] { wire.begin(second_tool_alone, probe_plan); }),
-                HasSubstr("it is that of another tool"));
+                HasSubstr("it belongs to another tool"));
 }
 
 TEST(GrblToolSafety, GoingOnAfterAHoldIsNotGoingOnWithTheChange) {
@@ -242,7 +242,7 @@ TEST(GrblToolSafety, NoProgramRunsWithTheLengthThatAJobLeft) {
     go_on_to_next_change(wire);
     wire.session.emergency_stop(wire.now);
     wire.run_until([] { return false; }, 3.0);
-    EXPECT_THAT(wire.session.status().own_lines.back(), HasSubstr("no job begins before it is gone"));
+    EXPECT_THAT(wire.session.status().own_lines.back(), HasSubstr("no job starts until it is cancelled"));
     wire.on_the_way = [](std::string& bytes) {
         if (const std::size_t at = bytes.find("$I\n"); at != std::string::npos) {
             bytes.replace(at, 3, "G43.1Z4\n");
@@ -252,7 +252,7 @@ TEST(GrblToolSafety, NoProgramRunsWithTheLengthThatAJobLeft) {
     wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0);
     wire.on_the_way = {};
     ASSERT_EQ(wire.session.readout().offsets.at("TLO")[2], 4.0);
-    EXPECT_THAT(refusal_of([&] { wire.start("G0 X1\n"); }), HasSubstr("of an earlier job is still in force"));
+    EXPECT_THAT(refusal_of([&] { wire.start("G0 X1\n"); }), HasSubstr("of an earlier job is still active"));
     wire.command("G49");
     EXPECT_EQ(refusal_of([&] { wire.start("G53 G0 Z-1\n"); }), "");
 }
@@ -292,7 +292,7 @@ TEST(GrblToolSafety, ToolsTooLongForTheHeightOfTheProgramWaitOn) {
     wire.session.resume(wire.now);
     wire.run_until([&] { return !wire.waits(); }, 5.0);
     ASSERT_TRUE(wire.run_to_change());
-    EXPECT_THAT(wire.session.status().message, HasSubstr("10.000 mm above the travel of Z"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("10.000 mm above the Z travel"));
     EXPECT_NEAR(wire.grbl.position()[0], -10.0, 0.01) << "it stays over the sensor";
     wire.longer = 5.0;
     wire.session.resume(wire.now);
@@ -316,7 +316,7 @@ TEST(GrblToolSafety, TheWayBackIsNotLowerThanThePersonWas) {
 TEST(GrblToolSafety, AChangeThatIsNotReadRefusesTheProgram) {
     ToolChangeWire wire;
     EXPECT_THAT(refusal_of([&] { wire.begin("G21 G90\nG0 Z5\nT2 M6\nM0 6\n", waiting_plan); }),
-                HasSubstr("at line 4 is written in a way that is not read here"));
+                HasSubstr("at line 4 is written in an unsupported way"));
     EXPECT_EQ(wire.state(), DriverState::idle);
 }
 

@@ -351,7 +351,7 @@ TEST(GrblToolSensor, LeavesNoLengthBehindAStop) {
     wire.run_to_end();
     EXPECT_EQ(wire.state(), DriverState::stopped);
     EXPECT_EQ(wire.session.readout().offsets.at("TLO")[2], 0.0);
-    EXPECT_THAT(wire.session.status().own_lines.back(), HasSubstr("cancelled by the reset"));
+    EXPECT_THAT(wire.session.status().own_lines.back(), HasSubstr("cancelled the tool length offset"));
     wire.command("G43.1 Z3");
     EXPECT_THROW(wire.begin(three_tools, probe_plan), Error);
 }

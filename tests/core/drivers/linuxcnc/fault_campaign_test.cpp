@@ -112,7 +112,7 @@ public:
             return wrong_;
         }
         const bool lost = wire_.session.link_lost();
-        if (lost && wire_.session.status().message.find("look at the machine") == std::string::npos) {
+        if (lost && wire_.session.status().message.find("inspect the machine") == std::string::npos) {
             wrong("nobody was told that LinuxCNC may go on");
         }
         check_log(begin);

@@ -117,7 +117,7 @@ struct Orphan : ::testing::Test {
 
 TEST_F(Orphan, IsNotPushedAsideByAnotherProgram) {
     EXPECT_EQ(wire.session.status().activity, Activity::none);
-    EXPECT_THAT(refusal(), HasSubstr("somebody else"));
+    EXPECT_THAT(refusal(), HasSubstr("started elsewhere"));
     EXPECT_THROW((void)wire.session.command("G0 X1", wire.now), Error);
     EXPECT_THROW(wire.session.home(wire.now), Error);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 60.0));
@@ -153,7 +153,7 @@ TEST_F(Orphan, IsFoundAlsoWhenItBeginsLater) {
     wire.linuxcnc.receive("set mode auto\r\nset run\r\n"); // by another interface
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::running; }, 5.0));
     EXPECT_EQ(wire.session.status().activity, Activity::none);
-    EXPECT_THAT(refusal(), HasSubstr("somebody else"));
+    EXPECT_THAT(refusal(), HasSubstr("started elsewhere"));
 }
 
 TEST(ShellSession, TellsALinuxCncThatFallsSilentToStop) {

@@ -180,7 +180,7 @@ TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
     const PlayStatus said = complains.player.play(
         {}, [&](const PlayStatus& now) { complains.kept.says = now.points == 7 ? "limit Z\n" : ""; });
     EXPECT_EQ(complains.kept.records.size(), 7U);
-    EXPECT_THAT(said.sentence, HasSubstr("the table said 'limit Z'"));
+    EXPECT_THAT(said.sentence, HasSubstr("the table sent 'limit Z'"));
 
     PointPlayerBench goes(0.4);
     const PlayStatus gone = goes.player.play({}, [&](const PlayStatus& now) {
@@ -189,7 +189,7 @@ TEST(PointPlayer, StopsWhereTheTableComplainsOrIsGone) {
         }
     });
     EXPECT_EQ(goes.kept.records.size(), 7U);
-    EXPECT_THAT(gone.sentence, HasSubstr("the connection was lost: unplugged"));
+    EXPECT_THAT(gone.sentence, HasSubstr("the link was lost: unplugged"));
 }
 
 TEST(PointPlayer, SendsNoPointBeforeTheOneBeforeWasAnswered) {
@@ -232,7 +232,7 @@ TEST(PointPlayer, StopsWhereNoAnswerComesInTime) {
             single.kept.says = "ok\n";
         }
     });
-    EXPECT_EQ(twice.sentence, "the table answered a point that it was not sent");
+    EXPECT_EQ(twice.sentence, "the table answered a point that was not sent");
 }
 
 TEST(PointPlayer, TellsWhereATableStandsThatRefusedAPoint) {
@@ -240,7 +240,7 @@ TEST(PointPlayer, TellsWhereATableStandsThatRefusedAPoint) {
     bench.kept.answer = "ok";
     bench.kept.refused = 20;
     const PlayStatus status = bench.player.play({});
-    EXPECT_EQ(status.sentence, "the table said 'no'");
+    EXPECT_EQ(status.sentence, "the table sent 'no'");
     EXPECT_EQ(status.sent, 20);
     EXPECT_EQ(status.points, 19);
     EXPECT_FALSE(status.unsure); // it says itself that it did not go there
@@ -254,7 +254,7 @@ TEST(PointPlayer, RefusesRecordsThatLeaveOutWhatChanges) {
         const PointPlayerBench bench(0.04, {.pattern = "{X} {Z}"});
         ADD_FAILURE() << "it is taken";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("leaves out Y, which the points change"));
+        EXPECT_THAT(error.what(), HasSubstr("omits Y, which the points change"));
     }
 }
 
@@ -339,7 +339,7 @@ TEST(CheckPoints, FindsWhatIsOutsideOrTooFastOnceAnAxis) {
     EXPECT_EQ(fast.front().place.line, 2);
     const auto far = check_points(track_of({Vec3(0, 0, 0), Vec3(0.0, 550.1, 0.0)}, 100.0), model, "p");
     ASSERT_EQ(far.size(), 1U);
-    EXPECT_THAT(far.front().message, HasSubstr("axis Y would go to 550.100"));
+    EXPECT_THAT(far.front().message, HasSubstr("axis Y would move to 550.100"));
 }
 
 // The axes go 10 mm/s: not a hair more, of the points as they are written.

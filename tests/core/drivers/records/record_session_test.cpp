@@ -213,10 +213,10 @@ TEST(RecordSession, AnAnswerThatComesTwiceIsNoticedBeforeTheNextRecord) {
         wire.start(job_of(zigzag_without_equal_neighbours(20)));
         ASSERT_TRUE(wire.run_to_end());
         EXPECT_EQ(wire.state(), DriverState::alarm);
-        EXPECT_THAT(wire.session.status().message, HasSubstr("said 'ok' before record 5 was sent"));
+        EXPECT_THAT(wire.session.status().message, HasSubstr("sent 'ok' before record 5 was sent"));
         EXPECT_EQ(wire.session.records(), 4);
         EXPECT_EQ(table.records(), 4);
-        EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("more often than it is told"));
+        EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("more often than it receives records"));
         wire.session.reset(wire.now);
         EXPECT_THROW(wire.start(job_of(zigzag_without_equal_neighbours(20))), Error);
     }
@@ -244,7 +244,7 @@ TEST(RecordSession, ASecondAnswerThatComesLateIsNoAnswerToTheNextRecord) {
     wire.session.receive("ok\n", wire.now);
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(wire.session.status().message, HasSubstr("record 5 after 0.1"));
-    EXPECT_THAT(wire.session.status().message, HasSubstr("whose way takes 1.00 s"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("although its move takes 1.00 s"));
     EXPECT_EQ(wire.session.status().executed_blocks, 4);
 }
 
@@ -304,7 +304,7 @@ TEST(RecordSession, BeginsNothingAfterARecordThatWasOnItsWayBeforeAPersonHasLook
     EXPECT_FALSE(wire.run_until([] { return false; }, 60.0));
     const std::vector<double> stands = table.positions().back();
     EXPECT_GT((AxisPositions(Vec3(stands[0], stands[1], stands[2])) - shown).norm(), 1.0);
-    EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("record 5 was on its way"));
+    EXPECT_THAT(wire.session.status().position_doubt, HasSubstr("record 5 had been sent"));
     wire.session.reset(wire.now);
     EXPECT_EQ(wire.state(), DriverState::idle);
     EXPECT_THROW(wire.start(job), Error);
@@ -505,7 +505,7 @@ TEST(RecordText, AnAxisThatNoRecordTellsMustNotMove) {
             ADD_FAILURE() << pattern;
         } catch (const Error& error) {
             EXPECT_STREQ(error.what(),
-                         "the program moves Z, which no record tells (put {Z} into the record)");
+                         "the program moves Z, which the record does not contain (add {Z} to the record)");
         }
     }
     format.pattern = "t {X} {Z}";

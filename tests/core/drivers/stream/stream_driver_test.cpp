@@ -248,7 +248,7 @@ TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
     EXPECT_THAT(text, HasSubstr("# millwright-stream 1"));
     server.reset();
     test::wait_until([&] { return driver.status().state == DriverState::alarm; });
-    EXPECT_THAT(driver.status().message, HasSubstr("the connection was lost"));
+    EXPECT_THAT(driver.status().message, HasSubstr("the link was lost"));
     EXPECT_THROW((void)driver.command("G0 X0"), Error);
     EXPECT_THROW(driver.reset(), Error); // nobody is there
     links::TcpServer again(port);

@@ -76,7 +76,7 @@ TEST(PmacPartingF2, AKillThatNobodyHearsIsToldAsLost) {
     cut.pass(0.1);
     cut.cut();
     ASSERT_TRUE(cut.run_until([&] { return cut.state() != drivers::DriverState::stopping; }, 5.0));
-    EXPECT_THAT(cut.session.farewell(), testing::HasSubstr("the connection was lost before"));
+    EXPECT_THAT(cut.session.farewell(), testing::HasSubstr("the link was lost before"));
     PmacWire broken;
     broken.cut();
     broken.pass(0.1);
