@@ -68,7 +68,7 @@ void FaultLink::wait(double seconds) {
 std::optional<std::string> FaultLink::lost() const {
     const std::scoped_lock lock(mutex_);
     if (out_.disconnected() || in_.disconnected()) {
-        return "it broke, as was asked for";
+        return "a simulated disconnect";
     }
     return inner_->lost();
 }

@@ -16,15 +16,16 @@ template <class Number> Number number_in(std::string_view word, std::string_view
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
     if (!whole || !(value >= Number{} && value <= most)) {
-        throw Error("the fault '" + std::string(word) + "' has no value it could have", {}, {});
+        throw Error("' has an invalid value" + std::string(word) + "' has no value it could have", {}, {});
     }
     return value;
 }
 
 void set_direction(FaultSpec& spec, std::string_view word, std::string_view end) {
     if (end != "host" && end != "controller" && end != "both") {
-        throw Error(
-            "the fault '" + std::string(word) + "' goes nowhere", {}, "toward host, controller or both");
+        throw Error("the fault '" + std::string(word) + "' has an invalid direction",
+                    {},
+                    "use host, controller or both");
     }
     spec.toward_host = end != "controller";
     spec.toward_controller = end != "host";
@@ -63,10 +64,10 @@ void set_word(FaultSpec& spec, std::string_view word) {
     } else if (name == "seed") {
         spec.seed = number_in(word, value, ~std::uint64_t{});
     } else {
-        throw Error(
-            "there is no fault '" + std::string(name) + "'",
-            {},
-            "drop, garble, duplicate, lost-ok, delay, disconnect, stall, reset, alarm, estop, toward, seed");
+        throw Error("unknown fault '" + std::string(name) + "'",
+                    {},
+                    "use drop, garble, duplicate, lost-ok, delay, disconnect, stall, reset, alarm, estop, "
+                    "toward or seed");
     }
 }
 

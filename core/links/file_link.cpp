@@ -33,7 +33,7 @@ void FileLink::wait(double seconds) {
 
 std::optional<std::string> FileLink::lost() const {
     const std::scoped_lock lock(mutex_);
-    return failed_ ? std::optional<std::string>("the file cannot be written any more") : std::nullopt;
+    return failed_ ? std::optional<std::string>("the file can no longer be written") : std::nullopt;
 }
 
 void FileLink::close() noexcept {

@@ -23,8 +23,7 @@ void HostPortLink::open() {
     registers_->open();
     if (registers_->read(status_register) == no_card) {
         registers_->close();
-        throw Error(
-            "no card answers at " + registers_->name(), {}, "the address is set by jumpers of the card");
+        throw Error("no card answers at " + registers_->name(), {}, "check the address jumpers of the card");
     }
     registers_->write(high_register, 0);
     registers_->write(middle_register, 0);
@@ -37,7 +36,7 @@ void HostPortLink::open() {
 void HostPortLink::close() noexcept {
     const std::scoped_lock lock(mutex_);
     registers_->close();
-    lost_ = "it is not open";
+    lost_ = "the port is not open";
 }
 
 /// As much as the card takes and gives now.
@@ -47,7 +46,7 @@ void HostPortLink::pump() {
     for (int n = 0; n < most && !lost_; ++n) {
         const std::uint8_t ready = registers_->read(status_register);
         if (ready == no_card) {
-            lost_ = "no card answers any more";
+            lost_ = "the card no longer answers";
         } else if ((ready & readable_bit) != 0) {
             in_ += static_cast<char>(registers_->read(data_register));
         } else if (!out_.empty() && (ready & writable_bit) != 0) {
@@ -60,7 +59,7 @@ void HostPortLink::pump() {
     }
     taken_at_ = out_.empty() ? now : taken_at_;
     if (!lost_ && now - taken_at_ > card_patience) {
-        lost_ = "the card takes no characters";
+        lost_ = "the card accepts no characters";
     }
 }
 

@@ -38,7 +38,7 @@ private:
     std::deque<char> out_;
     std::string in_;
     double taken_at_ = 0.0; ///< when the card was last seen to take a character, or nothing waited
-    std::optional<std::string> lost_ = "it is not open";
+    std::optional<std::string> lost_ = "the port is not open";
 };
 
 } // namespace millwright::links

@@ -28,7 +28,8 @@ std::unique_ptr<Link> make_tcp_link(const std::string& address) {
             return std::make_unique<TcpLink>(std::string(rest.substr(0, colon)), port);
         }
     }
-    throw Error("'" + address + "' is no address", {}, "write tcp:HOST:PORT, as in tcp:127.0.0.1:2300");
+    throw Error(
+        "'" + address + "' is not a valid address", {}, "use tcp:HOST:PORT, such as tcp:127.0.0.1:2300");
 }
 
 /// "isa:0x210", or in decimals.
@@ -42,7 +43,7 @@ std::unique_ptr<Link> make_host_port_link(const std::string& address) {
     const auto read = std::from_chars(digits.data(), end, base, hex ? hexadecimal : decimal);
     if (digits.empty() || read.ec != std::errc{} || read.ptr != end || base <= 0 || base > greatest) {
         throw Error(
-            "'" + address + "' is no address", {}, "write isa:0x210, the factory's address of a PMAC");
+            "'" + address + "' is not a valid address", {}, "use isa:0x210, the factory address of a PMAC");
     }
     return std::make_unique<HostPortLink>(io_ports(base));
 }
@@ -58,19 +59,19 @@ void expect_carried(const Link& link, std::size_t bytes, double period) {
     const double needed = rate ? static_cast<double>(bytes) / *rate : 0.0;
     if (needed > period) {
         constexpr double ms = 1e3;
-        throw Error(fmt::format("{} bytes take {:.1f} ms over {}, and so many go every {:.1f} ms",
+        throw Error(fmt::format("{} bytes take {:.1f} ms over {}, but they are sent every {:.1f} ms",
                                 bytes,
                                 needed * ms,
                                 link.name(),
                                 period * ms),
                     {},
-                    "a faster rate, a longer period, fewer letters, or an answer to each record");
+                    "use a faster rate, a longer period, fewer characters, or an answer to each record");
     }
 }
 
 std::unique_ptr<Link> make_link(const std::string& address) {
     if (address.empty()) {
-        throw Error("no port is named", {}, "a path as /dev/ttyUSB0, or tcp:HOST:PORT");
+        throw Error("no port is specified", {}, "use a path such as /dev/ttyUSB0, or tcp:HOST:PORT");
     }
     if (address.starts_with(tcp_prefix)) {
         return make_tcp_link(address);

@@ -28,7 +28,7 @@ public:
             throw Error(
                 fmt::format("the registers at 0x{:X} cannot be reached: {}", base_, std::strerror(errno)),
                 "/dev/port",
-                "it takes root, and a computer with an ISA bus");
+                "this requires root and a computer with an ISA bus");
         }
     }
     void close() noexcept override { close_file(); }
@@ -38,8 +38,9 @@ public:
     }
     void write(int offset, std::uint8_t value) override {
         if (::pwrite(file_, &value, 1, base_ + offset) != 1) {
-            throw Error(fmt::format("a register at 0x{:X} was not written: {}", base_, std::strerror(errno)),
-                        "/dev/port");
+            throw Error(
+                fmt::format("the register at 0x{:X} was not written: {}", base_, std::strerror(errno)),
+                "/dev/port");
         }
     }
 

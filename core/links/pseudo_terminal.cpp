@@ -45,7 +45,7 @@ void make_raw(int handle) {
 /// Part of a sentence; empty: no process that this user may look into.
 std::string holder_of(const fs::path& near_end) {
     const std::vector<std::string> holders = internal::holders_of_far_end(near_end);
-    return holders.empty() ? std::string() : fmt::format(", which {} holds", holders.front());
+    return holders.empty() ? std::string() : fmt::format(", which is in use by {}", holders.front());
 }
 
 } // namespace
@@ -69,7 +69,7 @@ void PseudoTerminal::open() {
     close();
     const int far_end = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (far_end < 0 || ::grantpt(far_end) != 0 || ::unlockpt(far_end) != 0) {
-        fail("cannot make a pseudo-terminal");
+        fail("cannot create a pseudo-terminal");
     }
     port_->open([far_end](stream_descriptor& descriptor) { descriptor.assign(far_end); });
     std::string path(256, '\0');
@@ -93,15 +93,15 @@ void PseudoTerminal::make_symlink() {
     if (fs::is_symlink(symlink_, failure)) {
         const fs::path target = fs::read_symlink(symlink_, failure);
         if (target != near_end_ && fs::exists(symlink_, failure)) {
-            throw Error(fmt::format("leads to {} already{}", target.string(), holder_of(target)),
+            throw Error(fmt::format("already leads to {}{}", target.string(), holder_of(target)),
                         symlink_,
-                        "choose another link, end that program, or take the link away if it is an old one");
+                        "choose another link, end that program, or delete the link if it is an old one");
         }
         fs::remove(symlink_, failure);
     }
     fs::create_symlink(near_end_, symlink_, failure);
     if (failure) {
-        throw Error("cannot make the link to the pseudo-terminal: " + failure.message(), symlink_);
+        throw Error("cannot create the link to the pseudo-terminal: " + failure.message(), symlink_);
     }
 }
 

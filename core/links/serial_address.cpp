@@ -38,9 +38,9 @@ unsigned rate_of(std::string_view text, std::string_view address) {
     unsigned rate = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), rate);
     if (read.ec != std::errc{} || std::ranges::find(serial_rates, rate) == serial_rates.end()) {
-        throw Error(fmt::format("'{}': {} baud is no rate of serial ports", address, text),
+        throw Error(fmt::format("'{}': {} baud is not a supported rate", address, text),
                     {},
-                    fmt::format("one of {}", fmt::join(serial_rates, ", ")));
+                    fmt::format("use one of {}", fmt::join(serial_rates, ", ")));
     }
     return rate;
 }
@@ -53,18 +53,17 @@ std::string_view last_part(std::string_view text) {
 
 /// A path may have commas, but none with a digit behind it: that is meant for a rate or a frame.
 void refuse_malformed(std::string_view path, std::string_view address) {
-    constexpr const char* as_it_is_written =
-        "as /dev/ttyUSB0,9600,8E1: the rate, then data bits 7 or 8, parity "
-        "N, E or O, and stop bits 1 or 2";
+    constexpr const char* as_it_is_written = "use the form /dev/ttyUSB0,9600,8E1: the rate, then 7 or 8 data "
+                                             "bits, parity N, E or O, and 1 or 2 stop bits";
     if (address.starts_with(',')) {
         throw Error(
-            fmt::format("'{}': there is no serial port before the comma", address), {}, as_it_is_written);
+            fmt::format("'{}': the serial port before the comma is missing", address), {}, as_it_is_written);
     }
     for (auto comma = path.find(','); comma != std::string_view::npos; comma = path.find(',', comma + 1)) {
         const auto first = path.find_first_not_of(" \t", comma + 1);
         const bool ends = first == std::string_view::npos;
         if (ends || (path[first] >= '0' && path[first] <= '9')) {
-            throw Error(fmt::format("'{}': '{}' behind the port is neither a rate nor a frame",
+            throw Error(fmt::format("'{}': '{}' after the port is neither a rate nor a frame",
                                     address,
                                     address.substr(comma + 1)),
                         {},

@@ -68,24 +68,24 @@ void set_line(boost::asio::serial_port& port, const SerialAddress& address) {
         port.set_option(Base::stop_bits(line.stop_bits == 2 ? Base::stop_bits::two : Base::stop_bits::one));
         port.set_option(Base::flow_control(Base::flow_control::none));
     } catch (const boost::system::system_error& failure) {
-        throw Error(fmt::format("the serial port does not take {}", to_text(line)),
+        throw Error(fmt::format("the serial port does not support {}", to_text(line)),
                     address.path,
                     failure.code().message());
     }
     if (!is_set_so(port.native_handle(), line)) {
-        throw Error(fmt::format("the serial port does not take {}", to_text(line)),
+        throw Error(fmt::format("the serial port does not support {}", to_text(line)),
                     address.path,
-                    "it has other data bits, parity or stop bits");
+                    "it kept other data bits, parity or stop bits");
     }
 }
 
 std::string held_sentence(const std::string& path) {
     const std::vector<std::string> others = internal::others_with(path);
     if (others.empty()) {
-        return "the serial port is held already, and the system does not tell by whom";
+        return "the serial port is in use, but the system does not report by which program";
     }
     return fmt::format("{} the serial port: {}",
-                       others.size() == 1 ? "another program holds" : "one of these programs holds",
+                       others.size() == 1 ? "another program is using" : "one of these programs is using",
                        fmt::join(others, ", "));
 }
 
@@ -111,7 +111,8 @@ void SerialLink::open() {
         throw Error(held ? held_sentence(address_.path)
                          : "cannot open the serial port: " + failure.code().message(),
                     address_.path,
-                    held ? "end that first" : "is it plugged in, and may you use it (group dialout)?");
+                    held ? "end that program first"
+                         : "check that it is plugged in and that you may use it (group dialout)");
     }
 }
 

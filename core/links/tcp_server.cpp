@@ -236,7 +236,7 @@ void TcpServer::wait(double seconds) {
 }
 
 std::optional<std::string> TcpServer::lost() const {
-    return listener_ ? std::nullopt : std::optional<std::string>("nobody listens");
+    return listener_ ? std::nullopt : std::optional<std::string>("the server is not listening");
 }
 
 void TcpServer::close() noexcept {

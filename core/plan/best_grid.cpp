@@ -63,10 +63,9 @@ Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Prog
         }
         found->outcome.links = std::move(best.outcome.links); // what the chain did stays told
         best = *std::move(found);
-        best.outcome.note =
-            fmt::format("On the finished part no link of the chain is better than \"{}\": its grid "
-                        "is taken.",
-                        project::row_of(project::grid_methods(), other).label);
+        best.outcome.note = fmt::format(
+            "On the finished part no stage of the chain is better than \"{}\", so its grid is used.",
+            project::row_of(project::grid_methods(), other).label);
         kept = true;
     }
     return best;

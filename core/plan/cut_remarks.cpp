@@ -31,13 +31,12 @@ std::string way_out(int points, double off, double height) {
     const double most = project::most_nodes_a_side - 1;
     const double moves = std::ceil((points - 1) * std::sqrt(off / (little * height)));
     if (moves <= most) {
-        return fmt::format("{} points a track are too few, about {} would do", points, moves + 1.0);
+        return fmt::format("{} points per track are too few; about {} would be enough", points, moves + 1.0);
     }
-    return fmt::format(
-        "with {} points a track, the most there can be, it would be about {} mm; choose another "
-        "place of the part on the table, or another machine",
-        project::most_nodes_a_side,
-        fixed(off * square((points - 1) / most), 4));
+    return fmt::format("with {} points per track, the maximum, it would be about {} mm; choose another "
+                       "position of the part on the table, or another machine",
+                       project::most_nodes_a_side,
+                       fixed(off * square((points - 1) / most), 4));
 }
 
 } // namespace
@@ -53,18 +52,17 @@ std::string left_text(const project::Project& project, const Plan& plan) {
     const std::optional<double> least = left_at_least(plan);
     const ScallopFigures& found = plan.cut->scallops;
     const std::string where_cut =
-        fmt::format("at most {} mm, {} mm on average", fixed(found.max, 4), fixed(found.mean, 4));
-    const std::string wanted = fmt::format("where {} mm are wanted", shortest(project.tool.scallop_mm));
+        fmt::format("max. {} mm, mean {} mm", fixed(found.max, 4), fixed(found.mean, 4));
+    const std::string wanted = fmt::format("target {} mm", shortest(project.tool.scallop_mm));
     const std::string not_cut = fixed(100.0 * found.not_cut, 2);
     const std::string left =
-        least ? fmt::format("at least {} mm on the {} % that are not cut, elsewhere {}, {}",
+        least ? fmt::format("at least {} mm on the {} % that are not machined, elsewhere {}, {}",
                             fixed(*least, 4),
                             not_cut,
                             where_cut,
                             wanted)
-              : fmt::format("{}, {}; {} % not cut", where_cut, wanted, not_cut);
-    return found.gouged > 0.0 ? fmt::format("{}; {} % cut too deep", left, fixed(100.0 * found.gouged, 2))
-                              : left;
+              : fmt::format("{}, {}; {} % not machined", where_cut, wanted, not_cut);
+    return found.gouged > 0.0 ? fmt::format("{}; {} % gouged", left, fixed(100.0 * found.gouged, 2)) : left;
 }
 
 std::string checked_text(const project::Project& project) {
@@ -72,7 +70,7 @@ std::string checked_text(const project::Project& project) {
     const std::string face = patches > 1
                                  ? fmt::format("patch {} of {}", project.surface.machined_patch + 1, patches)
                                  : std::string("this face");
-    return fmt::format("only {} was looked at, the faces beside it and the rest of the part were not", face);
+    return fmt::format("only {} was checked, not the adjacent faces or the rest of the part", face);
 }
 
 std::string why_higher(const project::Project& project, const Plan& plan) {
@@ -86,19 +84,16 @@ std::string why_higher(const project::Project& project, const Plan& plan) {
     const Evaluation& path = *plan.program_path(project);
     const double off = path.closest.max;
     // Half a step from a track the height is what is wanted, and it grows with the square of the way.
-    constexpr const char* at_outline =
-        "beside an outline that goes along the tracks the last of them may be a whole step away, which "
-        "leaves four times the height; ";
+    constexpr const char* at_outline = "along an outline parallel to the tracks, the last track may be a "
+                                       "full step-over away, which leaves four times the height; ";
     const bool trimmed = !plan.workpiece->trim.everything();
-    const std::string found =
-        fmt::format("{} mm are left where {} mm are wanted", fixed(left, 4), shortest(wanted));
-    constexpr const char* where =
-        "the map of what is left shows where, as does surface.csv of 'millwright cutter'";
+    const std::string found = fmt::format("{} mm remain instead of {} mm", fixed(left, 4), shortest(wanted));
+    constexpr const char* where = "the scallop map and surface.csv of 'millwright cutter' show where";
     constexpr double to_blame = 0.5; // of what is too much
     if (off < std::max(to_blame * (left - wanted), little * wanted)) {
         return fmt::format("{}: {}{}", found, trimmed ? at_outline : "", where);
     }
-    return fmt::format("{}: between the points of a track the tool alone is up to {} mm off the surface; {}",
+    return fmt::format("{}: between the points of a track the tool itself is up to {} mm off the surface; {}",
                        found,
                        fixed(off, 4),
                        way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted));
@@ -111,17 +106,15 @@ std::string why_not_kept(const project::Project& project, const Evaluation& path
         return {};
     }
     if (project.tool.cutter == toolpath::CutterKind::point) {
-        return fmt::format(
-            "the path does not keep the tolerance of {} mm: {} mm at worst, where it follows other "
-            "branches than each move by itself",
-            shortest(project.toolpath.tolerance_mm),
-            fixed(path.closest.max, 4));
+        return fmt::format("the path exceeds the tolerance of {} mm: {} mm at worst, where its branches "
+                           "differ from those of the individual moves",
+                           shortest(project.toolpath.tolerance_mm),
+                           fixed(path.closest.max, 4));
     }
-    return fmt::format(
-        "this cutter does not keep the tolerance of {} mm: {} mm at worst. Where it does "
-        "not fit, or cuts into its sides, more points do not help: another or a smaller cutter does",
-        shortest(project.toolpath.tolerance_mm),
-        fixed(path.closest.max, 4));
+    return fmt::format("this cutter exceeds the tolerance of {} mm: {} mm at worst. Where it does not fit, "
+                       "or cuts with its flank, more points do not help; use another or a smaller cutter",
+                       shortest(project.toolpath.tolerance_mm),
+                       fixed(path.closest.max, 4));
 }
 
 std::string crossing_remark(const project::Project& project, const Plan& plan) {
@@ -146,9 +139,9 @@ std::string sequencing_remark(const project::Project& project, const Plan& plan)
     const std::string figures = larger_figures(path->closest, plan.uniform->closest, turns);
     return figures.empty()
                ? std::string()
-               : fmt::format("with its {} points the path has more error over the grid \"{}\" than over the "
-                             "uniform grid with {}: {}. Grids are made without the points and branches that "
-                             "the sequencing chooses; where these figures count, use the uniform grid",
+               : fmt::format("with its {} points the path over the grid \"{}\" has more error than over the "
+                             "uniform grid with {}: {}. Grids are computed without the points and branches "
+                             "that the sequencing chooses; if these figures matter, use the uniform grid",
                              path->toolpath.points.size(),
                              project::row_of(project::grid_methods(), program_grid(project)).label,
                              plan.uniform->toolpath.points.size(),
@@ -162,8 +155,8 @@ std::string weight_remark(const project::EllipticInput& input) {
     if (input.weight != project::WeightSource::mixed || pulls) {
         return {};
     }
-    return fmt::format("{}: it is the same everywhere, and the grid adapts to nothing",
-                       mix.painted > 0.0 ? "only what is painted has a share in the mixed weight "
+    return fmt::format("{}: the weight is the same everywhere, so the grid does not adapt",
+                       mix.painted > 0.0 ? "only painted values have a share in the mixed weight "
                                            "(grid/elliptic/mix), and nothing is painted"
                                          : "all shares of the mixed weight are 0 (grid/elliptic/mix)");
 }
@@ -176,11 +169,10 @@ std::string certainty_remark(const Plan& plan, const Evaluation& path) {
     const double told = path.closest.max;
     const bool certain = told - bounds->at_least <= std::max(2e-3 * told, 2e-4);
     return certain ? std::string()
-                   : fmt::format(
-                         "the largest error is certain within bounds alone: {:.4f} to {:.4f} mm; the surface "
-                         "is so wild that a nearer place of it may have been missed",
-                         bounds->at_least,
-                         bounds->at_most);
+                   : fmt::format("the largest error is known only within bounds: {:.4f} to {:.4f} mm; the "
+                                 "surface is so irregular that a nearer point may have been missed",
+                                 bounds->at_least,
+                                 bounds->at_most);
 }
 
 std::vector<std::string> path_remarks(const project::Project& project, const Plan& plan) {

@@ -279,7 +279,7 @@ CutStudy study(const Workpiece& workpiece,
                const Progress& progress) {
     const toolpath::Tool& tool = workpiece.tool;
     if (!tool.cutter) {
-        throw Error("the tool is a point, which leaves nothing and fits everywhere");
+        throw Error("a point tool leaves no scallops and fits everywhere: there is nothing to check");
     }
     CutStudy study;
     study.local_gouges = find_local_gouges(workpiece, *tool.cutter, path.toolpath);

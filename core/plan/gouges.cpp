@@ -38,13 +38,13 @@ std::string blocks_text(const DeepestBite& found) {
 std::string gouge_text(const project::Project& project, const CutStudy& cut) {
     std::string text;
     if (const DeepestBite cutter = deepest_of(cut, false); cutter.bite != nullptr) {
-        text = fmt::format("the cutter goes up to {} mm below the surface, where {} mm are allowed ({})",
+        text = fmt::format("the cutter goes up to {} mm below the surface; the limit is {} mm ({})",
                            fixed(cutter.bite->bite.depth, 4),
                            shortest(project.tool.gouge_limit_mm),
                            blocks_text(cutter));
     }
     if (const DeepestBite holder = deepest_of(cut, true); holder.bite != nullptr) {
-        text += fmt::format("{}the holder goes up to {} mm into the part ({})",
+        text += fmt::format("{}the holder penetrates the part by up to {} mm ({})",
                             text.empty() ? "" : "; ",
                             fixed(holder.bite->bite.depth, 4),
                             blocks_text(holder));

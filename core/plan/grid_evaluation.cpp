@@ -21,11 +21,10 @@ Evaluation evaluated_grid(const GridMaking& by, const Progress& progress) {
 
 std::string refusal(const Evaluation& found, const Evaluation& uniform, bool turns) {
     const std::string larger = larger_figures(found.closest, uniform.closest, turns);
-    return larger.empty()
-               ? std::string("Nothing better than the uniform grid was found; it is kept.")
-               : fmt::format("The uniform grid is kept: on the whole path the grid that was found would "
-                             "have more error in some figure ({}).",
-                             larger);
+    return larger.empty() ? std::string("No grid better than the uniform grid was found, so it is kept.")
+                          : fmt::format("The uniform grid is kept: over the whole path the new grid would "
+                                        "have larger errors ({}).",
+                                        larger);
 }
 
 } // namespace

@@ -222,7 +222,7 @@ void let_paint_count(project::EllipticInput& input) {
 std::string memory_sentence(project::GridMethod method, const project::GridInput& input) {
     const std::optional<std::size_t> bytes = memory_of(method, input);
     return !bytes ? std::string()
-                  : fmt::format("The {} of {} x {} nodes takes at most {:.0f} MB",
+                  : fmt::format("The {} of {} x {} nodes needs up to {:.0f} MB",
                                 method == project::GridMethod::harmonic ? "harmonic map" : "elliptic grid",
                                 input.nu,
                                 input.nv,
@@ -236,13 +236,12 @@ std::optional<Diagnostic> memory_fault(project::GridMethod method,
     if (!bytes || !free || *bytes <= *free / 2) {
         return std::nullopt;
     }
-    return Diagnostic{
-        {},
-        fmt::format("{}, more than half of the {:.0f} MB that are free",
-                    memory_sentence(method, input),
-                    megabytes(*free)),
-        "take fewer nodes or another solver, or allow it: grid/elliptic/any_memory, --any-memory, "
-        "\"Take the memory\" in the Grid workspace"};
+    return Diagnostic{{},
+                      fmt::format("{}, more than half of the {:.0f} MB of free memory",
+                                  memory_sentence(method, input),
+                                  megabytes(*free)),
+                      "use fewer nodes or another solver, or allow it: grid/elliptic/any_memory, "
+                      "--any-memory, \"Allow high memory\" in the Grid workspace"};
 }
 
 void expect_memory(project::GridMethod method, const project::GridInput& input) {
@@ -258,14 +257,14 @@ void expect_enough_nodes(project::GridMethod method, const project::GridInput& i
         solver == grid::EllipticMethod::reference || solver == grid::EllipticMethod::multigrid;
     constexpr int fewest = 3;
     if (method == project::GridMethod::elliptic && has_stencil && std::min(input.nu, input.nv) < fewest) {
-        throw Error(fmt::format("the solver \"{}\" needs {} x {} nodes at least, and the grid has {} x {}",
+        throw Error(fmt::format("the solver \"{}\" needs at least {} x {} nodes, but the grid has {} x {}",
                                 project::row_of(project::elliptic_solvers(), solver).label,
                                 fewest,
                                 fewest,
                                 input.nu,
                                 input.nv),
                     {},
-                    "take more nodes, or the minimiser (grid/elliptic/solver)");
+                    "use more nodes, or the minimiser (grid/elliptic/solver)");
     }
 }
 
@@ -284,10 +283,10 @@ void expect_straight_sides(const project::GridInput& input, const grid::Grid& st
         straight = straight && is(start.node(0, j).x(), 0.0) && is(start.node(last_u, j).x(), 1.0);
     }
     if (!straight) {
-        throw Error(
-            "the boundary of the start grid is not that of the surface, so its nodes cannot slide on it",
-            {},
-            "hold the boundary: grid/elliptic/sliding_boundary false");
+        throw Error("the boundary of the start grid is not the boundary of the surface, so its nodes cannot "
+                    "slide along it",
+                    {},
+                    "fix the boundary: set grid/elliptic/sliding_boundary to false");
     }
 }
 
@@ -298,9 +297,9 @@ void expect_straight_tracks(grid::TrackDirection direction, const grid::Grid& st
         const double first = start.track_node(direction, t, 0)[across];
         for (int k = 1; k < start.nodes_per_track(direction); ++k) {
             if (!exactly_equal(start.track_node(direction, t, k)[across], first)) {
-                throw Error(fmt::format("track {} of the start grid is not straight, counted from 0", t),
+                throw Error(fmt::format("track {} of the start grid, counted from 0, is not straight", t),
                             {},
-                            "the elliptic grid and the harmonic map start from any grid");
+                            "use the elliptic grid or the harmonic map, which start from any grid");
             }
         }
     }
@@ -359,11 +358,11 @@ std::string_view title_of_making(project::GridMethod method) {
     case project::GridMethod::uniform:
         return "Measuring the uniform grid";
     case project::GridMethod::redistribution:
-        return "Sharing out the nodes of each track";
+        return "Redistributing the nodes of each track";
     case project::GridMethod::elliptic:
         return "Adapting the elliptic grid";
     case project::GridMethod::harmonic:
-        return "Making the harmonic map";
+        return "Computing the harmonic map";
     case project::GridMethod::tracks:
         return "Optimising the tracks";
     case project::GridMethod::chain:

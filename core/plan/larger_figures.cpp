@@ -17,12 +17,12 @@ std::string larger_figures(const grid::ErrorSummary& a, const grid::ErrorSummary
         [&](std::string_view name, double of_a, double of_b, std::string_view unit, int decimals) {
             const std::string a_text = fixed(of_a, decimals), b_text = fixed(of_b, decimals);
             if (of_a > of_b && a_text != b_text) {
-                found.push_back(fmt::format("{} {} against {} {}", name, a_text, b_text, unit));
+                found.push_back(fmt::format("{} {} versus {} {}", name, a_text, b_text, unit));
             }
         };
     compare("largest", a.max, b.max, "mm", 3);
     compare("mean", a.mean, b.mean, "mm", 3);
-    compare("mean by length", a.lmean, b.lmean, "mm", 3);
+    compare("length-weighted mean", a.lmean, b.lmean, "mm", 3);
     if (turns) {
         compare("axis", to_degrees(a.axis_max), to_degrees(b.axis_max), "deg", 1);
     }

@@ -27,7 +27,7 @@ std::string left_out_sentence(const project::Project& project) {
     }
     return names.empty()
                ? std::string()
-               : fmt::format("Not made to compare with, since {} x {} nodes are more than {},000: {}.",
+               : fmt::format("Not computed for comparison because {} x {} nodes are more than {},000: {}.",
                              project.grid.nu,
                              project.grid.nv,
                              most_compared_nodes / 1000,

@@ -195,9 +195,9 @@ private:
         if (!now.errors.empty()) {
             now.no_motion = "The program has errors.";
         } else if (!now.machine) {
-            now.no_motion = "There is no machine to plan for.";
+            now.no_motion = "No machine is selected for planning.";
         } else if (now.path.point_count() > most_planned_points) {
-            now.no_motion = fmt::format("More than {} moves: times are those that the program asks for.",
+            now.no_motion = fmt::format("More than {} moves: times are based on the programmed feed rates.",
                                         most_planned_points);
         }
         if (!now.no_motion.empty()) {
@@ -219,7 +219,7 @@ private:
         gcode::MachineProgram made = builder.take();
         now.faults.insert(now.faults.end(), made.faults.begin(), made.faults.end());
         if (made.program.blocks.empty()) {
-            now.no_motion = "The program moves nothing.";
+            now.no_motion = "The program contains no motion.";
             return;
         }
         motion->trajectory = std::make_shared<const motion::Trajectory>(

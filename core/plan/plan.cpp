@@ -111,15 +111,14 @@ void refuse_crossing(const geometry::BezierPatch& patch, const geometry::Trim& t
         return;
     }
     if (const auto crossing = geometry::self_crossing(patch)) {
-        throw Error(
-            fmt::format("the surface touches itself or passes through itself: near u {:.2f}, v {:.2f} it "
-                        "comes to where it is near u {:.2f}, v {:.2f}",
-                        crossing->first.x(),
-                        crossing->first.y(),
-                        crossing->second.x(),
-                        crossing->second.y()),
-            {},
-            "a tool cuts from one side: move the control points apart, or split the surface");
+        throw Error(fmt::format("the surface touches or intersects itself: near u {:.2f}, v {:.2f} it meets "
+                                "the point at u {:.2f}, v {:.2f}",
+                                crossing->first.x(),
+                                crossing->first.y(),
+                                crossing->second.x(),
+                                crossing->second.y()),
+                    {},
+                    "move the control points apart, or split the surface: a tool cuts from one side");
     }
 }
 
@@ -139,7 +138,7 @@ kinematics::MachineModel with_tool_set(const kinematics::MachineModel& machine,
     } catch (const Error& fault) {
         throw Error("machine/tool_set: " + fault.diagnostic().message,
                     {},
-                    "leave tool_set out, or choose a machine of the thesis");
+                    "omit tool_set, or choose a machine of the thesis");
     }
 }
 
@@ -284,7 +283,7 @@ std::vector<std::string> memory_sentences(const project::Project& project, Scope
     }
     if (nodes > most_compared_nodes && scope == Scope::everything) {
         constexpr double gigabytes_a_point = 3.9e-6; // `plan` of the dome with a million, nothing compared
-        sentences.push_back(fmt::format("Path, program and motion of {} points take about {:.1f} GB.",
+        sentences.push_back(fmt::format("The path, program and motion of {} points need about {:.1f} GB.",
                                         nodes,
                                         gigabytes_a_point * static_cast<double>(nodes)));
     }

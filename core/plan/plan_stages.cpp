@@ -227,7 +227,7 @@ void PlanStages::carry_over(project::GridMethod method, const Progress& progress
     }
     GridOutcome outcome = old->outcome;
     outcome.warning.clear();
-    outcome.note = "The grid from before the last change, until the new one is there.";
+    outcome.note = "The grid from before the last change, shown until the new one is ready.";
     Evaluation found = evaluate(workpiece(), std::move(outcome), coarse_sampling(input()), progress);
     hold(method, {shared(std::move(found), false), false});
 }

@@ -109,7 +109,7 @@ void PlotDerivation::time_as_drawn() {
             posted.released, posted.format, posted.machine, posted.file, progress_.part(0.8, 1.0));
     });
     if (failure) {
-        failure->message = "there is no time of it as drawn: " + failure->message;
+        failure->message = "the time as drawn cannot be computed: " + failure->message;
     }
     note(std::move(failure));
 }
@@ -141,19 +141,18 @@ void PlotDerivation::cut_program() {
     result_.notices = read.notices;
     result_.program_rpm = read.spindle_rpm;
     if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - result_.spindle_rpm()) > 0.5) {
-        note(
-            Diagnostic{{},
-                       fmt::format("the program turns the spindle {:.0f} times a minute, here it does {:.0f}",
-                                   read.spindle_rpm,
-                                   result_.spindle_rpm()),
-                       "the field Spindle under Work says so; its arrow takes that of the program"});
+        note(Diagnostic{
+            {},
+            fmt::format("the program sets the spindle to {:.0f} rpm, but here it is set to {:.0f} rpm",
+                        read.spindle_rpm,
+                        result_.spindle_rpm()),
+            "change it in the field Spindle speed under Work; its arrow restores the speed of the program"});
     }
     if (!(read.spindle_rpm > 0.0) && !settings_.spindle_rpm) {
         note(Diagnostic{
             {},
-            fmt::format("the program says nothing of its spindle: here it turns {:.0f} times a minute",
-                        result_.spindle_rpm()),
-            "another speed is set under Work"});
+            fmt::format("the program sets no spindle speed: {:.0f} rpm is used here", result_.spindle_rpm()),
+            "set another speed under Work"});
     }
     use(read.path);
 }
@@ -272,9 +271,9 @@ void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
     note(plot::frame_notice(plan));
     const plot::HeightField field = plot::height_field(picture, pitch, settings_.depth);
     if (!plot::is_cut(field) && !settings_.frame) {
-        throw Error("all of it is black or transparent: the relief would cut nothing",
+        throw Error("the picture is entirely black or transparent: the relief would cut nothing",
                     result_.input.file,
-                    "Invert, under Picture, may help");
+                    "try Invert under Picture");
     }
     use(plot::relief_path(field, plan, progress_.part(0.2, 0.5)));
 }
@@ -326,13 +325,12 @@ void PlotDerivation::note_raised_change() {
     const bool changes = std::ranges::any_of(
         *result_.path, [](const plot::CutPoint& point) { return point.move == plot::CutMove::tool_change; });
     if (changes && settings_.change_position.z() < settings_.safe_height) {
-        note(Diagnostic{
-            {},
-            fmt::format("tools are changed at Z {:g} mm, the safe height: Tool change Z, {:g} mm, is "
-                        "below it",
-                        settings_.safe_height,
-                        settings_.change_position.z()),
-            "raise Tool change Z, or lower the safe height, under Work"});
+        note(Diagnostic{{},
+                        fmt::format("tools are changed at Z {:g} mm, the safe height, because Tool change Z, "
+                                    "{:g} mm, is below it",
+                                    settings_.safe_height,
+                                    settings_.change_position.z()),
+                        "raise Tool change Z, or lower the safe height, under Work"});
     }
 }
 

@@ -70,7 +70,7 @@ private:
         std::error_code failure;
         std::string place = (fs::temp_directory_path(failure) / "millwright-plot-XXXXXX").string();
         if (failure || ::mkdtemp(place.data()) == nullptr) {
-            throw Error("a folder for the program cannot be made", place);
+            throw Error("cannot create a folder for the program", place);
         }
         folder_ = place;
     }

@@ -20,7 +20,7 @@ namespace {
 using toolpath::SequencingGoal;
 
 std::string_view goal_name(SequencingGoal goal) {
-    return goal == SequencingGoal::error ? "the branches of least error" : "the nearest branches";
+    return goal == SequencingGoal::error ? "the branches with the least error" : "the nearest branches";
 }
 
 /// The way of the project's goal, and those that are tried instead.
@@ -37,11 +37,11 @@ std::vector<SequencingGoal> ways_for(SequencingGoal goal) {
 std::string added_points_sentence(const Evaluation& found) {
     const grid::Grid& grid = found.outcome.grid;
     const auto added = std::ssize(found.toolpath.points) - static_cast<std::ptrdiff_t>(grid.nu()) * grid.nv();
-    return added <= 0 ? std::string()
-                      : fmt::format("Its nodes were placed for moves without the {} {} that the "
-                                    "sequencing added between them.",
-                                    added,
-                                    added == 1 ? "point" : "points");
+    return added <= 0
+               ? std::string()
+               : fmt::format("Its nodes were placed for moves without the {} {} that the sequencing added.",
+                             added,
+                             added == 1 ? "point" : "points");
 }
 
 /// `outcome` along the first way that is not worse than `uniform`, else along that of least error.
@@ -74,22 +74,21 @@ Evaluation run_over(const GridMaking& by,
 std::string
 with_the_way(std::string note, const Evaluation& found, const Evaluation& uniform, SequencingGoal wanted) {
     if (found.goal != wanted) {
-        note =
-            with_sentence(std::move(note),
-                          fmt::format("By the goal of the sequencing its path would be worse than that over "
-                                      "the uniform grid; it follows {}.",
-                                      goal_name(found.goal)));
+        note = with_sentence(std::move(note),
+                             fmt::format("With the chosen sequencing goal its path would be worse than over "
+                                         "the uniform grid, so it follows {}.",
+                                         goal_name(found.goal)));
     }
     if (const std::string added = added_points_sentence(found); !added.empty()) {
         note = with_sentence(std::move(note), added);
     }
     if (score(uniform) < score(found)) {
-        note = with_sentence(std::move(note),
-                             fmt::format("The uniform grid with its {} points has less error: {:.3f} / "
-                                         "{:.3f} mm at most / on average.",
-                                         uniform.toolpath.points.size(),
-                                         uniform.closest.max,
-                                         uniform.closest.mean));
+        note = with_sentence(
+            std::move(note),
+            fmt::format("The uniform grid with its {} points has less error: max. {:.3f} mm, mean {:.3f} mm.",
+                        uniform.toolpath.points.size(),
+                        uniform.closest.max,
+                        uniform.closest.mean));
     }
     return note;
 }

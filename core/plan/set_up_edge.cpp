@@ -38,8 +38,8 @@ std::string edge_sentence(const toolpath::SetUpSearch& search,
         }
     }
     return limits.empty() ? std::string()
-                          : "The best place is at the edge of what was searched: " + limits +
-                                ". A wider search may find a better one.";
+                          : "The best position is at the edge of the search range: " + limits +
+                                ". A wider search range may give a better one.";
 }
 
 } // namespace millwright::plan

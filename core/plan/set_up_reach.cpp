@@ -63,13 +63,12 @@ void expect_in_reach(const toolpath::SetUpSearch& search,
         return;
     }
     const std::string why = why_out_of_reach(workpiece, settings, search.start.place).value_or("");
-    throw Error(
-        fmt::format("the machine does not reach the whole part from any place that was searched ({}); "
-                    "where the part stands, {}",
-                    range_text(within),
-                    why),
-        {},
-        "search farther off or with a turn, make the part smaller, or choose another machine");
+    throw Error(fmt::format("the machine cannot reach the whole part from any position in the search range "
+                            "({}); at the current position, {}",
+                            range_text(within),
+                            why),
+                {},
+                "widen the search range or allow a turn, make the part smaller, or choose another machine");
 }
 
 } // namespace millwright::plan

@@ -19,7 +19,7 @@ public:
             found.project = project;
             found.settings = settings;
             found.failure = failure_of([&] {
-                progress.report(0.0, "Searching the best place of the part");
+                progress.report(0.0, "Searching for the best part position");
                 const Workpiece workpiece = workpiece_of(project, folders);
                 found.now = set_up_cost(workpiece, settings).start();
                 found.study = set_up_study(workpiece, settings, progress);

@@ -65,7 +65,7 @@ namespace {
 
 /// "5.441 / 0.212 mm at most / on average, axis 48.5 deg, rounds up to 36.65 mm apart".
 std::string figures_text(const Evaluation& path, bool turns) {
-    return fmt::format("{} / {} mm at most / on average{}, rounds up to {} mm apart",
+    return fmt::format("max. {} mm, mean {} mm{}, rounds up to {} mm apart",
                        fixed(path.closest.max, 3),
                        fixed(path.closest.mean, 3),
                        turns ? fmt::format(", axis {} deg", fixed(to_degrees(path.closest.axis_max), 1)) : "",
@@ -74,15 +74,15 @@ std::string figures_text(const Evaluation& path, bool turns) {
 
 std::string
 kept_note(const project::Project& project, const Evaluation& over, const Evaluation& even, bool turns) {
-    return fmt::format("The spiral crosses the tracks that the grid \"{}\" was made for, and would be worse "
-                       "over it ({}) than over the uniform grid ({}), which is kept.",
+    return fmt::format("The spiral crosses the tracks that the grid \"{}\" was made for and would be worse "
+                       "over it ({}) than over the uniform grid ({}), so the uniform grid is kept.",
                        project::row_of(project::grid_methods(), project.grid.method).label,
                        figures_text(over, turns),
                        figures_text(even, turns));
 }
 
 std::string not_made_note(const project::Project& project, const Diagnostic& reason) {
-    return fmt::format("The spiral cannot be made over the grid \"{}\" ({}); the uniform grid is kept.",
+    return fmt::format("The spiral cannot be generated over the grid \"{}\" ({}); the uniform grid is kept.",
                        project::row_of(project::grid_methods(), project.grid.method).label,
                        reason.message);
 }

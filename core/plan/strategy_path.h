@@ -26,7 +26,7 @@ namespace millwright::plan {
 [[nodiscard]] std::string strategy_text(const project::Project& project);
 
 /// What is being done when it is made, for people.
-inline constexpr std::string_view title_of_path = "Making the path";
+inline constexpr std::string_view title_of_path = "Generating the path";
 
 /// The path of the project's strategy over the grid of `base`, with its error; over that of `uniform`, with a
 /// note that says so, where it would be worse than there: a grid is made for the zigzag, and a spiral runs

@@ -215,9 +215,8 @@ std::vector<FittedArc> fit_arcs(const program::Program& program,
                                 double tolerance) {
     expects(tolerance > 0.0, "a tolerance of arcs is positive");
     if (!format.arcs) {
-        throw Error(fmt::format("programs for {} are written without arcs", format.name),
-                    {},
-                    "leave out the tolerance of arcs");
+        throw Error(
+            fmt::format("programs for {} cannot contain arcs", format.name), {}, "omit the arc tolerance");
     }
     return Fitter(program, wording, format, tolerance).fit();
 }

@@ -28,7 +28,7 @@ LineFormat line_format(const JsonValue& value) {
     LineFormat result;
     result.separator = text_of(value.at("separator"));
     if (!result.separator.empty() && result.separator != " ") {
-        value.at("separator").fail("words are separated by one blank, or by nothing");
+        value.at("separator").fail("the separator must be one space or empty");
     }
     result.longest = value.at("longest").integer(20, 10'000);
     return result;
@@ -53,7 +53,7 @@ CommentFormat comment_format(const JsonValue& value) {
     result.open = text_of(value.at("open"));
     result.close = text_of(value.at("close"));
     if (result.open.empty()) {
-        value.at("open").fail("a comment that begins with nothing is none");
+        value.at("open").fail("the start of a comment must not be empty");
     }
     result.longest = value.at("longest").integer(20, 10'000);
     if (const auto upper = value.find("upper_case")) {
@@ -63,7 +63,7 @@ CommentFormat comment_format(const JsonValue& value) {
         result.forbidden = text_of(*forbidden);
     }
     if (result.forbidden.find('.') != std::string::npos) {
-        value.at("forbidden").fail("the dot takes the place of what is forbidden");
+        value.at("forbidden").fail("the dot cannot be forbidden, because it replaces forbidden characters");
     }
     return result;
 }
@@ -82,7 +82,7 @@ program::NumberFormat number_format(const JsonValue& value) {
     flag("trailing_zeros", result.trailing_zeros);
     flag("point", result.point);
     if (!result.point && result.trailing_zeros && result.decimals > 0) {
-        value.fail("numbers with decimals and trailing zeros have a point");
+        value.fail("numbers with decimals and trailing zeros need a decimal point");
     }
     return result;
 }
@@ -133,7 +133,7 @@ BlockLines block_lines(const JsonValue& value) {
     result.end = lines(value.at("end"));
     result.bottom = lines(value.at("bottom"), {"name"});
     if (result.end.empty()) {
-        value.at("end").fail("a program says where it ends");
+        value.at("end").fail("the end of a program must have at least one line");
     }
     return result;
 }
@@ -146,7 +146,7 @@ MoveFormat move_format(const JsonValue& value) {
         result.behind = text_of(*behind);
     }
     if (result.code.empty()) {
-        value.at("code").fail("a move begins with its code");
+        value.at("code").fail("the code of a move must not be empty");
     }
     return result;
 }
@@ -159,7 +159,7 @@ MoveFormats move_formats(const JsonValue& value) {
     result.modal_codes = value.at("modal_codes").flag();
     result.modal_axes = value.at("modal_axes").flag();
     if (result.rapid == result.feed) {
-        value.at("feed").fail("rapids and feeds have to differ");
+        value.at("feed").fail("rapids and feeds must differ");
     }
     return result;
 }
@@ -176,10 +176,10 @@ FeedFormat feed_format(const JsonValue& value) {
     result.feed_code = text_of(value.at("feed_code"));
     result.first_code = text_of(value.at("first_code"));
     if (result.word.empty()) {
-        value.at("word").fail("a feed needs its word");
+        value.at("word").fail("the feed word must not be empty");
     }
     if (result.modal && result.mode == FeedWriting::inverse_time) {
-        value.at("modal").fail("in inverse time a feed belongs to its line and cannot be left out");
+        value.at("modal").fail("an inverse-time feed belongs to its line and cannot be modal");
     }
     return result;
 }
@@ -198,7 +198,7 @@ TipFormat tip_format(const JsonValue& value) {
         result.read_m_off = value.at("read_m_off").integer(100, 999);
     }
     if (result.on.empty() || result.off.empty()) {
-        value.fail("tip control is switched on and off by at least a line each");
+        value.fail("tip control needs at least one line for on and one for off");
     }
     return result;
 }
@@ -220,7 +220,7 @@ ArcFormat arc_format(const JsonValue& value) {
     }
     result.helical = value.at("helical").flag();
     if (result.clockwise.empty() || result.clockwise == result.counterclockwise) {
-        value.fail("arcs of both directions have a code each");
+        value.fail("each arc direction needs its own code");
     }
     return result;
 }
@@ -231,12 +231,12 @@ std::string axes(const JsonValue& value) {
     for (const char c : text) {
         if (std::string_view("XYZABCUVW").find(c) == std::string_view::npos ||
             seen.find(c) != std::string::npos) {
-            value.fail(fmt::format("'{}' is not a list of different letters of XYZABCUVW", text));
+            value.fail(fmt::format("'{}' must be a list of different letters from XYZABCUVW", text));
         }
         seen += c;
     }
     if (text.empty()) {
-        value.fail("a control has axes");
+        value.fail("at least one axis is required");
     }
     return text;
 }
@@ -244,26 +244,26 @@ std::string axes(const JsonValue& value) {
 /// What the parts have to do with each other.
 void check_parts(const JsonValue& root, const PostFormat& post) {
     if ((post.positions == PositionsOf::tip) != post.tip.has_value()) {
-        root.at("positions").fail("positions of the tip need \"tip\", those of axes have none");
+        root.at("positions").fail("\"tip\" is required for tip positions and not allowed for axis positions");
     }
     if (post.tip && post.arcs) {
-        root.at("arcs").fail("arcs are fitted to axis positions only");
+        root.at("arcs").fail("arcs can be fitted to axis positions only");
     }
     const bool remapped = post.tip && post.tip->read_m_on != 0;
     if (post.tip && post.reader == TextReader::linuxcnc && !remapped) {
-        root.at("tip").fail("LinuxCNC switches by M codes of its configuration: read_m_on and read_m_off");
+        root.at("tip").fail("LinuxCNC needs the M codes of its configuration: read_m_on and read_m_off");
     }
     if (remapped && post.reader != TextReader::linuxcnc) {
-        root.at("tip").at("read_m_on").fail("only LinuxCNC's text is read by M codes");
+        root.at("tip").at("read_m_on").fail("read_m_on is for LinuxCNC text only");
     }
     if (post.reader == TextReader::klartext && post.arcs) {
-        root.at("arcs").fail("arcs of klartext are not written");
+        root.at("arcs").fail("arcs cannot be written in Klartext");
     }
     if (post.reader == TextReader::grbl && post.tip) {
-        root.at("tip").fail("Grbl knows no tip control");
+        root.at("tip").fail("Grbl has no tip control");
     }
     if (says_path_mode(post) && (post.blocks.path_blended.empty() || post.blocks.path_exact.empty())) {
-        root.at("blocks").at("head").fail("{path} needs path_blended and path_exact");
+        root.at("blocks").at("head").fail("{path} requires path_blended and path_exact");
     }
 }
 
@@ -294,7 +294,7 @@ PostFormat post_of(const JsonValue& root) {
     post.source = root.at("source").text();
     post.extension = text_of(root.at("extension"));
     if (post.extension.empty() || post.extension.find_first_of("./ ") != std::string::npos) {
-        root.at("extension").fail("an extension is a word without a dot");
+        root.at("extension").fail("the extension must be a word without a dot");
     }
     post.reader = choice<TextReader>(root.at("reader"),
                                      {{"linuxcnc", TextReader::linuxcnc},
@@ -314,7 +314,7 @@ PostFormat post_of(const JsonValue& root) {
         root.at("numbers")
             .at("length")
             .at("decimals")
-            .fail("a length in inches needs 4 decimals at least: 0.001 inch is 0.0254 mm");
+            .fail("a length in inches needs at least 4 decimals: 0.001 inch is 0.0254 mm");
     }
     post.blocks = block_lines(root.at("blocks"));
     post.moves = move_formats(root.at("moves"));

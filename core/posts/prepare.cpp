@@ -32,7 +32,7 @@ void refuse_missing_axes(const program::Program& program, const PostFormat& form
         }
     }
     if (!missing.empty()) {
-        throw Error(fmt::format("{} moves {} only, and the program for '{}' also moves {}",
+        throw Error(fmt::format("{} moves only {}, but the program for '{}' also moves {}",
                                 format.name,
                                 fmt::join(known, " "),
                                 program.machine,
@@ -139,13 +139,12 @@ private:
     void expect_all_named(const program::Block& block) const {
         for (int n = 0; n < machine_.axis_count(); ++n) {
             if (!named_.contains(n) || block.programmed_speed) {
-                throw Error(
-                    Diagnostic{{{}, block.source_line, 0, -1},
-                               fmt::format("{} takes positions of the tool's tip, and the program has "
-                                           "not said where {} is when it begins to move",
-                                           format_.name,
-                                           machine_.axis(n).letter),
-                               "begin with rapids that name all axes of the machine"});
+                throw Error(Diagnostic{{{}, block.source_line, 0, -1},
+                                       fmt::format("{} uses tool-tip positions, but the program does not "
+                                                   "specify {} before its first move",
+                                                   format_.name,
+                                                   machine_.axis(n).letter),
+                                       "start with rapids that specify all axes of the machine"});
             }
         }
     }
@@ -201,12 +200,11 @@ private:
     [[nodiscard]] bool goes_nowhere(const program::Block& block) const {
         const bool there = (block.target - here()).cwiseAbs().maxCoeff() <= 0.0;
         if (there && !moved_) {
-            throw Error(
-                fmt::format("block {}: a feed to where the axes are taken to be at the start has no length, "
-                            "and no feed can be written for it",
-                            result_.program.block_count() + 1),
-                {},
-                "begin the program with a rapid");
+            throw Error(fmt::format("block {}: a feed move to the assumed start position has no length, so "
+                                    "no feed rate can be written",
+                                    result_.program.block_count() + 1),
+                        {},
+                        "start the program with a rapid");
         }
         return there;
     }
@@ -345,14 +343,13 @@ private:
         const int pieces = pieces_within(block, tip_tolerance_);
         const AxisPositions step = (block.target - here()) / pieces;
         if (const double off = deviation(here(), here() + step); off > tip_tolerance_) {
-            throw Error(
-                Diagnostic{{{}, block.source_line, 0, -1},
-                           fmt::format("in {} pieces the tip still leaves the way of straight axes by "
-                                       "{:.4f} mm, more than {:.4f}",
-                                       pieces,
-                                       off,
-                                       tip_tolerance_),
-                           "take a greater tolerance"});
+            throw Error(Diagnostic{{{}, block.source_line, 0, -1},
+                                   fmt::format("even in {} segments the tip deviates by {:.4f} mm from the "
+                                               "path of straight axis moves, more than {:.4f}",
+                                               pieces,
+                                               off,
+                                               tip_tolerance_),
+                                   "use a larger tolerance"});
         }
         return pieces;
     }
@@ -387,7 +384,7 @@ void check_letters_of_tip(const MachineModel& machine) {
     for (const int n : machine.linear_axes()) {
         if (std::string_view("XYZ").find(machine.axis(n).letter) == std::string_view::npos) {
             throw Error(
-                fmt::format("positions of the tip are written for axes X Y Z, and machine '{}' has {}",
+                fmt::format("tip positions can be written for axes X Y Z only, but machine '{}' has {}",
                             machine.name(),
                             machine.axis(n).letter));
         }
@@ -397,11 +394,11 @@ void check_letters_of_tip(const MachineModel& machine) {
 /// G43 counts along Z alone.
 void check_tool(const program::Program& program, const MachineModel& machine, const PostFormat& format) {
     if (program.tool && format.positions == PositionsOf::axes && !machine.compensates_along_z()) {
-        throw Error(fmt::format("the control counts a tool's length along +Z, and the tool of machine '{}' "
-                                "lies another way",
+        throw Error(fmt::format("the control applies the tool length along +Z, but the tool of machine '{}' "
+                                "points in another direction",
                                 machine.name()),
                     {},
-                    "give the tool the number 0: it is not called, and the positions contain its length");
+                    "set the tool number to 0: the tool is not called, and the positions include its length");
     }
 }
 

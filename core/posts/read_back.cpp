@@ -129,7 +129,7 @@ public:
         }
         if (next_ < steps_.size()) {
             --block_;
-            differ(fmt::format("{} stands behind the last block", name_of(steps_[next_].kind)));
+            differ(fmt::format("{} follows the last block", name_of(steps_[next_].kind)));
         }
     }
 
@@ -151,7 +151,7 @@ private:
         const int line = next_ < steps_.size() ? steps_[next_].line : steps_.empty() ? 0 : steps_.back().line;
         throw Error({{file_, line, 0, -1},
                      fmt::format("block {}: {}", block_ + 1, what),
-                     "read back, the text is not the program; it is not released"});
+                     "the text read back differs from the program; it is not released"});
     }
 
     [[nodiscard]] gcode::AxisValues values_of(const AxisPositions& positions) const {
@@ -230,7 +230,7 @@ private:
         }
         const gcode::WrittenStep& step = next(gcode::StepKind::tool);
         if (!exactly_equal(step.value, static_cast<double>(program_.tool->number))) {
-            differ(fmt::format("tool {:.0f} is called in the text and {} in the program",
+            differ(fmt::format("tool {:.0f} is called in the text, but {} in the program",
                                step.value,
                                program_.tool->number));
         }
@@ -247,7 +247,7 @@ private:
 
     void compare_value(std::string_view name, double read, double meant, double within) const {
         if (!(std::abs(read - meant) <= within)) {
-            differ(fmt::format("{} is {:.6f} in the text and {:.6f} in the program", name, read, meant));
+            differ(fmt::format("{} is {:.6f} in the text, but {:.6f} in the program", name, read, meant));
         }
     }
 
@@ -256,7 +256,7 @@ private:
         const NumberFormats& numbers = format_.numbers;
         switch (block.kind) {
         case program::BlockKind::spindle_on:
-            compare_value("the spindle's speed", step.value, block.spindle_rpm, half_of(numbers.speed));
+            compare_value("the spindle speed", step.value, block.spindle_rpm, half_of(numbers.speed));
             break;
         case program::BlockKind::dwell: {
             const double unit = format_.milliseconds ? 1e-3 : 1.0;
@@ -319,8 +319,8 @@ private:
         }
         for (std::size_t letter = 0; letter < gcode::axis_count; ++letter) {
             if (!has_axis(gcode::axis_letters[letter]) && !exactly_equal(read[letter], at_[letter])) {
-                differ(
-                    fmt::format("{} moves, an axis that the program has not", gcode::axis_letters[letter]));
+                differ(fmt::format("{} moves, but the program does not have this axis",
+                                   gcode::axis_letters[letter]));
             }
         }
     }
@@ -361,7 +361,8 @@ private:
         const double meant = shown(*block.programmed_speed);
         const double read = shown(way.length / step.value);
         if (!(std::abs(read - meant) <= half_of(format_.numbers.feed) + 1e-9 * meant)) {
-            differ(fmt::format("the feed is {:.6f} in the text and {:.6f} in the program", read, meant));
+            differ(
+                fmt::format("the feed rate is {:.6f} in the text, but {:.6f} in the program", read, meant));
         }
     }
 
@@ -375,7 +376,7 @@ private:
         const double nearest = inverse ? std::max(digit, feed_meant - digit / 2.0) : feed_meant;
         if (!(std::abs(feed_read - nearest) <= digit / 2.0 + noise)) {
             differ(fmt::format(
-                "the feed is {:.6f} in the text and {:.6f} in the program", feed_read, feed_meant));
+                "the feed rate is {:.6f} in the text, but {:.6f} in the program", feed_read, feed_meant));
         }
     }
 
@@ -387,7 +388,7 @@ private:
         const BlockWords& end = wording_.blocks[static_cast<std::size_t>(arc.last)];
         compare_positions(end, axes_named(program_, arc), step.target);
         if (step.plane != arc.plane || (step.sweep > 0.0) != (arc.sweep > 0.0)) {
-            differ("the arc turns another way than meant");
+            differ("the arc turns in the wrong direction");
         }
         const auto [first, second] = letters_of(step.plane);
         const Vec2 centre(step.centre_1 - added(first, false), step.centre_2 - added(second, false));
@@ -400,7 +401,8 @@ private:
         const double deviation = arc_deviation(program_, wording_, read);
         const double within = arc_tolerance_ + half_of(format_.numbers.length) * format_.length_unit();
         if (!(deviation <= within)) {
-            differ(fmt::format("the arc is {:.6f} mm from its moves, more than {:.6f}", deviation, within));
+            differ(fmt::format(
+                "the arc deviates by {:.6f} mm from its moves, more than {:.6f}", deviation, within));
         }
         compare_duration_of(arc, read, begin, end, step);
         at_ = step.target;

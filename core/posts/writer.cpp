@@ -99,7 +99,7 @@ private:
                 fmt::format("{}{}{}{}", format_.line_numbers.prefix, number_, format_.lines.separator, text);
         }
         if (std::ssize(text) > format_.lines.longest) {
-            refuse(fmt::format("its line would have {} characters, and {} takes {}",
+            refuse(fmt::format("its line would have {} characters, but {} accepts only {}",
                                text.size(),
                                format_.name,
                                format_.lines.longest));
@@ -211,7 +211,7 @@ private:
         case program::BlockKind::spindle_on:
             return switch_lines(block.spindle_rpm < 0.0 ? lines.spindle_counterclockwise
                                                         : lines.spindle_clockwise,
-                                "this direction of the spindle",
+                                "this spindle direction",
                                 "speed",
                                 format_.numbers.speed.text(std::abs(block.spindle_rpm)));
         case program::BlockKind::spindle_off:
@@ -232,7 +232,7 @@ private:
         case program::BlockKind::feed:
             return code_line(move_text(block));
         case program::BlockKind::end:
-            return switch_lines(lines.end, "an end");
+            return switch_lines(lines.end, "a program end");
         }
     }
 
@@ -242,7 +242,7 @@ private:
         const bool feeds = block.kind == program::BlockKind::feed;
         const bool machine = !words(block_).tip && format_.tip.has_value();
         if (machine && feeds) {
-            refuse("a feed that names not all axes cannot be written with positions of the tip");
+            refuse("a feed move that does not specify all axes cannot be written with tip positions");
         }
         const MoveFormat& move = machine ? format_.tip->machine_rapid
                                  : feeds ? format_.moves.feed
@@ -325,7 +325,7 @@ private:
         std::vector<std::string> text;
         const bool timed = format_.feed.mode == FeedWriting::inverse_time;
         if (by_speed && timed && format_.feed.rapid_code.empty()) {
-            refuse("its feed has no time, since the program has not said where it begins");
+            refuse("its feed time is unknown because the program does not specify where the move starts");
         }
         const bool as_feed = feeds && !(by_speed && timed);
         const std::string& mode = as_feed ? format_.feed.feed_code : format_.feed.rapid_code;
@@ -409,7 +409,7 @@ private:
         const double a_second = angular ? to_degrees(speed) : speed / format_.length_unit();
         const double feed = format_.numbers.feed.rounded(a_second * seconds_a_minute);
         if (!(feed > 0.0)) {
-            refuse(fmt::format("its feed, {} per minute, is too small to be written",
+            refuse(fmt::format("its feed rate, {} per minute, is too small to be written",
                                angular          ? "degrees"
                                : format_.inches ? "inch"
                                                 : "mm"));

@@ -204,7 +204,7 @@ TEST(Gcode, TimeWarnsOfWaysBeyondTheTravel) {
     write_content(file, "G21 G90\nG1 X1 F3000\nG1 Y1 X5000\nX6000\nM2\n");
     const Ended ended = run({"gcode", "time", file.string(), "--machine", "router-xyz", "--json"});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("far.ngc:3:7: axis X would go to 5000.000, outside "));
+    EXPECT_THAT(ended.err, HasSubstr("far.ngc:3:7: axis X would move to 5000.000, outside "));
     const auto warnings = nlohmann::json::parse(ended.out).at("warnings");
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_EQ(warnings[0].at("line"), 3);

@@ -127,7 +127,7 @@ TEST(PlanCommand, WritesNoProgramThatGougesThePart) {
     const Ended ended =
         run({"plan", project, "--out", scratch / "out", "--tool", "assets/tools/ball-6.json"});
     EXPECT_EQ(ended.exit_code, 3);
-    EXPECT_THAT(ended.err, HasSubstr("below the surface, where 0.1 mm are allowed"));
+    EXPECT_THAT(ended.err, HasSubstr("below the surface; the limit is 0.1 mm"));
     EXPECT_THAT(ended.err, HasSubstr("program.ngc was not written"));
     EXPECT_FALSE(fs::exists(scratch / "out/program.ngc"));
     EXPECT_TRUE(fs::exists(scratch / "out/report.json"));

@@ -91,7 +91,7 @@ TEST(PointFiles, PointsLieWhereTheirOriginIs) {
     EXPECT_THAT(played.out, HasSubstr("at X 30.200 Y 40.000"));
     EXPECT_THAT(
         run({"plot", "play", (folder / "line.csv").string(), "--period", "0.04", "--origin", "-5,0"}).err,
-        HasSubstr("axis X would go to -5.000"));
+        HasSubstr("axis X would move to -5.000"));
 }
 
 } // namespace

@@ -294,7 +294,7 @@ TEST_F(Posts, ConvertRefusesTipsOfAxesThatTheProgramNeverNames) {
     write_content(part, "G21 G90\nG0 X10 Y0 Z50\nG1 Z0 F600\nM2\n");
     const Ended ended = convert("ac-table", "heidenhain");
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("the program has not said where A is when it begins to move"));
+    EXPECT_THAT(ended.err, HasSubstr("the program does not specify A before its first move"));
     EXPECT_EQ(convert("ac-table", "linuxcnc").exit_code, 0);
 }
 
@@ -334,7 +334,7 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     Ended ended = convert("ac-table", "grbl");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
-                HasSubstr("Grbl 1.1 moves X Y Z only, and the program for 'A-on-C table' also moves A C"));
+                HasSubstr("Grbl 1.1 moves only X Y Z, but the program for 'A-on-C table' also moves A C"));
     ended = convert("ac-table", "siemens");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(
@@ -346,12 +346,12 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     ended = convert("ac-table", "heidenhain");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
-                HasSubstr("part.ngc:3: Heidenhain klartext with FUNCTION TCPM takes positions of the tool's "
-                          "tip, and the program has not said where X is when it begins to move"));
+                HasSubstr("part.ngc:3: Heidenhain klartext with FUNCTION TCPM uses tool-tip positions, but "
+                          "the program does not specify X before its first move"));
     write_content(part, "G21 G90\nG0 X10 Y0 Z0 A5 C0\nM2\n");
     ended = convert("ac-table", "heidenhain", {"--arcs", "0.01"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("are written without arcs"));
+    EXPECT_THAT(ended.err, HasSubstr("cannot contain arcs"));
     write_content(part, "G21 G90\nG0 Z500\nM2\n");
     ended = convert("ac-table", "linuxcnc", {"--out", out});
     EXPECT_EQ(ended.exit_code, 1);
@@ -431,7 +431,7 @@ TEST_F(Posts, RunTakesAFiveAxisProjectToAControllerWithItsAxesAlone) {
     EXPECT_THAT(ended.err, HasSubstr("the program moves A and B, but the machine has only X, Y and Z"));
     ended = run({"run", project, "--driver", "grbl", "--post", "grbl", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves X Y Z only"));
+    EXPECT_THAT(ended.err, HasSubstr("Grbl 1.1 moves only X Y Z"));
     ended = run({"run", project, "--driver", "grbl"});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_THAT(ended.err, HasSubstr("the grbl driver needs a port (give --port)"));

@@ -162,7 +162,7 @@ TEST_F(Send, NamesTheProgramThatHoldsTheSerialPort) {
     const Ended second = run(words());
     EXPECT_EQ(second.exit_code, 1);
     EXPECT_THAT(second.err,
-                HasSubstr("another program holds the serial port: millwright (process " +
+                HasSubstr("another program is using the serial port: millwright (process " +
                           std::to_string(first.pid()) + ")"));
     first.send(SIGINT);
     EXPECT_EQ(first.end().exit_code, 1);
@@ -516,7 +516,7 @@ TEST_F(Send, EmulatesNothingThatNobodyCouldReach) {
     EXPECT_EQ(run({"emulate", "grbl", "--tcp", "70000"}).exit_code, 2);
     const Ended ended = run({"emulate", "grbl", "--pty", port, "--faults", "rust=1"});
     EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_THAT(ended.err, HasSubstr("there is no fault 'rust'"));
+    EXPECT_THAT(ended.err, HasSubstr("unknown fault 'rust'"));
 }
 
 TEST_F(Send, ChecksTheTravelInTheModesThatTheControllerIsIn) {

@@ -204,7 +204,7 @@ TEST(StudyCommand, SaysThatAPartLargerThanTheMachineIsOutOfReach) {
     const Ended ended = set_up_study(scratch, project, scratch / "there.json");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("does not reach the whole part from any place that was searched (a "),
+                AllOf(HasSubstr("cannot reach the whole part from any position in the search range (a "),
                       HasSubstr(" cannot be reached: axis Y would have to go to "),
                       HasSubstr("make the part smaller")));
     EXPECT_EQ(ended.out, "");

@@ -154,7 +154,7 @@ TEST(TableCommand, FilesLieWhereTheirOriginIs) {
     auto words = send_words("assets/samples/gcode/thesis-plate.ngc", port, folder);
     const Ended outside = run(words);
     EXPECT_EQ(outside.exit_code, 1);
-    EXPECT_THAT(outside.err, HasSubstr("axis X would go to -7.000"));
+    EXPECT_THAT(outside.err, HasSubstr("axis X would move to -7.000"));
     words.insert(words.end(), {"--origin", "10,20"});
     const Ended inside = run(words);
     EXPECT_EQ(inside.exit_code, 0) << inside.err;

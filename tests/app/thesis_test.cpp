@@ -246,7 +246,7 @@ TEST(ThesisCommand, RefusesAStartGridThatIsNone) {
                             "--out",
                             scratch / "o.dat"});
     EXPECT_EQ(bent.exit_code, 1);
-    EXPECT_THAT(bent.err, HasSubstr("track 1 of the start grid is not straight"));
+    EXPECT_THAT(bent.err, HasSubstr("track 1 of the start grid, counted from 0, is not straight"));
     write_content(scratch / "source", "0 0\n1 1\n");
     EXPECT_EQ(with_start("nodes").exit_code, 1);
     const Ended no_method =
@@ -314,7 +314,7 @@ TEST(ThesisCommand, WritesTheFilesOfTheProjectsOwnMachineAndDirection) {
     EXPECT_NE(path({"--direction", "along-u"}), own);
     json["machine"]["workpiece_offset"] = {-15.0, 0.0, 100.0};
     written();
-    EXPECT_NE(path({}), own) << "another place of the part";
+    EXPECT_NE(path({}), own) << "another position of the part";
     json["machine"]["file"] = "ac-table";
     written();
     EXPECT_NE(path({}), own) << "another machine";

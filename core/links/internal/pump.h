@@ -52,7 +52,7 @@ public:
         }
         waiting_ += bytes;
         if (waiting_.size() > most_waiting) {
-            give_up("the other end takes no more bytes");
+            give_up("the other end accepts no more data");
             return;
         }
         boost::asio::post(context_, [this] { write_more(); });
@@ -110,7 +110,7 @@ private:
 
     /// Asio says "End of file" where nothing is a file.
     [[nodiscard]] static std::string reason_of(const boost::system::error_code& failure) {
-        return failure == boost::asio::error::eof ? "the other end closed it" : failure.message();
+        return failure == boost::asio::error::eof ? "the other end closed the connection" : failure.message();
     }
 
     void read_more() {

@@ -40,7 +40,7 @@ public:
     }
     [[nodiscard]] std::optional<std::string> lost() const {
         const auto pump = now();
-        return pump ? pump->lost() : std::optional<std::string>("it is not open");
+        return pump ? pump->lost() : std::optional<std::string>("the port is not open");
     }
     [[nodiscard]] std::string first_line() const {
         const auto pump = now();

@@ -12,7 +12,7 @@ namespace millwright::plan {
 
 /// What a person is told about a failure that is ours, not theirs.
 [[nodiscard]] inline Diagnostic internal_failure(const std::exception& failure) {
-    return {{}, fmt::format("internal error: {}", failure.what()), "please report it with the file"};
+    return {{}, fmt::format("internal error: {}", failure.what()), "report it together with the file"};
 }
 
 /// Runs `work`; gives what went wrong, if anything did. Cancelled goes through.

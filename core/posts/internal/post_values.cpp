@@ -22,8 +22,8 @@ void check_placeholders(const JsonValue& value,
         const std::string word = text.substr(at + 1, end - at - 1);
         if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
             const std::string known = allowed.size() == 0
-                                          ? std::string("nothing is filled in here")
-                                          : fmt::format("known here: {}", fmt::join(allowed, ", "));
+                                          ? std::string("no placeholders are allowed here")
+                                          : fmt::format("allowed here: {}", fmt::join(allowed, ", "));
             value.fail(fmt::format("unknown placeholder {{{}}}", word), known);
         }
         at = end + 1;
@@ -36,10 +36,10 @@ std::string text_of(const JsonValue& value) {
     std::string text = value.text();
     const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
     if (!std::all_of(text.begin(), text.end(), printable)) {
-        value.fail("a text of a program is of printable ASCII characters");
+        value.fail("a program text must consist of printable ASCII characters");
     }
     if (text.size() > longest_text) {
-        value.fail(fmt::format("a text has at most {} characters", longest_text));
+        value.fail(fmt::format("a text can have at most {} characters", longest_text));
     }
     return text;
 }
@@ -55,11 +55,11 @@ Lines lines(const JsonValue& value, std::initializer_list<std::string_view> allo
     for (const JsonValue& item : value.items()) {
         result.push_back(pattern(item, allowed));
         if (result.back().empty()) {
-            item.fail("a line that is empty says nothing");
+            item.fail("a line must not be empty");
         }
     }
     if (std::ssize(result) > most_lines) {
-        value.fail(fmt::format("at most {} lines", most_lines));
+        value.fail(fmt::format("at most {} lines are allowed", most_lines));
     }
     return result;
 }

@@ -30,7 +30,7 @@ template <class Choice> Choice choice(const JsonValue& value, Names<Choice> name
         }
         known.push_back(name);
     }
-    value.fail(fmt::format("'{}' is none of: {}", text, fmt::join(known, ", ")));
+    value.fail(fmt::format("'{}' must be one of: {}", text, fmt::join(known, ", ")));
 }
 
 /// A text whose {words} are all in `allowed`, every brace belonging to one.

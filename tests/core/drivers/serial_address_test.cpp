@@ -43,7 +43,7 @@ TEST(SerialAddress, ReadsRateAndFrameAndWritesThemBack) {
     }
     EXPECT_EQ(to_text(odd.line), "19200 baud, 7O2");
     EXPECT_THAT(test::reason([] { (void)make_link("/dev/ttyS0,9601"); }),
-                HasSubstr("9601 baud is no rate of serial ports"));
+                HasSubstr("9601 baud is not a supported rate"));
     EXPECT_FALSE(is_serial_address("tcp:127.0.0.1:2300"));
 }
 
@@ -58,14 +58,14 @@ TEST(SerialAddress, WhatIsNeitherRateNorFrameIsNoPath) {
                              "/dev/ttyUSB0,9600baud",
                              "/dev/ttyUSB0,"}) {
         EXPECT_THAT(test::reason([&] { (void)make_link(text); }),
-                    HasSubstr("behind the port is neither a rate nor a frame"))
+                    HasSubstr("after the port is neither a rate nor a frame"))
             << text;
     }
     EXPECT_THAT(test::reason([] { (void)make_link("/dev/ttyUSB0,9600,8X1"); }),
-                HasSubstr("'9600,8X1' behind"));
+                HasSubstr("'9600,8X1' after"));
     for (const char* text : {",9600,8N3", ",9600,8N1", ",9600"}) {
         EXPECT_THAT(test::reason([&] { (void)make_link(text); }),
-                    HasSubstr("there is no serial port before the comma"))
+                    HasSubstr("the serial port before the comma is missing"))
             << text;
     }
 }
@@ -135,7 +135,7 @@ TEST(SerialAddress, WhatAPortDoesNotTakeIsRefused) {
     terminal.open();
     const std::string path = terminal.path().string();
     EXPECT_THAT(test::reason([&] { make_link(path + ",9600,8E1")->open(); }),
-                HasSubstr("the serial port does not take 9600 baud, 8E1"));
+                HasSubstr("the serial port does not support 9600 baud, 8E1"));
 }
 
 TEST(SerialAddress, PointsThatTheLineCannotCarryInTimeAreRefused) {

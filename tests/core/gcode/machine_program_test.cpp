@@ -207,8 +207,8 @@ TEST(MachineProgram, SaysWhereItLeavesTheTravelAndGoesThere) {
     EXPECT_EQ(to_text(made.faults[0]), "part.ngc:7:4: the machine 'XYZ router' has no axis A");
     ASSERT_EQ(made.beyond_travel.size(), 2U);
     EXPECT_THAT(to_text(made.beyond_travel[0]),
-                HasSubstr("part.ngc:4:9: axis X would go to 5000.000, outside "));
-    EXPECT_THAT(to_text(made.beyond_travel[1]), HasSubstr("part.ngc:6:7: axis Y would go to "));
+                HasSubstr("part.ngc:4:9: axis X would move to 5000.000, outside "));
+    EXPECT_THAT(to_text(made.beyond_travel[1]), HasSubstr("part.ngc:6:7: axis Y would move to "));
     EXPECT_EQ(moves_of(made).at(1).target[0], 5000.0);
 }
 

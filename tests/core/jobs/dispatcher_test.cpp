@@ -288,7 +288,7 @@ TEST(Dispatcher, MovesNothingIfThePreflightFindsSomething) {
         (void)bench.dispatcher.run(test::job_of(program), {});
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("axis Y would go to 10000.000"));
+        EXPECT_THAT(error.what(), HasSubstr("axis Y would move to 10000.000"));
         EXPECT_THAT(error.what(), HasSubstr("; and 1 more"));
         EXPECT_THAT(error.diagnostic().message, HasSubstr("; and 1 more")); // not in the advice
     }

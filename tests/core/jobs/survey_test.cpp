@@ -52,7 +52,7 @@ TEST(Survey, SaysWhatStandsAgainstAProgram) {
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].place.line, 3);
     EXPECT_THAT(faults[0].message,
-                HasSubstr("axis X would go to 3.000 mm in machine coordinates, outside -200.000"));
+                HasSubstr("axis X would move to 3.000 mm in machine coordinates, outside -200.000"));
     EXPECT_TRUE(faults_of(found, {}, "a.ngc").empty());
 }
 

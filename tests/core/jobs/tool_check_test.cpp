@@ -133,7 +133,7 @@ TEST(ToolCheck, RefusesWhatItCouldNotComeBackFrom) {
     EXPECT_THAT(faults(job_of(two_tools), doubted),
                 HasSubstr("needs a verified position: the controller was reset"));
     EXPECT_THAT(faults(job_of(two_tools), machine_at_rest(), homed(), 3.0),
-                HasSubstr("a tool length offset of 3.000 mm is in force"));
+                HasSubstr("a tool length offset of 3.000 mm from an earlier tool is active"));
     EXPECT_THAT(faults(job_of(two_tools), machine_at_rest(), homed(), 0.0, true), HasSubstr("laser mode"));
     EXPECT_EQ(faults(job_of("G21 G90\nG0 X5\nM30\n"), doubted), "") << "it changes no tool";
 }
@@ -142,12 +142,12 @@ TEST(ToolCheck, CoversTheWayToTheSensor) {
     EXPECT_EQ(faults(job_of(two_tools, drivers::ToolChangeWay::probe)), "");
     Job job = job_of(two_tools, drivers::ToolChangeWay::probe);
     job.tool_change->sensor.x = 3.0;
-    EXPECT_THAT(faults(job), HasSubstr("the tool sensor's X 3.000 lies outside -300.000 ... 0.000"));
+    EXPECT_THAT(faults(job), HasSubstr("the tool sensor's X 3.000 is outside -300.000 ... 0.000"));
     job.tool_change->sensor.x = job.tool_change->sensor.y = 0.0;
     EXPECT_THAT(faults(job), HasSubstr("the position of the tool sensor is not set"));
     job.tool_change->sensor.x = -3.0;
     job.tool_change->sensor.deepest_z = -95.0;
-    EXPECT_THAT(faults(job), HasSubstr("the tool sensor's Z -95.000 lies outside"));
+    EXPECT_THAT(faults(job), HasSubstr("the tool sensor's Z -95.000 is outside"));
     job.tool_change->sensor.deepest_z = -1.0;
     EXPECT_THAT(faults(job), HasSubstr("is not below the travel height"));
     EXPECT_THAT(
@@ -169,7 +169,7 @@ TEST(ToolCheck, ReadsTheMacroBeforeTheJob) {
     job.tool_change->macro = "G43 H1\n";
     EXPECT_THAT(faults(job), HasSubstr("change.nc:1"));
     job.tool_change->macro = "G53 G0 Z-1\nG53 G0 X-310\n";
-    EXPECT_THAT(faults(job), HasSubstr("change.nc:2: axis X would go to -310.000 mm"));
+    EXPECT_THAT(faults(job), HasSubstr("change.nc:2: axis X would move to -310.000 mm"));
     job.tool_change->macro = "M30\n";
     EXPECT_THAT(faults(job), HasSubstr("hold M30"));
 }

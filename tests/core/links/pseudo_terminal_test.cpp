@@ -106,10 +106,9 @@ TEST(PseudoTerminal, LeavesALinkToAnotherThatLives) {
             second.open();
             ADD_FAILURE() << "the link was taken over";
         } catch (const Error& error) {
-            EXPECT_THAT(
-                to_text(error.diagnostic()),
-                testing::AllOf(testing::HasSubstr(first.path().string()),
-                               testing::HasSubstr("(process " + std::to_string(::getpid()) + ") holds")));
+            EXPECT_THAT(to_text(error.diagnostic()),
+                        testing::AllOf(testing::HasSubstr(first.path().string()),
+                                       testing::HasSubstr("(process " + std::to_string(::getpid()) + ")")));
         }
     }
     EXPECT_EQ(std::filesystem::read_symlink(path), first.path());
@@ -143,7 +142,7 @@ TEST(SerialLink, IsForOneProgramAtATime) {
         ADD_FAILURE() << "a second one came in";
     } catch (const Error& error) { // no other program has it
         EXPECT_EQ(error.diagnostic().message,
-                  "the serial port is held already, and the system does not tell by whom");
+                  "the serial port is in use, but the system does not report by which program");
     }
     first.close();
     second.open();

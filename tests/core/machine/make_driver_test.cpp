@@ -73,7 +73,7 @@ TEST(MakeDriver, RefusesWhatItCannotMake) {
     SteadyClock clock;
     for (const DriverKind kind : {DriverKind::grbl, DriverKind::linuxcnc, DriverKind::stream}) {
         EXPECT_THAT(driver_refusal([&] { (void)make_driver(choice_of(kind), router_and_arm(), clock); }),
-                    HasSubstr("no port is named"));
+                    HasSubstr("no port is specified"));
     }
     for (const DriverKind kind : {DriverKind::virtual_machine, DriverKind::stream, DriverKind::cordic}) {
         const DriverChoice choice = choice_of(kind, "tcp:127.0.0.1:9");

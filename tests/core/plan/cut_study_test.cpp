@@ -94,8 +94,8 @@ TEST(CutStudy, TheMeanOfWhatIsLeftIsOfPointsThatAreNotTooDeep) {
                     left / static_cast<double>(plan.cut->swept.heights.size()),
                 1.0,
                 1e-12);
-    EXPECT_THAT(left_text(project, plan), testing::HasSubstr("% cut too deep"));
-    EXPECT_THAT(checked_text(project), testing::HasSubstr("only this face was looked at"));
+    EXPECT_THAT(left_text(project, plan), testing::HasSubstr("% gouged"));
+    EXPECT_THAT(checked_text(project), testing::HasSubstr("only this face was checked"));
 }
 
 /// The two bells stand on a ground that they meet in valleys: a thick ball does not fit there, a thin one
@@ -183,7 +183,7 @@ TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
 
     project.surface = project::project_from_preset("two-bell").surface;
     const Plan bent = studied_cut(project, tool); // moves of 20 mm over the bells
-    EXPECT_THAT(why_higher(project, bent), testing::HasSubstr("5 points a track are too few, about "));
+    EXPECT_THAT(why_higher(project, bent), testing::HasSubstr("5 points per track are too few; about "));
     const auto report = nlohmann::json::parse(cut_report_text(project, bent));
     EXPECT_EQ(report.at("scallop_mm").at("wanted"), 0.1);
     EXPECT_EQ(report.at("scallop_mm").at("why_higher"), why_higher(project, bent));
@@ -227,8 +227,7 @@ TEST(CutStudy, AsksForNoMorePointsThanAGridMayHave) {
     Plan plan = studied_cut(project, tool);
     tool.scallop_mm = project.tool.scallop_mm = 1e-3; // the tracks for it would take minutes
     project.tool = tool;
-    EXPECT_THAT(why_higher(project, plan),
-                testing::HasSubstr("with 1000 points a track, the most there can be"));
+    EXPECT_THAT(why_higher(project, plan), testing::HasSubstr("with 1000 points per track, the maximum"));
 }
 
 /// Where a part of a track was done before the rest, the next track has nothing beside it.
@@ -296,7 +295,7 @@ TEST(CutStudy, WhereAllIsCutTheHighestThatIsLeftIsTold) {
     ASSERT_EQ(plan.cut->scallops.not_cut, 0.0);
     EXPECT_FALSE(left_at_least(plan));
     EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("at most "));
-    EXPECT_THAT(left_text(project, plan), ::testing::EndsWith("; 0.00 % not cut"));
+    EXPECT_THAT(left_text(project, plan), ::testing::EndsWith("; 0.00 % not machined"));
 }
 
 /// Tracks with points that the sequencing put in: the gap is still that of the tracks.

@@ -29,15 +29,15 @@ TEST(GougeText, NamesTheDeepestLineOfCutterAndHolder) {
     CutStudy cut;
     cut.bites = {bite(20, 0.5), bite(31, 10.2421), bite(40, 0.75)};
     EXPECT_EQ(gouge_text(project, cut),
-              "the cutter goes up to 10.2421 mm below the surface, where 0.25 mm are allowed (3 blocks, the "
+              "the cutter goes up to 10.2421 mm below the surface; the limit is 0.25 mm (3 blocks, the "
               "deepest in line 31)" +
                   checked);
     cut.bites.push_back(bite(52, 1.5, true));
-    EXPECT_EQ(gouge_text(project, cut),
-              "the cutter goes up to 10.2421 mm below the surface, where 0.25 mm are allowed (3 blocks, the "
-              "deepest in line 31); the holder goes up to 1.5000 mm into the part (1 block, the deepest in "
-              "line 52)" +
-                  checked);
+    EXPECT_EQ(
+        gouge_text(project, cut),
+        "the cutter goes up to 10.2421 mm below the surface; the limit is 0.25 mm (3 blocks, the deepest in "
+        "line 31); the holder penetrates the part by up to 1.5000 mm (1 block, the deepest in line 52)" +
+            checked);
 }
 
 } // namespace

@@ -137,7 +137,7 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
     for (const project::GridMethod method : {project::GridMethod::elliptic, project::GridMethod::harmonic}) {
         const auto fault = memory_fault(method, input, little);
         ASSERT_TRUE(fault);
-        EXPECT_THAT(fault->message, HasSubstr("more than half of the 100 MB that are free"));
+        EXPECT_THAT(fault->message, HasSubstr("more than half of the 100 MB of free memory"));
         EXPECT_THAT(fault->hint, HasSubstr("--any-memory"));
     }
     const auto free = free_memory();
@@ -152,11 +152,11 @@ TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
     EXPECT_EQ(left_out_sentence(project), "");
     project.grid.nu = 501;
     const std::string why = left_out_sentence(project);
-    EXPECT_EQ(
-        why,
-        "Not made to compare with, since 501 x 500 nodes are more than 250,000: Elliptic, Track optimiser.");
+    EXPECT_EQ(why,
+              "Not computed for comparison because 501 x 500 nodes are more than 250,000: Elliptic, Track "
+              "optimiser.");
     EXPECT_THAT(memory_sentences(project, Scope::everything),
-                testing::ElementsAre("Path, program and motion of 250500 points take about 1.0 GB."));
+                testing::ElementsAre("The path, program and motion of 250500 points need about 1.0 GB."));
     const Plan plan = make_plan(project, sample_folders, Progress());
     EXPECT_FALSE(plan.elliptic || plan.optimised);
     EXPECT_TRUE(plan.trajectory);
@@ -171,10 +171,9 @@ TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
 TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
     project::Project project = small_sample("dome", 500);
     project.grid.method = project::GridMethod::harmonic;
-    EXPECT_THAT(
-        memory_sentences(project, Scope::program),
-        testing::ElementsAre(testing::MatchesRegex("The harmonic map of 500 x 500 nodes takes at most "
-                                                   "[0-9]+ MB\\.")));
+    EXPECT_THAT(memory_sentences(project, Scope::program),
+                testing::ElementsAre(
+                    testing::MatchesRegex("The harmonic map of 500 x 500 nodes needs up to [0-9]+ MB\\.")));
     EXPECT_EQ(memory_sentences(project, Scope::everything).size(), 2U);
     project.grid.method = project::GridMethod::tracks;
     EXPECT_TRUE(memory_sentences(project, Scope::program).empty());
@@ -219,7 +218,7 @@ TEST(Plan, BadInputIsNamed) {
             project.surface.patches[0].point(i, j) = {loop[static_cast<std::size_t>(i)], 40.0 * j, z};
         }
     }
-    EXPECT_THAT(failure_of(project), HasSubstr("the surface touches itself or passes through itself"));
+    EXPECT_THAT(failure_of(project), HasSubstr("the surface touches or intersects itself"));
     for (int i = 0; i < 4; ++i) { // a sheet whose last row is in reverse order
         for (int j = 0; j < 4; ++j) {
             const double y = i == 3 ? 30.0 * (3 - j) : 30.0 * j;

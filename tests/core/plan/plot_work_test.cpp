@@ -249,7 +249,7 @@ TEST(PlotWork, ToolsAreChangedAtAPlaceOfTheMachine) {
         const auto now = derived(input);
         return std::ranges::any_of(now->notices, [](const Diagnostic& notice) {
             return notice.message ==
-                   "tools are changed at Z 5 mm, the safe height: Tool change Z, 4 mm, is below it";
+                   "tools are changed at Z 5 mm, the safe height, because Tool change Z, 4 mm, is below it";
         });
     };
     EXPECT_FALSE(says_raised());

@@ -14,10 +14,9 @@ TEST(SetUpEdge, ABestPlaceAtTheEdgeOfWhatWasSearchedSaysSo) {
     within.least = {-60.0, -60.0, 45.0, -1.0};
     within.most = {60.0, 60.0, 205.0, 1.0};
     search.best.place = {10.0, 20.0, 204.9, 0.3};
-    EXPECT_EQ(
-        edge_sentence(search, within, names),
-        "The best place is at the edge of what was searched: c (of c). A wider search may find a better "
-        "one.");
+    EXPECT_EQ(edge_sentence(search, within, names),
+              "The best position is at the edge of the search range: c (of c). A wider search range may give "
+              "a better one.");
     search.best.place = {-60.0, 20.0, 120.0, -1.0};
     EXPECT_NE(edge_sentence(search, within, names).find(": a (of a), turn (of the turn)."),
               std::string::npos);

@@ -70,8 +70,8 @@ TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
         FAIL() << "nothing thrown";
     } catch (const Error& error) {
         EXPECT_THAT(error.diagnostic().message,
-                    AllOf(HasSubstr("from any place that was searched (a -1060.0 ... -940.0 mm, b "),
-                          HasSubstr("; where the part stands, path point "),
+                    AllOf(HasSubstr("from any position in the search range (a -1060.0 ... -940.0 mm, b "),
+                          HasSubstr("; at the current position, path point "),
                           HasSubstr(" cannot be reached: axis Y would have to go to "),
                           HasSubstr(", outside -500.000 ... 500.000 mm")));
         EXPECT_NE(error.diagnostic().hint, "");

@@ -215,7 +215,7 @@ TEST(StrategyPath, ASequencingThatMakesNoFigureOfThePromiseWorseIsNotBlamed) {
     EXPECT_EQ(sequencing_remark(project, plan), "");
     longer.closest.mean = 1.1 * plan.uniform->closest.mean;
     plan.optimised = std::make_shared<const Evaluation>(longer);
-    EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("mean by length"));
+    EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("length-weighted mean"));
 }
 
 TEST(StrategyPath, CancelStopsItAtOnce) {

@@ -86,7 +86,7 @@ TEST(GaugeLength, StandsInTheReport) {
     const auto report = nlohmann::json::parse(plan::report_text(project, plan));
     EXPECT_EQ(report.at("tool").at("assumed_gauge_length_mm"), 90.0);
     EXPECT_THAT(report.at("tool").at("assumed_length"), HasSubstr("50 mm longer"));
-    EXPECT_THAT(report.at("cut").at("checked"), HasSubstr("only this face was looked at"));
+    EXPECT_THAT(report.at("cut").at("checked"), HasSubstr("only this face was checked"));
 }
 
 } // namespace

@@ -50,10 +50,9 @@ TEST(PreparedProgram, IsRefusedWhereTheControlLacksAnAxis) {
         (void)prepare(program, machine, post("grbl"));
         FAIL() << "Grbl has no rotary axes";
     } catch (const Error& error) {
-        EXPECT_STREQ(
-            error.what(),
-            "Grbl 1.1 moves X Y Z only, and the program for 'A-on-C table' also moves A C (choose a post "
-            "for a control with these axes)");
+        EXPECT_STREQ(error.what(),
+                     "Grbl 1.1 moves only X Y Z, but the program for 'A-on-C table' also moves A C (choose a "
+                     "post for a control with these axes)");
     }
 }
 
@@ -232,7 +231,7 @@ TEST(PreparedProgram, SaysWhichLineNoNumberOfPiecesKeepsNearEnough) {
         FAIL() << "no digits are so fine";
     } catch (const Error& error) {
         EXPECT_EQ(error.diagnostic().place.line, 7);
-        EXPECT_THAT(error.what(), testing::HasSubstr("the tip still leaves the way of straight axes"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("the tip deviates by"));
     }
 }
 

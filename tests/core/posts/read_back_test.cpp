@@ -260,7 +260,7 @@ TEST(ReadBack, NamesLineBlockAndBothValues) {
     lines[n][at] = lines[n][at] == '9' ? '0' : static_cast<char>(lines[n][at] + 1);
     const std::string verdict = now.verdict(lines);
     EXPECT_THAT(verdict, HasSubstr("part:" + std::to_string(n + 1) + ": block "));
-    EXPECT_THAT(verdict, HasSubstr(" in the text and "));
+    EXPECT_THAT(verdict, HasSubstr(" in the text, but "));
     EXPECT_THAT(verdict, HasSubstr("it is not released"));
 }
 

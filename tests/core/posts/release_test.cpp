@@ -229,12 +229,12 @@ TEST(Release, RefusesWhatAControlCannotDo) {
     format = PostFormat{};
     format.lines.longest = 24;
     EXPECT_EQ(release_refusal(program_with_everything(machine), "router-xyz", format),
-              "block 8: its line would have 26 characters, and LinuxCNC takes 24");
+              "block 8: its line would have 26 characters, but LinuxCNC accepts only 24");
     format = post_named("grbl");
     program::Program program = test::empty_program(machine);
     test::add_move(program, kinematics::AxisPositions(Vec3(1.0, 0.0, 0.0)), 1e5);
     EXPECT_EQ(release_refusal(program, "router-xyz", format),
-              "block 1: its feed, mm per minute, is too small to be written");
+              "block 1: its feed rate, mm per minute, is too small to be written");
 }
 
 TEST(Release, RefusesALineThatTheControlDoesNotKnow) {

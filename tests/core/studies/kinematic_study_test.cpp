@@ -88,7 +88,7 @@ TEST(KinematicStudy, TheChainEndsWithTheBestGridOfAll) {
     }
     EXPECT_GE(compared, 2);
     EXPECT_THAT(row_of_method(rows, StudyMethod::chain).note,
-                HasSubstr("On the finished part no link of the chain"));
+                HasSubstr("On the finished part no stage of the chain"));
 }
 
 TEST(KinematicStudy, TheDomeFarFromTheAxisGainsByItsSetUp) {

@@ -166,7 +166,7 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     ASSERT_TRUE(bench.person.live_until(cuts, 60.0)) << table.position()[0];
     // The port is the table's while it plays, and anybody's afterwards.
     const std::unique_ptr<links::Link> anybody = links::make_link(table.port());
-    EXPECT_THAT(test::reason([&] { anybody->open(); }), HasSubstr("held already"));
+    EXPECT_THAT(test::reason([&] { anybody->open(); }), HasSubstr("in use, but the system does not report"));
     bench.person.click("lower/plot_stop_table");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
     EXPECT_NO_THROW(anybody->open());

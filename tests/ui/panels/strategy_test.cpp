@@ -75,7 +75,7 @@ TEST_F(Strategies, WhatACoarseSpiralSaysOfItsGridIsSoFar) {
     person_.wait_idle();
     actions::Workbench now = person_.workshop().look();
     const std::string exact = grid_note(now);
-    ASSERT_THAT(exact, EndsWith("which is kept."));
+    ASSERT_THAT(exact, EndsWith("so the uniform grid is kept."));
     plan::PublishedPlan plan = *now.plan;
     plan::Evaluation coarse = *plan.plan.path;
     coarse.outcome.status = grid::ImproverStatus::running;

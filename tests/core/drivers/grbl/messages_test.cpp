@@ -94,7 +94,7 @@ TEST(GrblCodes, ExplainEveryErrorAndAlarm) {
     EXPECT_EQ(grbl_alarms().size(), 9u);
     for (int number = 1; number <= 38; ++number) {
         const bool gap = number == 18 || number == 19;
-        EXPECT_EQ(explain_grbl_error(number).find("does not have") != std::string::npos, gap) << number;
+        EXPECT_EQ(explain_grbl_error(number).find("does not define") != std::string::npos, gap) << number;
     }
     for (int number = 1; number <= 9; ++number) {
         EXPECT_THAT(explain_grbl_alarm(number), testing::MatchesRegex("alarm [1-9]: [a-z].* \\(.*\\)"));

@@ -205,7 +205,7 @@ TEST(PmacHostPortP1, SaysThatNoCardIsThereOrThatItTakesNothing) {
     Linked gone;
     gone.registers->port = nullptr;
     EXPECT_EQ(gone.link->read(), "");
-    EXPECT_THAT(gone.link->lost().value_or(""), HasSubstr("no card answers any more"));
+    EXPECT_THAT(gone.link->lost().value_or(""), HasSubstr("the card no longer answers"));
 
     struct Busy final : links::PortRegisters {
         [[nodiscard]] std::string name() const override { return "busy"; }
@@ -226,8 +226,8 @@ TEST(PmacHostPortP1, SaysThatNoCardIsThereOrThatItTakesNothing) {
 TEST(PmacHostPortP1, AnAddressNamesIt) {
     EXPECT_EQ(links::make_link("isa:0x210")->name(), "isa:0x210");
     EXPECT_EQ(links::make_link("isa:528")->name(), "isa:0x210");
-    EXPECT_THAT(reason([] { (void)links::make_link("isa:nowhere"); }), HasSubstr("no address"));
-    EXPECT_THAT(reason([] { (void)links::make_link("isa:0x10000"); }), HasSubstr("no address"));
+    EXPECT_THAT(reason([] { (void)links::make_link("isa:nowhere"); }), HasSubstr("not a valid address"));
+    EXPECT_THAT(reason([] { (void)links::make_link("isa:0x10000"); }), HasSubstr("not a valid address"));
 }
 
 } // namespace
