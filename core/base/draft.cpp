@@ -121,7 +121,7 @@ void refuse_planted_links(const fs::path& target) {
         }
         if (is_planted(next)) {
             throw Error("cannot write: " + next.string() +
-                            " is a link of another user in a folder in which others may write",
+                            " is a link of another user in a folder that others can write to",
                         target);
         }
         const fs::path to = fs::read_symlink(next, none);
@@ -154,7 +154,7 @@ Draft::Draft(const fs::path& target, Privacy privacy) : target_(resolved(target)
     }
     constexpr mode_t anybody_writes = S_IWUSR | S_IWGRP | S_IWOTH;
     if (replaces_ && (old.st_mode & anybody_writes) == 0) {
-        throw Error("cannot write: the file is write-protected", target_, "give it another name");
+        throw Error("cannot write: the file is write-protected", target_, "use another name");
     }
     if (replaces_ && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) {
         fail();

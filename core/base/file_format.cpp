@@ -17,13 +17,14 @@ struct KnownFormat {
 };
 
 constexpr std::array known_formats{
-    KnownFormat{"millwright-project", "a project file", "give it as PROJECT"},
-    KnownFormat{"millwright-machine",
-                "a machine file",
-                "a project names it in its machine, some commands take it as --machine"},
-    KnownFormat{"millwright-arm", "an arm file", "give it as --arm"},
-    KnownFormat{"millwright-tool", "a tool file", "give it as --tool"},
-    KnownFormat{"millwright-post", "a post file", "give it as --post"},
+    KnownFormat{"millwright-project", "a project file", "use it as PROJECT"},
+    KnownFormat{
+        "millwright-machine",
+        "a machine file",
+        "name it as the machine of a project, or use it as --machine where a command has this option"},
+    KnownFormat{"millwright-arm", "an arm file", "use it as --arm"},
+    KnownFormat{"millwright-tool", "a tool file", "use it as --tool"},
+    KnownFormat{"millwright-post", "a post file", "use it as --post"},
 };
 
 } // namespace

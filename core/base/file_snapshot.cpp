@@ -49,7 +49,7 @@ int nameless_file(const fs::path& original) {
     std::string name = (fs::temp_directory_path() / "millwright-XXXXXX").string();
     const int made = ::mkstemp(name.data());
     if (made < 0) {
-        fail("no copy can be made in the folder for temporary files", original);
+        fail("cannot create a copy in the temporary folder", original);
     }
     ::unlink(name.c_str());
     return made;
@@ -59,7 +59,7 @@ void write_all(int to, const char* bytes, std::size_t count, const fs::path& ori
     while (count > 0) {
         const ssize_t written = ::write(to, bytes, count);
         if (written < 0 && errno != EINTR) {
-            fail("its copy in the folder for temporary files cannot be written", original);
+            fail("cannot write the copy in the temporary folder", original);
         }
         const auto done = static_cast<std::size_t>(std::max<ssize_t>(written, 0));
         bytes += done;

@@ -37,7 +37,7 @@ std::string too_large_text(std::size_t most) {
     return "larger than " +
            (most % gibibyte == 0 ? std::to_string(most / gibibyte) + " GiB"
                                  : std::to_string(most / mebibyte) + " MiB") +
-           ", the most that is read";
+           ", the maximum that can be read";
 }
 
 std::string read_file(const fs::path& file, std::size_t most) {
@@ -125,7 +125,7 @@ void make_folder(const fs::path& folder) {
     std::error_code unknown; // as of a name too long, or below what may not be entered
     if (!fs::is_directory(folder, unknown)) {
         const std::string why = failure ? failure.message() : reason(ENOTDIR);
-        throw Error("cannot make the folder: " + why, folder);
+        throw Error("cannot create the folder: " + why, folder);
     }
 }
 

@@ -76,7 +76,7 @@ public:
         to_token();
         auto& keys = open_.back()->keys;
         if (std::find(keys.begin(), keys.end(), value) != keys.end()) {
-            throw Error(Diagnostic{here(), fmt::format("the field \"{}\" stands twice", value), {}});
+            throw Error(Diagnostic{here(), fmt::format("the field \"{}\" occurs twice", value), {}});
         }
         keys.push_back(value);
         return skip_string();
@@ -211,9 +211,9 @@ JsonValue JsonValue::read(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > most_bytes) {
-        throw Error(fmt::format("the file has {} MB, which is too large", bytes >> 20),
+        throw Error(fmt::format("the file is too large ({} MB)", bytes >> 20),
                     file,
-                    fmt::format("at most {} MB are read", most_bytes >> 20));
+                    fmt::format("the maximum is {} MB", most_bytes >> 20));
     }
     return parse(read_file(file), file);
 }

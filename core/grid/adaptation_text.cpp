@@ -27,16 +27,15 @@ std::string failure_sentence(SolverStatus status) {
     case SolverStatus::folded:
         return "a cell folded";
     case SolverStatus::singular:
-        return "a node's equations have no solution";
+        return "the equations of a node have no solution";
     default:
-        return "a number left the finite range";
+        return "a value is not finite";
     }
 }
 
 std::string mean_sentence(const ErrorSummary& error) {
-    return std::isfinite(error.mean)
-               ? "mean distance to the curve " + fixed(error.mean, shown_decimals) + " mm"
-               : "some moves are out of reach";
+    return std::isfinite(error.mean) ? "mean error " + fixed(error.mean, shown_decimals) + " mm"
+                                     : "some moves are out of reach";
 }
 
 std::string iteration_sentence(const ImproverState& state, int iteration) {
@@ -45,13 +44,12 @@ std::string iteration_sentence(const ImproverState& state, int iteration) {
 }
 
 std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance) {
-    return fmt::format(
-        "The solver did not converge: round {} ended after {} with the norm {:.3g}, and the tolerance "
-        "is {}.",
-        state.round,
-        counted(iterations, "iteration"),
-        state.norm,
-        shortest(tolerance));
+    return fmt::format("The solver did not converge: round {} ended after {} with a residual of {:.3g}; the "
+                       "tolerance is {}.",
+                       state.round,
+                       counted(iterations, "iteration"),
+                       state.norm,
+                       shortest(tolerance));
 }
 
 std::string refusals(const std::vector<double>& too_wide,
@@ -60,10 +58,12 @@ std::string refusals(const std::vector<double>& too_wide,
                      double gap_allowance) {
     const std::string wide = counted_below(too_wide,
                                            taken,
-                                           "for tracks more than " + shortest(100.0 * gap_allowance) +
-                                               " % farther apart than the start's");
-    const std::string worse = counted_below(
-        worse_elsewhere, taken, "for a larger error or tool axis somewhere on the path than the start has");
+                                           "because tracks are more than " + shortest(100.0 * gap_allowance) +
+                                               " % farther apart than in the start grid");
+    const std::string worse = counted_below(worse_elsewhere,
+                                            taken,
+                                            "because the error or the tool-axis deviation is larger "
+                                            "somewhere on the path than in the start grid");
     if (wide.empty() && worse.empty()) {
         return {};
     }
@@ -73,7 +73,7 @@ std::string refusals(const std::vector<double>& too_wide,
             least = std::min(least, mean);
         }
     }
-    return ". Grids with a smaller mean distance to the curve, down to " + fixed(least, shown_decimals) +
+    return ". Grids with a smaller mean error, down to " + fixed(least, shown_decimals) +
            " mm, were refused: " + wide + (wide.empty() || worse.empty() ? "" : ", ") + worse;
 }
 

@@ -65,7 +65,7 @@ std::string found_by(const std::vector<ImproverLink>& links, const ErrorSummary&
     const auto link = std::ranges::find_if(
         links, [&](const ImproverLink& l) { return exactly_equal(score(l.of_best), score(best)); });
     return link == links.end() ? std::string()
-                               : fmt::format("The best grid of the link \"{}\" is kept", link->name);
+                               : fmt::format("The best grid of the stage \"{}\" is kept", link->name);
 }
 
 /// Why the start stands after `links`, each reason once; whether links were taken until their paths as they
@@ -73,15 +73,15 @@ std::string found_by(const std::vector<ImproverLink>& links, const ErrorSummary&
 std::string none_taken(const std::vector<ImproverLink>& links, bool worse_as_run) {
     std::vector<std::string> reasons;
     for (auto link = links.begin() + 1; link != links.end(); ++link) { // behind the start's own
-        const std::string why = link->refused.empty() ? "no better than the start" : link->refused;
+        const std::string why = link->refused.empty() ? "no better than the start grid" : link->refused;
         if (!(worse_as_run && link->refused.empty()) && std::ranges::count(reasons, why) == 0) {
             reasons.push_back(why);
         }
     }
     if (worse_as_run) {
-        reasons.emplace_back("a path that is worse than the start's as it is run");
+        reasons.emplace_back("a worse path than the start grid when it is run");
     }
-    return fmt::format("No link was taken, the start is kept: {}", fmt::join(reasons, "; "));
+    return fmt::format("No stage was accepted, so the start grid is kept: {}", fmt::join(reasons, "; "));
 }
 
 } // namespace
@@ -118,11 +118,11 @@ bool ChainOptimiser::advance(const Progress& progress) {
 }
 
 void ChainOptimiser::measure_start(const Progress& progress) {
-    progress.report(0.0, "Measuring the start");
+    progress.report(0.0, "Measuring the start grid");
     const ErrorSummary found = summary(measure(model_, state_.best, direction_, fine, progress));
     widest_gap_mm_ = (1.0 + settings_.tracks.gap_allowance) * model_.track_gap(state_.best, direction_);
     state_.start = state_.now = state_.of_best = found;
-    state_.note = "Start measured";
+    state_.note = "Start grid measured";
     state_.links.push_back({"start", found, found, {}});
     bests_.front().reached = found;
     state_.done = start_measured;
@@ -134,13 +134,13 @@ std::string ChainOptimiser::fault_of(const Grid& grid) const {
     const ErrorSummary& now = state_.now;
     const ErrorSummary& start = state_.start;
     if (!(now.max <= start.max + negligible_mm)) {
-        return "a larger error than at the start";
+        return "a larger error than the start grid";
     }
     if (!(now.mean <= start.mean + negligible_mm && now.lmean <= start.lmean + negligible_mm)) {
-        return "a larger mean error than at the start";
+        return "a larger mean error than the start grid";
     }
     if (!(now.axis_max <= start.axis_max + negligible_rad)) {
-        return "the tool axis further off than at the start";
+        return "a larger tool-axis deviation than the start grid";
     }
     return model_.track_gap(grid, direction_) > widest_gap_mm_ ? "tracks too far apart" : std::string();
 }
@@ -150,7 +150,7 @@ std::string ChainOptimiser::fault_of(const Grid& grid) const {
 std::string ChainOptimiser::consider(const NodeArray& nodes, const Progress& progress) {
     state_.current = nodes;
     if (!(min_corner_jacobian(nodes) >= settings_.least_jacobian)) {
-        return "a cell that nearly folds";
+        return "a nearly folded cell";
     }
     const Grid grid(nodes);
     state_.now = summary(measure(model_, grid, direction_, fine, progress));
@@ -188,7 +188,7 @@ void ChainOptimiser::optimise_tracks(const Progress& progress) {
 /// A price on the tool axis is not free: the tip pays it. It is asked only where the promise needs it, and
 /// the start's own tracks with their best nodes come last.
 void ChainOptimiser::choose_tracks(const Progress& progress) {
-    progress.report(0.0, "Measuring the candidates for tracks");
+    progress.report(0.0, "Measuring the candidate tracks");
     optimise_tracks(progress.part(0.0, 0.1));
     const int a_gap = settings_.candidates_a_gap;
     const TrackCandidates candidates(model_, start_, a_gap, settings_.tracks, progress.part(0.1, 0.5));
@@ -211,7 +211,7 @@ bool ChainOptimiser::choose_with_axis_priced(const Progress& progress) {
     }
     const TrackCandidates candidates(
         model_, start_, settings_.candidates_a_gap, priced, progress.part(0.0, 0.85));
-    if (!choose_by_cost("best tracks and nodes, the axis priced", candidates, progress.part(0.85, 1.0))) {
+    if (!choose_by_cost("best tracks and nodes, with axis weight", candidates, progress.part(0.85, 1.0))) {
         return false;
     }
     moving_price_ = moving_price;
@@ -340,7 +340,7 @@ void ChainOptimiser::descend(const Progress& progress) {
 /// Near singular points the error has ridges, between which a descent comes to rest early.
 void ChainOptimiser::leap(const Progress& progress) {
     if (leaps_of_level_ < settings_.leaps) {
-        progress.report(state_.done, "Looking for better places beyond");
+        progress.report(state_.done, "Searching for better positions further away");
         PathDescent next = *descent_;
         if (next.leap(progress.part(state_.done, state_.done))) {
             descent_ = std::move(next);

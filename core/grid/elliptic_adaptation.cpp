@@ -202,7 +202,7 @@ bool EllipticAdaptation::advance(const Progress& progress) {
 /// The figures that people compare are fine ones, as those of the other methods. On the way a coarse look has
 /// to do, and is compared with a coarse one.
 void EllipticAdaptation::measure_start(Position& at, const Progress& progress) const {
-    progress.report(at.state.done, "Measuring the start");
+    progress.report(at.state.done, "Measuring the start grid");
     at.coarse_start = at.state.start;
     at.coarse_best = at.state.start.mean;
     at.state.start = at.state.now = at.state.of_best = finely(start_, progress);
@@ -381,15 +381,15 @@ void EllipticAdaptation::fall(Position& at, SolverStatus failure) const {
     at.solver = nullptr;
     if (at.falls == most_falls || !has_adaptation() || at.functional.adaptation <= 0.0) {
         at.ending = as_improver_status(failure);
-        at.state.note = "Given up: " + what;
+        at.state.note = "Stopped: " + what;
         return;
     }
     ++at.falls;
     at.functional.adaptation *= fall_of_adaptation;
     const std::string used = shortest(at.functional.adaptation);
-    at.state.note = "Started again with LV = " + used + ": " + what;
+    at.state.note = "Restarted with LV = " + used + ": " + what;
     at.state.warning = with_sentence(at.weight_warning,
-                                     "LV = " + used + " was used in place of " +
+                                     "LV = " + used + " was used instead of " +
                                          shortest(settings_.functional.adaptation) + ": " + what + ".");
 }
 
@@ -423,7 +423,7 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
     at.state.best = start_;
     at.state.of_best = at.state.start;
     if (at.candidates.empty()) {
-        at.state.note = "No grid was better than the start" +
+        at.state.note = "No grid was better than the start grid" +
                         refusals(at.too_wide, {}, infinity, settings_.gap_allowance);
         return;
     }
@@ -433,9 +433,9 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
         return progress.part(n / paths, (n + 1) / paths);
     };
     const auto tell = [&](int n, const std::string& what) {
-        share(n).report(0.0, "Judging " + what + " on the whole path");
+        share(n).report(0.0, "Evaluating " + what + " on the whole path");
     };
-    tell(0, "the start");
+    tell(0, "the start grid");
     const GridPromise promise(model_, start_, settings_.direction, share(0));
     CandidatePtr chosen;
     double least = infinity;
@@ -461,7 +461,7 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
     }
     at.state.note =
         (chosen ? "Best grid: " + mean_sentence(at.state.of_best)
-                : std::string("No grid was better than the start")) +
+                : std::string("No grid was better than the start grid")) +
         refusals(
             at.too_wide, worse_elsewhere, chosen ? chosen->error.mean : infinity, settings_.gap_allowance);
 }

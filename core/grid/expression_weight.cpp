@@ -31,7 +31,7 @@ constexpr double difference_step = 1e-5; // of a uniform cell; the error is its 
     throw Error(std::move(found));
 }
 
-constexpr const char* known_names = "The variables are u, v, i, j, x, y, z, nx, ny, nz, k1, k2 and err";
+constexpr const char* known_names = "Use the variables u, v, i, j, x, y, z, nx, ny, nz, k1, k2 and err";
 
 /// muParser's own sentence without its position, which counts from 0.
 std::string sentence(const mu::Parser::exception_type& fault) {
@@ -51,7 +51,7 @@ void refuse_assignment(const std::string& text) {
                            (k == 0 || std::string("=<>!").find(text[k - 1]) == std::string::npos) &&
                            (k + 1 == text.size() || text[k + 1] != '=');
         if (alone) {
-            fail_at(k + 1, "\"=\" assigns", "Compare with ==");
+            fail_at(k + 1, "\"=\" is an assignment", "Use == to compare");
         }
     }
 }
@@ -116,8 +116,8 @@ public:
             const double* found = parser_.Eval(results);
             if (results != 1) {
                 fail_at(1,
-                        "there are " + std::to_string(results) + " values",
-                        "Separate terms by operators, not by commas");
+                        "the formula has " + std::to_string(results) + " values",
+                        "Combine terms with operators, not with commas");
             }
             return found[0];
         } catch (const mu::Parser::exception_type& fault) {
@@ -142,10 +142,10 @@ public:
     /// Refuses a formula that speaks of what is not at hand.
     void expect(const Formula& formula) const {
         if (formula.uses_surface() && ground_.patch == nullptr) {
-            fail_at(1, "it speaks of a surface, and there is none");
+            fail_at(1, "it uses a surface, but there is none");
         }
         if (formula.uses_error() && ground_.error == nullptr) {
-            fail_at(1, "it speaks of the error, which nobody has measured");
+            fail_at(1, "it uses the error, which has not been measured");
         }
     }
 
@@ -217,7 +217,7 @@ private:
             fail_at(1,
                     "\"" + text_ + "\" has no finite value at u = " + shortest(p.x() / ground_.cells().x()) +
                         ", v = " + shortest(p.y() / ground_.cells().y()),
-                    "A weight is a positive number everywhere on the surface");
+                    "Use a weight that is positive everywhere on the surface");
         }
         return w;
     }

@@ -57,10 +57,10 @@ double number(std::string_view word, const std::filesystem::path& file, int line
     double value = 0.0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (fault == std::errc::result_out_of_range) {
-        fail_in_file(file, line, column, quoted(word) + " is too large or too small for a number");
+        fail_in_file(file, line, column, quoted(word) + " is too large or too small");
     }
     if (fault != std::errc{} || end != digits.data() + digits.size()) {
-        fail_in_file(file, line, column, quoted(word) + " is no number");
+        fail_in_file(file, line, column, quoted(word) + " is not a number");
     }
     if (!std::isfinite(value)) {
         fail_in_file(file, line, column, quoted(word) + " is not finite");
@@ -135,7 +135,7 @@ std::string same_corners(const NodeArray& nodes, int i, int j) {
         for (std::size_t b = a + 1; b < 4; ++b) {
             if (nodes.at(corners[a][0], corners[a][1]) == nodes.at(corners[b][0], corners[b][1])) {
                 return "nodes " + node_name(corners[a][0], corners[a][1]) + " and " +
-                       node_name(corners[b][0], corners[b][1]) + " are in one place";
+                       node_name(corners[b][0], corners[b][1]) + " are at the same position";
             }
         }
     }
@@ -160,7 +160,7 @@ std::array<double, 2> sines(const NodeArray& nodes, int i, int j) {
 std::string fault_of_cell(const NodeArray& nodes, int i, int j) {
     constexpr double rounding = 1e-12; // of a sine: a line that is not parallel to an axis is none to the bit
     if (const std::string same = same_corners(nodes, i, j); !same.empty()) {
-        return "has no area of its own: " + same;
+        return "has no area: " + same;
     }
     const auto [least, largest] = sines(nodes, i, j);
     if (std::max(std::abs(least), std::abs(largest)) <= rounding) {
@@ -173,7 +173,7 @@ void require_near(const Placed& found, const std::filesystem::path& file) {
     for (const std::array<Number, 2>& place : found.places) {
         for (const Number& coordinate : place) {
             if (std::abs(coordinate.value) > farthest) {
-                fail_at(file, coordinate, "A coordinate of this node is beyond 1e9");
+                fail_at(file, coordinate, "A coordinate of this node exceeds 1e9");
             }
         }
     }
@@ -190,7 +190,7 @@ void require_inside(const Placed& found, const std::filesystem::path& file, cons
                 fail_at(file,
                         coordinate,
                         std::string(1, "xy"[k]) + " of node " + node_name(i, j) + " is " +
-                            shortest(coordinate.value) + ", outside of the surface: it goes from 0 to " +
+                            shortest(coordinate.value) + ", outside the surface, which goes from 0 to " +
                             shortest(high),
                         wanted.hint);
             }
@@ -266,7 +266,8 @@ Placed placed_pairs(const Lines& lines, const std::filesystem::path& file, int r
     }
     const std::size_t wanted = 2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
     const std::string sentence = std::to_string(rows) + " x " + std::to_string(columns) + " nodes need " +
-                                 std::to_string(wanted) + " numbers, here are " + std::to_string(all.size());
+                                 std::to_string(wanted) + " numbers, but there are " +
+                                 std::to_string(all.size());
     if (all.size() > wanted) {
         fail_at(file, all[wanted], sentence);
     }
@@ -287,7 +288,7 @@ Placed placed_blocks(const Lines& lines, const std::filesystem::path& file) {
         fail_in_file(file,
                      lines.empty() ? 1 : lines.back().front().line,
                      1,
-                     "Two blocks need an even number of lines, at least 4; here are " +
+                     "Two blocks need an even number of lines, at least 4; there are " +
                          std::to_string(lines.size()));
     }
     const std::size_t columns = lines.front().size();
@@ -295,7 +296,7 @@ Placed placed_blocks(const Lines& lines, const std::filesystem::path& file) {
         if (line.size() != columns || columns < 2) {
             fail_at(file,
                     line[std::min(columns, line.size() - 1)],
-                    counted(std::ssize(line), "number") + " in this line, " +
+                    counted(std::ssize(line), "number") + " in this line, but " +
                         std::to_string(std::max<std::size_t>(columns, 2)) + " are needed");
         }
     }
@@ -321,7 +322,7 @@ Placed placed_in_either(const Lines& lines, const std::filesystem::path& file, i
     Placed blocks = placed_blocks(lines, file), pairs = placed_pairs(lines, file, rows, columns);
     const bool sound_pairs = !first_fold(pairs);
     if (sound_pairs && !first_fold(blocks)) {
-        throw Error("this can be read as pairs and as blocks", file, "name the form");
+        throw Error("this file can be read as pairs and as blocks", file, "specify the form");
     }
     return sound_pairs ? pairs : blocks;
 }
@@ -369,7 +370,7 @@ NodeArray parse_blocks(std::string_view text, const std::filesystem::path& file,
         require_unfolded(found,
                          file,
                          found.nodes.columns == 2
-                             ? "a file of two numbers a line may be pairs: give its rows and columns"
+                             ? "specify rows and columns if this is a file of pairs (two numbers per line)"
                              : "");
     }
     return found.nodes;
@@ -384,7 +385,7 @@ NodeArray parse_nodes(std::string_view text, const std::filesystem::path& file, 
                              : placed_blocks(lines, file);
     if (found.nodes.rows != wanted.rows || found.nodes.columns != wanted.columns) {
         throw Error(std::to_string(found.nodes.rows) + " x " + std::to_string(found.nodes.columns) +
-                        " nodes, and " + std::to_string(wanted.rows) + " x " +
+                        " nodes, but " + std::to_string(wanted.rows) + " x " +
                         std::to_string(wanted.columns) + " are needed",
                     file);
     }

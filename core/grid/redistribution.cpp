@@ -82,7 +82,7 @@ bool Redistribution::advance(const Progress& progress) {
     if (state_.status != ImproverStatus::running) {
         return false;
     }
-    progress.report(0.0, "Sharing out the nodes of each track");
+    progress.report(0.0, "Redistributing the nodes of each track");
     const std::vector<MeasuredTrack> start = measured(model_, start_, fine, progress);
     const TrackPromise promise = promise_of(model_, start, settings_.gap_allowance, progress);
     std::vector<PlacedTrack> placed(start_.size());
@@ -105,7 +105,7 @@ bool Redistribution::advance(const Progress& progress) {
     const bool gained = best.kept_from_start < static_cast<int>(std::ssize(start_));
     state_.status = gained ? ImproverStatus::converged : ImproverStatus::no_gain;
     state_.note = best.kept_from_start == 0 ? "Equal shares of the monitor on every track"
-                                            : "Equal shares of the monitor; tracks left as they were: " +
+                                            : "Equal shares of the monitor; unchanged tracks: " +
                                                   std::to_string(best.kept_from_start);
     return false;
 }

@@ -47,7 +47,7 @@ MoveLimits worst_of(const MoveTable& table, const PlacedTrack& start, MoveLimits
 
 std::string note_of(const std::string& done, const GuardedTracks& best) {
     const int kept = best.kept_from_start;
-    return kept == 0 ? done : done + "; tracks left as they were: " + std::to_string(kept);
+    return kept == 0 ? done : done + "; unchanged tracks: " + std::to_string(kept);
 }
 
 } // namespace
@@ -88,7 +88,7 @@ MoveCost TrackOptimiser::cost_of(std::size_t track) const {
 }
 
 void TrackOptimiser::measure_lattices(const Progress& progress) {
-    progress.report(0.0, "Measuring the moves of the lattices");
+    progress.report(0.0, "Measuring the lattice moves");
     std::vector<MeasuredTrack> start = measured(model_, start_, fine, progress);
     const TrackPromise promise = promise_of(model_, start, settings_.gap_allowance, progress);
     std::vector<std::optional<MoveTable>> laid(start_.size());
@@ -103,8 +103,7 @@ void TrackOptimiser::measure_lattices(const Progress& progress) {
     state_.start = summary(moves_of(measured_start_));
     state_.now = state_.of_best = state_.start;
     state_.round = 1;
-    state_.note =
-        "Moves of the lattices measured, " + std::to_string(settings_.lattice) + " intervals a track";
+    state_.note = "Lattice moves measured, " + std::to_string(settings_.lattice) + " intervals per track";
     state_.done = lattices_measured;
     stage_ = Stage::paths;
 }

@@ -215,7 +215,7 @@ inverse_branches(const MachineModel& machine, const geometry::ToolPose& pose, co
     expects(std::abs(pose.axis.norm() - 1.0) < unit_tolerance, "a tool axis is a unit vector");
     expects(previous.size() == machine.axis_count(), "axis positions belong to their machine");
     if (!has_inverse(machine)) {
-        throw Error(fmt::format("machine '{}' has {}, tool paths need one with two or none",
+        throw Error(fmt::format("machine '{}' has {}, but tool paths need a machine with two or none",
                                 machine.name(),
                                 counted(machine.rotary_axes().size(), "rotary axis", "rotary axes")));
     }
@@ -240,7 +240,7 @@ inverse(const MachineModel& machine, const geometry::ToolPose& pose, const AxisP
     InverseSolution solution;
     const std::vector<AxisPositions> branches = inverse_branches(machine, pose, previous);
     if (branches.empty()) {
-        solution.why = "no rotation of the machine's axes points the tool this way";
+        solution.why = "no rotation of the machine's axes gives this tool direction";
         return solution;
     }
     double least_outside = std::numeric_limits<double>::infinity();

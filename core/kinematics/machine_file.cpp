@@ -29,7 +29,7 @@ Vec3 point(const JsonValue& value) {
 Vec3 direction(const JsonValue& value) {
     const Vec3 v = point(value);
     if (!(v.norm() > 1e-6)) {
-        value.fail("a direction needs a length");
+        value.fail("a direction must not be zero");
     }
     return v.normalized();
 }
@@ -37,7 +37,7 @@ Vec3 direction(const JsonValue& value) {
 char letter(const JsonValue& value) {
     const std::string text = value.text();
     if (text.size() != 1) {
-        value.fail(fmt::format("'{}' is not one letter of XYZABCUVW", text));
+        value.fail(fmt::format("'{}' must be one letter of XYZABCUVW", text));
     }
     return text.front();
 }
@@ -78,7 +78,7 @@ MachineAxis axis(const JsonValue& value) {
         result.min = unit * range[0].number(-farthest, farthest);
         result.max = unit * range[1].number(-farthest, farthest);
         if (!(result.min < result.max)) {
-            limits->fail("the lower limit is not below the upper one");
+            limits->fail("the lower limit must be below the upper limit");
         }
     }
     constexpr double slowest = 1e-6;
@@ -169,8 +169,8 @@ MachineModel read_machine(const std::filesystem::path& file) {
     try {
         MachineModel model(std::move(machine));
         if (model.swings_tool() && !model.description().tool_length) {
-            root.fail("a head that swings needs \"tool_length\": the gauge length of the tool whose tip "
-                      "is at \"tool_tip\"");
+            root.fail("a head that tilts the tool needs \"tool_length\": the gauge length of the tool whose "
+                      "tip is at \"tool_tip\"");
         }
         return model;
     } catch (const Error& error) {

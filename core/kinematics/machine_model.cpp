@@ -27,7 +27,7 @@ bool is_unit(const Vec3& direction) {
 void check(const MachineDescription& machine, const MachineAxis& axis) {
     const std::string where = fmt::format("axis {}", axis.letter);
     if (machine_axis_letters.find(axis.letter) == std::string_view::npos) {
-        refuse(machine, where + " is none of X Y Z A B C U V W");
+        refuse(machine, where + " is not one of X Y Z A B C U V W");
     }
     if (!is_unit(axis.direction)) {
         refuse(machine, where + ": the direction is not a unit vector");
@@ -36,14 +36,14 @@ void check(const MachineDescription& machine, const MachineAxis& axis) {
         refuse(machine, where + ": a number is not finite");
     }
     if (!(axis.min < axis.max)) {
-        refuse(machine, where + ": the lower limit is not below the upper one");
+        refuse(machine, where + ": the lower limit must be below the upper limit");
     }
     if (!(axis.max_velocity > 0.0 && std::isfinite(axis.max_velocity)) ||
         !(axis.max_acceleration > 0.0 && std::isfinite(axis.max_acceleration))) {
         refuse(machine, where + ": velocity and acceleration limits must be positive");
     }
     if (!(axis.max_jerk > 0.0)) {
-        refuse(machine, where + ": the limit of jerk must be positive");
+        refuse(machine, where + ": the jerk limit must be positive");
     }
 }
 
@@ -77,7 +77,7 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
     });
     for (std::size_t n = 1; n < axes_.size(); ++n) {
         if (axes_[n].letter == axes_[n - 1].letter) {
-            refuse(description_, fmt::format("axis {} stands twice", axes_[n].letter));
+            refuse(description_, fmt::format("axis {} occurs twice", axes_[n].letter));
         }
     }
     const auto index_of = [this](const MachineAxis& axis) { return axis_index(axis.letter); };
@@ -94,7 +94,7 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
     }
     constexpr std::size_t most_rotary = 3;
     if (linear.size() != 3 || rotary_axes_.size() > most_rotary) {
-        refuse(description_, "three linear axes and three rotary ones at most are needed");
+        refuse(description_, "three linear axes and at most three rotary axes are required");
     }
     std::sort(linear.begin(), linear.end());
     std::copy(linear.begin(), linear.end(), linear_axes_.begin());
@@ -113,7 +113,7 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
         refuse(description_, "the tool axis is not a unit vector");
     }
     if (description_.tool_length && !(*description_.tool_length >= 0.0)) {
-        refuse(description_, "the length of its tool is negative");
+        refuse(description_, "the tool length is negative");
     }
     if (!is_finite(description_.table_origin) || !is_finite(description_.workpiece_offset) ||
         !is_finite(description_.tool_tip)) {
@@ -123,7 +123,7 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
         check(description_, body);
         if (body.carried_by != '\0' && axis_index(body.carried_by) < 0) {
             refuse(description_,
-                   fmt::format("a body is carried by axis {}, which is not there", body.carried_by));
+                   fmt::format("a body is carried by axis {}, which does not exist", body.carried_by));
         }
     }
 }
@@ -149,7 +149,7 @@ MachineModel MachineModel::with_tool_length(double gauge_length) const {
     expects(gauge_length > 0.0 && std::isfinite(gauge_length), "a tool has a length");
     if (!description_.tool_length) {
         if (swings_tool()) {
-            throw Error(fmt::format("machine '{}' does not say how long the tool is whose tip it gives",
+            throw Error(fmt::format("machine '{}' does not specify the length of the tool at its tool tip",
                                     description_.name),
                         {},
                         "add \"tool_length\" to its file");

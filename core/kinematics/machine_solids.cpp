@@ -104,10 +104,9 @@ read_machine_solids(const std::filesystem::path& machine_file, const MachineMode
             known = known || body.name == std::string(axis_prefix) + axis.letter;
         }
         if (!known) {
-            throw Error(
-                "no axis carries the body '" + body.name + "'",
-                file.string(),
-                "a body is called \"base\" or \"axis C\", by the letter of one of the machine's axes");
+            throw Error("no axis matches the body '" + body.name + "'",
+                        file.string(),
+                        "name a body \"base\" or \"axis C\", with the letter of one of the machine's axes");
         }
     }
     return std::make_shared<const std::vector<geometry::SolidBody>>(std::move(bodies));

@@ -65,10 +65,9 @@ std::optional<RotaryTilt> rotary_tilt_of(const MachineModel& machine) {
 
 MachineModel with_rotary_tilt(const MachineModel& machine, const RotaryTilt& constants) {
     if (!rotary_tilt_of(machine)) {
-        throw Error(
-            fmt::format("machine '{}' is not built like the thesis's rotary-tilt table: it has no e, OF, AB "
-                        "and B4",
-                        machine.name()));
+        throw Error(fmt::format(
+            "machine '{}' is not a rotary-tilt table like that of the thesis: it has no e, OF, AB and B4",
+            machine.name()));
     }
     MachineDescription changed = machine.description();
     changed.workpiece_offset = Vec3(constants.a, constants.b, constants.c);

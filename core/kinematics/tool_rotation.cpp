@@ -14,7 +14,7 @@ namespace millwright::kinematics {
 namespace {
 
 constexpr double roundness = 1e-3; // by which typed numbers may be off
-constexpr const char* hint_of_rows = "row by row: r11 r12 r13 r21 r22 r23 r31 r32 r33";
+constexpr const char* hint_of_rows = "give the matrix row by row: r11 r12 r13 r21 r22 r23 r31 r32 r33";
 
 } // namespace
 
@@ -22,7 +22,7 @@ Mat3 rotation_of_rows(std::span<const double> rows) {
     constexpr std::size_t count = 9;
     if (rows.size() != count) {
         throw Error(
-            fmt::format("a rotation matrix has 9 numbers, {} were given", rows.size()), {}, hint_of_rows);
+            fmt::format("a rotation matrix has 9 numbers, but {} were given", rows.size()), {}, hint_of_rows);
     }
     if (!std::ranges::all_of(rows, [](double value) { return std::isfinite(value); })) {
         throw Error("the rotation matrix is not finite", {}, hint_of_rows);
@@ -40,7 +40,7 @@ Mat3 rotation_of_rows(std::span<const double> rows) {
         const int next = (n + 1) % 3;
         const double cosine = given.col(n).dot(given.col(next));
         if (!(std::abs(cosine) <= roundness)) {
-            throw Error(fmt::format("columns {} and {} of the rotation matrix are not at right angles: their "
+            throw Error(fmt::format("columns {} and {} of the rotation matrix are not perpendicular: their "
                                     "product is {:.6g}, not 0",
                                     std::min(n, next) + 1,
                                     std::max(n, next) + 1,

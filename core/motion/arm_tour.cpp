@@ -26,7 +26,8 @@ void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
     const double turn = (motion.joints() - stop.joints).cwiseAbs().maxCoeff();
     constexpr double same_branch = 0.01; // rad or mm
     if (turn > same_branch) {
-        throw Error("a line leads there with the arm bent the other way", {}, "go there by joints");
+        throw Error(
+            "a straight line leads there with the arm in another configuration", {}, "use a joint move");
     }
 }
 
@@ -60,7 +61,7 @@ program::Program tour(const ArmModel& arm, const JointPositions& start, const st
         expects(stop.share > 0.0 && stop.share <= 1.0, "a stop has a share of the speed");
         try {
             if (stop.joints.size() != arm.joint_count()) {
-                throw Error(fmt::format("it was taught to an arm with {} joints", stop.joints.size()));
+                throw Error(fmt::format("it was taught on an arm with {} joints", stop.joints.size()));
             }
             if (stop.straight) {
                 go_straight(motion, arm, stop);
@@ -69,7 +70,7 @@ program::Program tour(const ArmModel& arm, const JointPositions& start, const st
             }
         } catch (const Error& error) {
             const Diagnostic& found = error.diagnostic();
-            throw Error(fmt::format("'{}' cannot be gone to: {}", stop.name, found.message), {}, found.hint);
+            throw Error(fmt::format("'{}' cannot be reached: {}", stop.name, found.message), {}, found.hint);
         }
     }
     return motion.program();

@@ -23,20 +23,21 @@ constexpr double farthest = 1e15;                         // steps: as integers 
 
 void check(const Trajectory& trajectory, const StepSettings& settings) {
     if (std::ssize(settings.steps_per_unit) != trajectory.axis_count()) {
-        throw Error(fmt::format("steps a unit are given for {} axes, the motion has {}",
+        throw Error(fmt::format("steps per unit are given for {} axes, but the motion has {}",
                                 settings.steps_per_unit.size(),
                                 trajectory.axis_count()));
     }
     for (const double steps : settings.steps_per_unit) {
         if (!(steps > 0.0 && std::isfinite(steps))) {
-            throw Error(fmt::format("{} steps a unit is not a positive number", steps));
+            throw Error(fmt::format("{} steps per unit is not a positive number", steps));
         }
     }
     if (!(settings.timer_frequency > 0.0 && std::isfinite(settings.timer_frequency))) {
-        throw Error(fmt::format("a timer of {} Hz does not tick", settings.timer_frequency));
+        throw Error(fmt::format("the timer frequency of {} Hz must be positive", settings.timer_frequency));
     }
     if (settings.min_interval < 1 || settings.jitter_limit < 0.0 || settings.most_pulses_a_block < 0) {
-        throw Error("the interval has to be above 0; jitter limit and number of pulses must not be negative");
+        throw Error(
+            "the interval must be above 0; the jitter limit and the number of pulses must not be negative");
     }
 }
 
@@ -115,7 +116,7 @@ private:
     [[nodiscard]] std::int64_t nearest_step(double position) const {
         const double steps = position * steps_per_unit_;
         if (!(std::abs(steps) < farthest)) {
-            throw Error(fmt::format("axis {} is {} steps away from its zero", axis_, steps));
+            throw Error(fmt::format("axis {} is {} steps from its zero, which is too far", axis_, steps));
         }
         return std::llround(steps);
     }
@@ -124,9 +125,10 @@ private:
             settings_.most_pulses_a_block > 0 ? settings_.most_pulses_a_block : usual_most_pulses);
         if (pulses > most) {
             throw Error(
-                fmt::format("block {} needs {:.0f} pulses of an axis, more than {:.0f}", block, pulses, most),
+                fmt::format(
+                    "block {} needs {:.0f} pulses on one axis, more than {:.0f}", block, pulses, most),
                 {},
-                "fewer steps a unit, or shorter blocks");
+                "use fewer steps per unit, or shorter blocks");
         }
     }
 

@@ -246,13 +246,13 @@ private:
                             n,
                             above[retract.axis]),
                 {},
-                "retract farther, lower the clearances, or move the part on the table");
+                "retract further, lower the clearances, or move the part on the table");
         }
         if (!clearance_.clear(machine_, here(), over) || !clearance_.clear(machine_, over, above)) {
             throw Error(
-                fmt::format("no way from the safe position to path point {} stays clear of the part", n),
+                fmt::format("no path from the safe position to path point {} is clear of the part", n),
                 {},
-                "retract farther, or move the part on the table");
+                "retract further, or move the part on the table");
         }
         rapid(over, role, all_);
         rapid(above, role, all_);

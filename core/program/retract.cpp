@@ -40,7 +40,7 @@ double safe_position(const MachineModel& machine, const ProgramSettings& setting
                                 axis.letter,
                                 machine.name()),
                     {},
-                    "set the safe position of the program");
+                    "set a safe position for the program");
     }
     return limit;
 }

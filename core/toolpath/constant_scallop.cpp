@@ -251,10 +251,9 @@ ConstantScallop::ConstantScallop(double height) : height_(height) {
 
 Toolpath ConstantScallop::contacts(const Covering& of, const Progress& progress) const {
     if (!of.tool.cutter) {
-        throw Error(
-            "a point leaves no scallop, so that nothing says how far tracks of constant scallop are apart",
-            {},
-            "choose a cutter for the tool, or another way to place the points");
+        throw Error("a point tool leaves no scallops, so the spacing of constant-scallop tracks is undefined",
+                    {},
+                    "choose a cutter, or another strategy");
     }
     const int nodes = of.grid.nodes_per_track(of.direction);
     Stepper stepper(of, height_, static_cast<std::size_t>(nodes));
@@ -264,10 +263,11 @@ Toolpath ConstantScallop::contacts(const Covering& of, const Progress& progress)
         progress.check();
         progress.report(*std::ranges::min_element(stepper.track()));
         if (n >= most_tracks) {
-            throw Error(
-                fmt::format("a scallop of {:.6g} mm would take more than {} tracks", height_, most_tracks),
-                {},
-                "allow a higher one, or take a larger cutter");
+            throw Error(fmt::format("a scallop height of {:.6g} mm would need more than {} tracks",
+                                    height_,
+                                    most_tracks),
+                        {},
+                        "allow a larger scallop height, or use a larger cutter");
         }
         const bool forward = n % 2 == 0;
         const std::vector<Stretch> stretches = to_do(stepper.track());

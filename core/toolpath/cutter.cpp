@@ -66,11 +66,11 @@ bool positive(double length) {
 
 std::string fault_of_cone(const CutterShape& cutter) {
     if (!(cutter.half_angle > 0.0 && cutter.half_angle < 0.5 * pi)) {
-        return fmt::format("the half angle of a cone is between 0 and 90 deg, not {:.6g}",
+        return fmt::format("the half angle of a tapered cutter must be between 0 and 90 deg, not {:.6g}",
                            to_degrees(cutter.half_angle));
     }
     if (!(cutter.corner_radius * std::cos(cutter.half_angle) <= 0.5 * cutter.diameter)) {
-        return fmt::format("a tip of radius {:.6g} mm is thicker than a shank of diameter {:.6g} mm",
+        return fmt::format("a tip radius of {:.6g} mm is too large for a shank diameter of {:.6g} mm",
                            cutter.corner_radius,
                            cutter.diameter);
     }
@@ -84,11 +84,11 @@ std::string fault_of(const CutterShape& cutter) {
         return {};
     }
     if (!positive(cutter.diameter) || !positive(cutter.length)) {
-        return "a cutter has a diameter and a length above 0 mm";
+        return "the diameter and the length of a cutter must be above 0 mm";
     }
     const bool cornered = cutter.kind == CutterKind::bull_nose || cutter.kind == CutterKind::cone;
     if (cornered && !(std::isfinite(cutter.corner_radius) && cutter.corner_radius >= 0.0)) {
-        return "the corner radius of a cutter is 0 mm or more";
+        return "the corner radius of a cutter must be 0 mm or more";
     }
     if (cutter.kind == CutterKind::bull_nose && cutter.corner_radius > 0.5 * cutter.diameter) {
         return fmt::format("a corner radius of {:.6g} mm does not fit into a diameter of {:.6g} mm",
@@ -102,7 +102,7 @@ std::string fault_of(const CutterShape& cutter) {
     }
     const double height = cutting_height(cutter);
     return cutter.length < height
-               ? fmt::format("a cutter of length {:.6g} mm ends below its shank, which begins at {:.6g} mm",
+               ? fmt::format("a cutter of length {:.6g} mm ends below its shank, which starts at {:.6g} mm",
                              cutter.length,
                              height)
                : std::string();
@@ -112,7 +112,7 @@ std::string fault_of(const HolderShape& holder) {
     const bool sound = std::isfinite(holder.diameter) && holder.diameter >= 0.0;
     return sound && (holder.diameter <= 0.0 || positive(holder.length))
                ? std::string()
-               : "a holder has a diameter of 0 mm or more, and a length above 0 mm";
+               : "a holder must have a diameter of 0 mm or more and a length above 0 mm";
 }
 
 std::optional<Profile> body_of(const CutterShape& shape) {

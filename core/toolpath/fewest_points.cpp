@@ -131,13 +131,13 @@ private:
 };
 
 [[noreturn]] void refuse_tolerance(const grid::Track& track, double tolerance) {
-    throw Error(fmt::format("no points keep the track at {} = {:.6g} within {:.6g} mm",
+    throw Error(fmt::format("no set of points keeps the track at {} = {:.6g} within {:.6g} mm",
                             track.direction == grid::TrackDirection::along_v ? "u" : "v",
                             track.across,
                             tolerance),
                 {},
-                "it leads through a singular point of the machine, or out of its reach: allow more, or "
-                "put the part elsewhere");
+                "increase the tolerance or move the part: the track passes through a singular point of the "
+                "machine, or out of its reach");
 }
 
 } // namespace

@@ -21,12 +21,12 @@ Toolpath on_machine(const kinematics::MachineModel& machine, Toolpath toolpath) 
         if (!pose) {
             throw Error(
                 fmt::format(
-                    "the surface at node {},{} faces away from the tool, and machine '{}' cannot turn it",
+                    "the surface at node {},{} faces away from the tool, and machine '{}' cannot rotate it",
                     point.origin.i,
                     point.origin.j,
                     machine.name()),
                 {},
-                "cut the other side, or choose a machine with rotary axes");
+                "machine the opposite side, or choose a machine with rotary axes");
         }
         point.pose = *pose;
     }

@@ -44,16 +44,16 @@ std::size_t points_per_track(const std::vector<std::size_t>& starts) {
 
 std::string why_no_produced_surface(const Toolpath& path) {
     if (path.tool.cutter) {
-        return "The produced surface needs a tool that is a point: a cutter cuts beside its tip";
+        return "The produced surface needs a point tool: a cutter also cuts beside its tip";
     }
     if (std::ranges::any_of(path.points,
                             [](const PathPoint& point) { return point.reached_by == MoveKind::over; })) {
-        return "The produced surface needs a whole patch: this path lifts over parts that are not cut";
+        return "The produced surface needs a whole patch: this path lifts over parts that are not machined";
     }
     const std::vector<std::size_t> starts = track_starts(path);
     constexpr std::size_t fewest = 2; // tracks, and points of each
     if (starts.size() <= fewest || points_per_track(starts) < fewest) {
-        return "The produced surface needs tracks side by side with equally many points: this path has none";
+        return "The produced surface needs parallel tracks with equal numbers of points: this path has none";
     }
     return {};
 }

@@ -64,7 +64,8 @@ AxisPath sequence(const MachineModel& machine, const Toolpath& toolpath) {
 AxisPath
 sequence_by_formulas(const MachineModel& machine, const Toolpath& toolpath, kinematics::AngleMode mode) {
     if (machine.description().angle_formulas != kinematics::AngleFormulas::rotary_tilt) {
-        throw Error(fmt::format("machine '{}' does not offer the thesis's angle formulas", machine.name()));
+        throw Error(
+            fmt::format("machine '{}' does not support the angle formulas of the thesis", machine.name()));
     }
     const int A = machine.axis_index('A');
     const int B = machine.axis_index('B');

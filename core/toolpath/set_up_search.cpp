@@ -90,7 +90,7 @@ int descend_to_best(const SetUpCost& cost,
     constexpr double out_of_reach = 1e30; // a simplex compares numbers
     constexpr double settled = 1e-3;      // mm, and a thousandth of a degree or so
     const int dimensions = turns(settings) ? 4 : 3;
-    constexpr const char* downhill = "Going downhill from the best place";
+    constexpr const char* downhill = "Descending from the best position";
     progress.report(0.0, downhill);
     int evaluations = 0;
     nlopt::opt simplex(nlopt::LN_NELDERMEAD, static_cast<unsigned>(dimensions));
@@ -221,7 +221,7 @@ SetUpSearch search_set_up(const SetUpCost& cost,
     const std::vector<SetUpPlace> places = lattice(settings);
     const double scan = static_cast<double>(places.size());
     const double share = scan / (scan + settings.descent);
-    progress.report(0.0, "Searching the set-up");
+    progress.report(0.0, "Searching for the best set-up");
     const std::vector<PlaceFigures> figures = measured(cost, places, measure, progress.part(0.0, share));
     for (std::size_t n = 0; n < places.size(); ++n) {
         if (figures[n].cost < found.best.cost) {

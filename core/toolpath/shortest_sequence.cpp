@@ -163,7 +163,7 @@ Ways cheapest_ways(const MachineModel& machine,
             }
         }
         if (std::ranges::all_of(costs, [](double cost) { return std::isinf(cost); })) {
-            refuse_point(n, path.points[n], "no move from the point before is allowed");
+            refuse_point(n, path.points[n], "no move from the previous point is allowed");
         }
         ways.costs = std::move(costs);
         ways.from.push_back(std::move(from));

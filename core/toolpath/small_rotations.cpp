@@ -45,7 +45,7 @@ public:
         const Vec2& uv = point.origin.uv;
         const auto normal = patch_.unit_normal(uv.x(), uv.y());
         if (!normal) {
-            refuse_point(n_, point, "the surface has no normal on the way to it");
+            refuse_point(n_, point, "the surface has no normal on the move to it");
         }
         const bool other_side = normal->dot((1.0 - t) * from_.normal + t * to_.normal) < 0.0;
         point.contact = patch_.position(uv.x(), uv.y());

@@ -101,9 +101,9 @@ ObliqueView::ObliqueView(const std::vector<Vec3>& points) {
     const double up = mean.z() + mean.y() * s;
     constexpr double least = 1e-3; // mm: below it points are beyond any picture
     if (!(across > least && up > least)) {
-        throw Error("the thesis's view has no scale for this surface",
+        throw Error("the view of the thesis has no scale for this surface",
                     {},
-                    "X + Y cos 30 and Z + Y sin 30 of its middle have to be above 0");
+                    "X + Y cos 30 and Z + Y sin 30 of its mean point must be above 0");
     }
     R_ = std::min(250.0 / across, 200.0 / up);
 }

@@ -30,9 +30,10 @@ void lean_over(const geometry::BezierPatch& patch, const Lean& lean, Toolpath& p
         const Vec2& uv = point.origin.uv;
         const Vec3 feed = direction_on(patch, uv, heading_at(path, n));
         if (feed.squaredNorm() < 0.5) {
-            throw Error(fmt::format("the track has no direction at node {},{}, so that the tool cannot lean",
-                                    point.origin.i,
-                                    point.origin.j));
+            throw Error(
+                fmt::format("the track has no direction at node {},{}, so lead and tilt are undefined there",
+                            point.origin.i,
+                            point.origin.j));
         }
         point.pose.axis = leaning_axis(lean, point.normal, feed, along_track(path.direction, uv));
     }

@@ -113,9 +113,9 @@ Toolpath trimmed(const geometry::BezierPatch& patch, const Trim& trim, Toolpath 
     }
     Toolpath kept = Trimmer(patch, trim, contacts, flipped).take();
     if (kept.points.empty()) {
-        throw Error("no track meets the part of the patch that lies inside its outline",
+        throw Error("no track meets the part of the patch inside its outline",
                     {},
-                    "take more tracks, or the other direction");
+                    "use more tracks, or the other direction");
     }
     return kept;
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr int halvings = 26; // to 1.5e-8 of a move: what turns within that flips
 
 [[noreturn]] void refuse_turn(const Vec2& a, const Vec2& b, const Vec2& at) {
-    throw Error(fmt::format("the surface turns over on itself: between u {:.3f}, v {:.3f} and u {:.3f}, v "
+    throw Error(fmt::format("the surface folds over itself: between u {:.3f}, v {:.3f} and u {:.3f}, v "
                             "{:.3f} its normal flips to the other side, at u {:.4f}, v {:.4f}",
                             a.x(),
                             a.y(),
@@ -23,8 +23,8 @@ constexpr int halvings = 26; // to 1.5e-8 of a move: what turns within that flip
                             at.x(),
                             at.y()),
                 {},
-                "a tool cuts from one side: look for rows of control points in the wrong order there, or "
-                "split the surface");
+                "check for rows of control points in the wrong order there, or split the surface: a tool "
+                "cuts from one side");
 }
 
 } // namespace

@@ -135,9 +135,9 @@ TEST_F(BadInput, AFormulaWithoutSense) {
 TEST_F(BadInput, AFolderThatCannotBeWritten) {
     const fs::path project = small_project(scratch.path(), "dome");
     EXPECT_THAT(failure_of(project, scratch / "dome.json/out"),
-                HasSubstr("dome.json/out: cannot make the folder"));
+                HasSubstr("dome.json/out: cannot create the folder"));
     EXPECT_THAT(failure_of(project, "/proc/millwright"),
-                HasSubstr("/proc/millwright: cannot make the folder"));
+                HasSubstr("/proc/millwright: cannot create the folder"));
     EXPECT_THAT(failure_of(project, "/proc"), HasSubstr("/proc: cannot write"));
 }
 

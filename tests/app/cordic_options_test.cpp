@@ -411,7 +411,7 @@ TEST_F(CordicOptions, LeaveTheFileOfPulsesAsItWasWhereThereAreTooMany) {
                              "--pulses",
                              pulses});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("pulses of an axis, more than 1000000000"));
+    EXPECT_THAT(ended.err, HasSubstr("pulses on one axis, more than 1000000000"));
     EXPECT_EQ(content_of(pulses), "as it was");
 }
 

@@ -82,7 +82,7 @@ TEST(PlanCommand, SaysThatAFolderCannotBeMadeAndLeavesNothingOfIt) {
     const fs::path project = small_project(scratch.path(), "dome");
     const Ended ended = run({"plan", project, "--out", scratch / "new" / std::string(300, 'n')});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("cannot make the folder: "), Not(HasSubstr("internal error"))));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("cannot create the folder: "), Not(HasSubstr("internal error"))));
     EXPECT_FALSE(fs::exists(scratch / "new"));
 }
 

@@ -341,7 +341,7 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
         ended.err,
         HasSubstr("unknown post 'siemens' (known: fanuc-tcp, grbl-inch, grbl-rotary, grbl, heidenhain, "
                   "linuxcnc-inch, linuxcnc-tcp, linuxcnc-xyz-inch, linuxcnc-xyz, linuxcnc, virtual; or "
-                  "the path of one)"));
+                  "give the path of a file)"));
     write_content(part, "G21 G90\nG0 Y10 A5\nG1 Z0 F600\nM2\n");
     ended = convert("ac-table", "heidenhain");
     EXPECT_EQ(ended.exit_code, 1);

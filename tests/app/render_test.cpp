@@ -88,9 +88,8 @@ TEST(RenderCommand, DrawsFromOtherSidesInOtherColours) {
 TEST(RenderCommand, RefusesAProducedSurfaceThatThePathDoesNotHave) {
     const ScratchFolder scratch;
     for (const auto& [member, reason] :
-         {std::pair(R"("toolpath": {"strategy": "spiral"},)", "needs tracks side by side"),
-          {R"("tool": {"cutter": "ball", "diameter_mm": 6, "length_mm": 30},)",
-           "needs a tool that is a point"}}) {
+         {std::pair(R"("toolpath": {"strategy": "spiral"},)", "needs parallel tracks"),
+          {R"("tool": {"cutter": "ball", "diameter_mm": 6, "length_mm": 30},)", "needs a point tool"}}) {
         const auto project =
             small_project(scratch.path(), "dome", "\"surface\":", std::string(member) + "\"surface\":");
         const Ended ended = run(

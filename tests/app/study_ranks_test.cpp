@@ -182,7 +182,7 @@ TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLostOnItsWayDownhill) {
     std::vector<std::string> words = set_up(folder_ / "out", "9");
     words.back() = "60"; // nodes: each step of the way takes its time
     Program program(words, {}, two_ranks);
-    program.wait_for_error_text("Going downhill from the best place");
+    program.wait_for_error_text("Descending from the best position");
     kill_rank(program, 0);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);

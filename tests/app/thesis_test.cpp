@@ -72,7 +72,7 @@ TEST(ThesisCommand, AGridGoesThroughBothForms) {
     EXPECT_THAT(wrong.err, HasSubstr("pairs.dat"));
     const Ended as_blocks = run({"thesis", "convert", scratch / "pairs.dat", "--out", scratch / "no.dat"});
     EXPECT_EQ(as_blocks.exit_code, 1);
-    EXPECT_THAT(as_blocks.err, HasSubstr("may be pairs: give its rows and columns"));
+    EXPECT_THAT(as_blocks.err, HasSubstr("specify rows and columns if this is a file of pairs"));
 }
 
 TEST(ThesisCommand, ReadsResidualsWhichNeedNoCells) {
@@ -233,7 +233,7 @@ TEST(ThesisCommand, RefusesAStartGridThatIsNone) {
     const Ended outside = with_start("parameters");
     EXPECT_EQ(outside.exit_code, 1);
     EXPECT_THAT(outside.err,
-                HasSubstr("source:3:16: y of node (0, 2) is 2, outside of the surface: it goes from 0 to 1"));
+                HasSubstr("source:3:16: y of node (0, 2) is 2, outside the surface, which goes from 0 to 1"));
     const Ended bent = run({"thesis",
                             "grid",
                             project,

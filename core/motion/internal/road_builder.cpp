@@ -114,7 +114,7 @@ void check_axes(const std::vector<program::ProgramAxis>& axes,
         there += axis.letter;
     }
     if (!same) {
-        throw Error(fmt::format("the program is for axes {} of '{}', the machine '{}' has {}",
+        throw Error(fmt::format("the program is for axes {} of '{}', but the machine '{}' has {}",
                                 wanted,
                                 machine_of_program,
                                 machine.name(),

@@ -19,8 +19,8 @@ std::string refusal(const char* text) {
 TEST(FileFormat, SaysWhatAFileIsThatWasGivenInPlaceOfAnother) {
     EXPECT_EQ(refusal(R"({"format": "millwright-project"})"), "");
     EXPECT_EQ(refusal(R"({"format": "millwright-machine", "source": "mine"})"),
-              "a.json:1:12: format: not a project file (it is a machine file: a project names it in its "
-              "machine, some commands take it as --machine)");
+              "a.json:1:12: format: not a project file (it is a machine file: name it as the machine of a "
+              "project, or use it as --machine where a command has this option)");
     EXPECT_EQ(refusal(R"({"format": "something"})"),
               "a.json:1:12: format: not a project file (expected \"millwright-project\")");
     EXPECT_NE(refusal("{}"), "");

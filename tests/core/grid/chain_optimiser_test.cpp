@@ -78,7 +78,7 @@ TEST(ChainOptimiser, PricesTheAxisWhereTheBestTracksTurnItTooFar) {
     ChainOptimiser chain(model, Grid::uniform(8, 12), along_v, settings);
     const ImproverState state = run(chain, {});
     EXPECT_TRUE(has_link(state, "best tracks and nodes", false));
-    EXPECT_TRUE(has_link(state, "best tracks and nodes, the axis priced", true));
+    EXPECT_TRUE(has_link(state, "best tracks and nodes, with axis weight", true));
     EXPECT_EQ(state.links.size(), 10U);
     EXPECT_LE(state.of_best.axis_max, state.start.axis_max + 1e-8);
     EXPECT_LT(state.of_best.mean, 0.9 * state.start.mean);
@@ -92,7 +92,7 @@ TEST(ChainOptimiser, EndsWithTheNameOfTheLinkWhoseGridIsKept) {
     const ImproverState state = run(chain, {});
     ASSERT_EQ(state.links.back().name, "all nodes at once, exponent 2");
     ASSERT_LT(state.links.back().of_best.max, state.links[2].of_best.max);
-    EXPECT_EQ(state.note, "The best grid of the link \"all nodes at once, exponent 2\" is kept");
+    EXPECT_EQ(state.note, "The best grid of the stage \"all nodes at once, exponent 2\" is kept");
 }
 
 TEST(ChainOptimiser, SaysThatNoLinkWasTakenAndWhy) {
@@ -102,7 +102,7 @@ TEST(ChainOptimiser, SaysThatNoLinkWasTakenAndWhy) {
     ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, settings);
     const ImproverState state = run(chain, {});
     EXPECT_EQ(state.status, ImproverStatus::no_gain);
-    EXPECT_EQ(state.note, "No link was taken, the start is kept: a cell that nearly folds");
+    EXPECT_EQ(state.note, "No stage was accepted, so the start grid is kept: a nearly folded cell");
 }
 
 TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {

@@ -182,7 +182,7 @@ TEST(EllipticAdaptation, LessensTheAdaptationWhenTheReferenceSolverFolds) {
     EXPECT_NE(state.status, ImproverStatus::folded);
     EXPECT_EQ(adaptation.adaptation(), 10.0);
     EXPECT_THAT(state.warning,
-                testing::StartsWith("LV = 10 was used in place of 100: a cell folded at LV = 100."));
+                testing::StartsWith("LV = 10 was used instead of 100: a cell folded at LV = 100."));
 }
 
 TEST(EllipticAdaptation, SaysWhereTheSolverOfTheLastRoundDidNotConverge) {
@@ -198,7 +198,7 @@ TEST(EllipticAdaptation, SaysWhereTheSolverOfTheLastRoundDidNotConverge) {
         ASSERT_GT(cut_off.norm, settings.tolerance);
         EXPECT_THAT(cut_off.warning,
                     testing::MatchesRegex("The solver did not converge: round 2 ended after 1 iteration with "
-                                          "the norm [0-9.e+-]+, and the tolerance is 0.001\\."));
+                                          "a residual of [0-9.e+-]+; the tolerance is 0.001\\."));
         settings.max_iterations = 250;
         settings.tolerance = 1e6;
         EllipticAdaptation loose(model, Grid::uniform(16, 16), settings);
@@ -220,7 +220,7 @@ TEST(EllipticAdaptation, TheHarmonicMapHasNoLv) {
     EXPECT_EQ(run(elliptic, Progress()).norms.front().adaptation, settings.functional.adaptation);
     EllipticAdaptation broken(model, Grid::uniform(6, 6), harmonic_settings(), broken_weight(infinity));
     const ImproverState failed = run(broken, Progress());
-    EXPECT_EQ(failed.note, "Given up: a number left the finite range");
+    EXPECT_EQ(failed.note, "Stopped: a value is not finite");
     EXPECT_EQ(failed.warning, "") << "less LV would not help";
 }
 
@@ -405,7 +405,8 @@ TEST(EllipticAdaptation, TellsHowFarItIs) {
     (void)run(adaptation, progress);
     ASSERT_GT(reports.size(), 3U);
     EXPECT_GT(reports.back().fraction, reports.front().fraction);
-    for (const char* text : {"Measuring the start", "Round 1", "Judging the start", "Judging grid 1 of"}) {
+    for (const char* text :
+         {"Measuring the start grid", "Round 1", "Judging the start", "Judging grid 1 of"}) {
         EXPECT_TRUE(std::ranges::any_of(reports, [&](const Progress::Report& report) {
             return report.text.find(text) != std::string::npos;
         })) << text;

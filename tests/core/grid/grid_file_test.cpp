@@ -103,20 +103,19 @@ TEST(GridFile, ReadsPairsInAnyLayoutAndOtherEndsOfLines) {
 
 TEST(GridFile, BadBlocksAreNamedWithTheirPlace) {
     EXPECT_EQ(diagnostic_of(""),
-              "grid.dat:1:1: Two blocks need an even number of lines, at least 4; here are 0");
+              "grid.dat:1:1: Two blocks need an even number of lines, at least 4; there are 0");
     EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1\n"),
-              "grid.dat:3:1: Two blocks need an even number of lines, at least 4; here are 3");
-    EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1 2\n0 1\n"), "grid.dat:3:5: 3 numbers in this line, 2 are needed");
-    EXPECT_EQ(diagnostic_of("0 0\n1\n0 1\n0 1\n"), "grid.dat:2:1: 1 number in this line, 2 are needed");
-    EXPECT_EQ(diagnostic_of("0\n1\n0\n1\n"), "grid.dat:1:1: 1 number in this line, 2 are needed");
-    EXPECT_EQ(diagnostic_of("0 0\n1  one\n0 1\n0 1\n"), "grid.dat:2:4: \"one\" is no number");
-    EXPECT_EQ(diagnostic_of("0 0\n1 1,5\n0 1\n0 1\n"), "grid.dat:2:3: \"1,5\" is no number");
+              "grid.dat:3:1: Two blocks need an even number of lines, at least 4; there are 3");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1\n0 1 2\n0 1\n"),
+              "grid.dat:3:5: 3 numbers in this line, but 2 are needed");
+    EXPECT_EQ(diagnostic_of("0 0\n1\n0 1\n0 1\n"), "grid.dat:2:1: 1 number in this line, but 2 are needed");
+    EXPECT_EQ(diagnostic_of("0\n1\n0\n1\n"), "grid.dat:1:1: 1 number in this line, but 2 are needed");
+    EXPECT_EQ(diagnostic_of("0 0\n1  one\n0 1\n0 1\n"), "grid.dat:2:4: \"one\" is not a number");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1,5\n0 1\n0 1\n"), "grid.dat:2:3: \"1,5\" is not a number");
     EXPECT_EQ(diagnostic_of("0 0\n1 nan\n0 1\n0 1\n"), "grid.dat:2:3: \"nan\" is not finite");
     EXPECT_EQ(diagnostic_of("0 0\n1 -inf\n0 1\n0 1\n"), "grid.dat:2:3: \"-inf\" is not finite");
-    EXPECT_EQ(diagnostic_of("0 0\n1 1e999\n0 1\n0 1\n"),
-              "grid.dat:2:3: \"1e999\" is too large or too small for a number");
-    EXPECT_EQ(diagnostic_of("0 0\n1 2e9\n0 1\n0 1\n"),
-              "grid.dat:2:3: A coordinate of this node is beyond 1e9");
+    EXPECT_EQ(diagnostic_of("0 0\n1 1e999\n0 1\n0 1\n"), "grid.dat:2:3: \"1e999\" is too large or too small");
+    EXPECT_EQ(diagnostic_of("0 0\n1 2e9\n0 1\n0 1\n"), "grid.dat:2:3: A coordinate of this node exceeds 1e9");
 }
 
 TEST(GridFile, AFoldedGridIsNamedByItsFirstCell) {
@@ -147,15 +146,14 @@ TEST(GridFile, TheFormIsFoundFromTheLines) {
         EXPECT_EQ(parse_nodes(blocks_text(nodes), "start.dat", wanted), nodes) << rows << " " << columns;
     }
     EXPECT_EQ(either_diagnostic_of("0 0.25\n0 0.5\n0.5 0.75\n0.25 0.75\n", {.rows = 2, .columns = 2}),
-              "start.dat: this can be read as pairs and as blocks (name the form)");
+              "start.dat: this file can be read as pairs and as blocks (specify the form)");
     EXPECT_EQ(either_diagnostic_of("0 0.25\n0 0.5\n0.5 0.75\n0.25 0.75\n",
                                    {.rows = 2, .columns = 2, .form = FileForm::pairs}),
               "read");
-    EXPECT_EQ(
-        either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
-                             {.rows = 4, .columns = 3, .most = Vec2(3.0, 3.0)}),
-        "start.dat:1:9: The cell from node (0, 0) has no area of its own: nodes (0, 0) and (0, 1) are in "
-        "one place");
+    EXPECT_EQ(either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
+                                   {.rows = 4, .columns = 3, .most = Vec2(3.0, 3.0)}),
+              "start.dat:1:9: The cell from node (0, 0) has no area: nodes (0, 0) and (0, 1) are at the same "
+              "position");
     EXPECT_EQ(either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
                                    {.rows = 4, .columns = 3, .form = FileForm::blocks}),
               "start.dat: 3 x 4 nodes, and 4 x 3 are needed");
@@ -166,9 +164,9 @@ TEST(GridFile, ACoordinateOutsideOfTheSurfaceIsNamedWithItsOwnPlace) {
     nodes.at(2, 1).y() = -0.5;
     const WantedNodes wanted{.rows = 4, .columns = 4, .most = Vec2(3.0, 3.0)};
     EXPECT_EQ(either_diagnostic_of(blocks_text(nodes), wanted),
-              "start.dat:7:27: y of node (2, 1) is -0.5, outside of the surface: it goes from 0 to 3");
+              "start.dat:7:27: y of node (2, 1) is -0.5, outside the surface, which goes from 0 to 3");
     EXPECT_EQ(either_diagnostic_of(pairs_text(nodes), wanted),
-              "start.dat:10:12: y of node (2, 1) is -0.5, outside of the surface: it goes from 0 to 3");
+              "start.dat:10:12: y of node (2, 1) is -0.5, outside the surface, which goes from 0 to 3");
 }
 
 TEST(GridFile, ACellWithoutAreaIsNamedWithWhatItsNodesDo) {
@@ -176,8 +174,8 @@ TEST(GridFile, ACellWithoutAreaIsNamedWithWhatItsNodesDo) {
     twice.at(2, 1) = twice.at(1, 1);
     EXPECT_THAT(
         diagnostic_of(blocks_text(twice)),
-        testing::EndsWith("The cell from node (1, 0) has no area of its own: nodes (2, 1) and (1, 1) are "
-                          "in one place"));
+        testing::EndsWith(
+            "The cell from node (1, 0) has no area: nodes (2, 1) and (1, 1) are at the same position"));
     NodeArray row_on_row = unit_spaced(4, 4);
     for (int j = 0; j < 4; ++j) {
         row_on_row.at(2, j) = row_on_row.at(1, j) + Vec2(0.0, 0.25);
@@ -191,15 +189,15 @@ TEST(GridFile, ACellWithoutAreaIsNamedWithWhatItsNodesDo) {
     EXPECT_THAT(diagnostic_of(blocks_text(slanted)),
                 testing::EndsWith("The cell from node (0, 0) has no area: its nodes lie on one line"));
     EXPECT_THAT(pairs_diagnostic_of("0.5 0.5\n0.5 0.5\n0.5 0.5\n0.5 0.5\n", 2, 2),
-                testing::HasSubstr("nodes (0, 0) and (1, 0) are in one place"));
+                testing::HasSubstr("nodes (0, 0) and (1, 0) are at the same position"));
 }
 
 TEST(GridFile, AWrongCountOfPairsIsNamedWithItsPlace) {
     EXPECT_EQ(pairs_diagnostic_of("0 0\n0 1\n1 0\n", 2, 2),
-              "start.dat:3:3: 2 x 2 nodes need 8 numbers, here are 6");
+              "start.dat:3:3: 2 x 2 nodes need 8 numbers, but there are 6");
     EXPECT_EQ(pairs_diagnostic_of("0 0\n0 1\n1 0\n1 1 7\n", 2, 2),
-              "start.dat:4:5: 2 x 2 nodes need 8 numbers, here are 9");
-    EXPECT_EQ(pairs_diagnostic_of("", 2, 2), "start.dat:1:1: 2 x 2 nodes need 8 numbers, here are 0");
+              "start.dat:4:5: 2 x 2 nodes need 8 numbers, but there are 9");
+    EXPECT_EQ(pairs_diagnostic_of("", 2, 2), "start.dat:1:1: 2 x 2 nodes need 8 numbers, but there are 0");
 }
 
 TEST(GridFile, AskingForNoCellsOrWritingNoNumbersIsADefect) {

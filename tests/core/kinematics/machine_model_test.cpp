@@ -43,11 +43,12 @@ TEST(MachineModel, RefusesMachinesThatAreNone) {
                   m.table.insert(m.table.end(), 2, m.table[0]);
                   m.table[2].letter = 'B';
                   m.table[3].letter = 'U';
-              }).find("three rotary ones at most"),
+              }).find("at most three rotary axes"),
               std::string::npos);
     EXPECT_NE(model_fault([](auto& m) { m.table[0].max_jerk = 0.0; }).find("jerk"), std::string::npos);
-    EXPECT_NE(model_fault([](auto& m) { m.head[0].letter = 'Y'; }).find("stands twice"), std::string::npos);
-    EXPECT_NE(model_fault([](auto& m) { m.head[0].letter = 'Q'; }).find("none of X Y Z"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.head[0].letter = 'Y'; }).find("occurs twice"), std::string::npos);
+    EXPECT_NE(model_fault([](auto& m) { m.head[0].letter = 'Q'; }).find("not one of X Y Z"),
+              std::string::npos);
     EXPECT_NE(model_fault([](auto& m) { m.head[0].direction = m.head[1].direction; }).find("span"),
               std::string::npos);
     EXPECT_NE(model_fault([](auto& m) { m.table[0].direction = m.table[1].direction; }).find("parallel"),

@@ -107,7 +107,7 @@ TEST(MachineSolidsFile, NamesNoneOrWhatIsWrongWithIt) {
         FAIL();
     } catch (const Error& error) {
         EXPECT_NE(to_text(error.diagnostic()).find("ca-head.glb"), std::string::npos);
-        EXPECT_NE(to_text(error.diagnostic()).find("no axis carries the body 'axis "), std::string::npos);
+        EXPECT_NE(to_text(error.diagnostic()).find("no axis matches the body 'axis "), std::string::npos);
     }
 }
 

@@ -33,7 +33,7 @@ TEST(ToolRotation, SaysWhatIsNoRotation) {
         return std::string("taken");
     };
     EXPECT_EQ(why({1, 0, 0, 0, 1, 0, 0, 0, 1}), "taken");
-    EXPECT_THAT(why({1, 0, 0, 0, 1, 0, 0, 0}), HasSubstr("9 numbers, 8 were given"));
+    EXPECT_THAT(why({1, 0, 0, 0, 1, 0, 0, 0}), HasSubstr("9 numbers, but 8 were given"));
     EXPECT_THAT(why({1, 0, 0, 0, 2, 0, 0, 0, 1}), HasSubstr("column 2 of the rotation matrix has length 2"));
     EXPECT_THAT(why({1, 0, 0.6, 0, 1, 0, 0, 0, 0.8}), HasSubstr("columns 1 and 3 of the rotation matrix"));
     EXPECT_THAT(why({1, 0, 0, 0, 1, 0, 0, 0, -1}), HasSubstr("left-handed"));

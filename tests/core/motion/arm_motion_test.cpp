@@ -108,8 +108,9 @@ TEST(ArmMotion, RefusesJointsBeyondTheirLimits) {
         motion.go_to(joints_in_degrees(0, 70, 90, 0, 0));
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(to_text(error.diagnostic()),
-                    HasSubstr("joint 2 would have to go to 70.000 deg, its limits are -200.000 and 60.000"));
+        EXPECT_THAT(
+            to_text(error.diagnostic()),
+            HasSubstr("joint 2 would have to go to 70.000 deg, but its limits are -200.000 and 60.000"));
     }
 }
 

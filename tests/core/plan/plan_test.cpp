@@ -225,7 +225,7 @@ TEST(Plan, BadInputIsNamed) {
             project.surface.patches[0].point(i, j) = {30.0 * i, y, 10.0 + 3.0 * i};
         }
     }
-    EXPECT_THAT(failure_of(project), HasSubstr("the surface turns over on itself"));
+    EXPECT_THAT(failure_of(project), HasSubstr("the surface folds over itself"));
     project = small_sample("dome", 6);
     project.machine.workpiece_offset = Vec3(0, 0, 4000);
     EXPECT_THAT(failure_of(project), HasSubstr("cannot be reached"));

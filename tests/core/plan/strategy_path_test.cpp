@@ -121,7 +121,7 @@ TEST(StrategyPath, ConstantScallopOfAPointIsToldAndTheGridsStay) {
     pipeline.wait_idle();
     const auto published = pipeline.latest();
     ASSERT_TRUE(published->failure);
-    EXPECT_THAT(published->failure->message, HasSubstr("a point leaves no scallop"));
+    EXPECT_THAT(published->failure->message, HasSubstr("a point tool leaves no scallops"));
     EXPECT_NE(published->plan.uniform, nullptr);
     EXPECT_EQ(published->plan.program, nullptr);
     EXPECT_NO_THROW((void)project::project_text(project)) << "it can be saved all the same";

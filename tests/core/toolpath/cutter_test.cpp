@@ -79,15 +79,15 @@ TEST(Cutter, TellsWhatIsWrongWithAShape) {
         EXPECT_EQ(fault_of(shape), "");
     }
     EXPECT_EQ(fault({.kind = CutterKind::ball, .diameter = 0.0}),
-              "a cutter has a diameter and a length above 0 mm");
+              "the diameter and the length of a cutter must be above 0 mm");
     EXPECT_EQ(fault({.kind = CutterKind::ball, .diameter = 6.0, .length = 2.0}),
-              "a cutter of length 2 mm ends below its shank, which begins at 3 mm");
+              "a cutter of length 2 mm ends below its shank, which starts at 3 mm");
     EXPECT_EQ(fault({.kind = CutterKind::bull_nose, .diameter = 6.0, .corner_radius = 4.0}),
               "a corner radius of 4 mm does not fit into a diameter of 6 mm");
     EXPECT_EQ(fault({.kind = CutterKind::cone, .diameter = 2.0, .corner_radius = 3.0}),
-              "a tip of radius 3 mm is thicker than a shank of diameter 2 mm");
+              "a tip radius of 3 mm is too large for a shank diameter of 2 mm");
     EXPECT_EQ(fault({.kind = CutterKind::cone, .half_angle = 0.0}),
-              "the half angle of a cone is between 0 and 90 deg, not 0");
+              "the half angle of a tapered cutter must be between 0 and 90 deg, not 0");
     EXPECT_THROW((void)body_of(CutterShape{.kind = CutterKind::flat, .diameter = -1.0}), Error);
     EXPECT_THROW((void)body_of(HolderShape{.diameter = 20.0, .length = 0.0}, 30.0), Error);
 }

@@ -57,7 +57,7 @@ TEST(ProducedSurface, IsNoneWhereNoTracksLieSideBySideAndSaysWhy) {
     longer.points.push_back(longer.points.back()); // one more move on the last track
     axes.positions.push_back(axes.positions.back());
     EXPECT_FALSE(produced_surface(made.machine, longer, axes, 2));
-    EXPECT_THAT(why_no_produced_surface(longer), HasSubstr("tracks side by side with equally many points"));
+    EXPECT_THAT(why_no_produced_surface(longer), HasSubstr("parallel tracks with equal numbers of points"));
     Toolpath lifted = made.path;
     lifted.points[3].reached_by = MoveKind::over;
     EXPECT_FALSE(produced_surface(made.machine, lifted, made.axes, 2));
@@ -65,7 +65,7 @@ TEST(ProducedSurface, IsNoneWhereNoTracksLieSideBySideAndSaysWhy) {
     Toolpath with_cutter = made.path;
     with_cutter.tool.cutter = test::body({.kind = CutterKind::ball, .diameter = 6.0, .length = 30.0});
     EXPECT_FALSE(produced_surface(made.machine, with_cutter, made.axes, 2));
-    EXPECT_THAT(why_no_produced_surface(with_cutter), HasSubstr("a tool that is a point"));
+    EXPECT_THAT(why_no_produced_surface(with_cutter), HasSubstr("a point tool"));
     EXPECT_FALSE(produced_surface(made.machine, {}, {}, 2));
     EXPECT_NE(why_no_produced_surface({}), "");
     EXPECT_THROW((void)produced_surface(made.machine, made.path, made.axes, 0), Defect);

@@ -90,7 +90,7 @@ TEST(TurningOver, ABowTieIsRefusedWithItsPlace) {
             refuse_zigzag(rising_bow_tie(15.0), {}, 8, direction);
             FAIL() << "not refused";
         } catch (const Error& error) {
-            EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("turns over on itself"));
+            EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("folds over itself"));
             EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("at u 0.5000"));
         }
     }

@@ -137,11 +137,11 @@ TEST_F(GridTold, TheLvThatWasReallyUsedIsSaid) {
     ASSERT_EQ(person_.project().grid.elliptic.adaptation, 100.0);
     EXPECT_TRUE(person_.sees("outline/warning_elliptic"));
     EXPECT_THAT(warning(),
-                testing::StartsWith("LV = 10 was used in place of 100: a cell folded at LV = 100."));
+                testing::StartsWith("LV = 10 was used instead of 100: a cell folded at LV = 100."));
     person_.keep("grid-lv-used");
     person_.fill_in("inspector/elliptic/adaptation", "1");
     person_.wait_idle();
-    EXPECT_THAT(warning(), testing::Not(testing::HasSubstr("was used in place of")));
+    EXPECT_THAT(warning(), testing::Not(testing::HasSubstr("was used instead of")));
 }
 
 } // namespace

@@ -101,7 +101,7 @@ TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {
     person_.choose("inspector/tool/cutter", "point");
     person_.choose("inspector/strategy/strategy", "constant-scallop");
     EXPECT_TRUE(person_.sees("inspector/strategy/no_cutter"));
-    EXPECT_EQ(plan().program, nullptr) << "a point leaves no scallop";
+    EXPECT_EQ(plan().program, nullptr) << "a point tool leaves no scallops";
     EXPECT_FALSE(person_.workshop().look().failure().empty());
     person_.choose("inspector/tool/cutter", "ball");
     EXPECT_FALSE(person_.sees("inspector/strategy/no_cutter"));
