@@ -128,15 +128,15 @@ constexpr std::array<Choice<SequencingGoal>, 4> of_sequencing_goal{{
      "Each point takes the rotary angles nearest to those of the point before"},
     {SequencingGoal::travel,
      "travel",
-     "Least rotation",
+     "Minimum rotation",
      "Least travel of the rotary axes over all branches and turns"},
     {SequencingGoal::error,
      "error",
-     "Least error",
+     "Minimum error",
      "Moves closest to the surface over all branches and turns"},
     {SequencingGoal::time,
      "time",
-     "Least time",
+     "Minimum time",
      "Shortest time at the axes' maximum velocities, over all branches and turns"},
 }};
 
