@@ -8,7 +8,7 @@
 namespace millwright::drivers {
 
 Console::Console(std::size_t capacity) : capacity_(capacity) {
-    expects(capacity > 0, "a console keeps lines");
+    expects(capacity > 0, "a console keeps at least one line");
 }
 
 void Console::add(double time, bool sent, ConsoleKind kind, std::string text) {

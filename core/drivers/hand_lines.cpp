@@ -42,14 +42,14 @@ std::string work_system_name(int system) {
 }
 
 std::string set_work_position(const program::ProgramAxis& axis, double value) {
-    expects(std::isfinite(value), "a position is a number");
+    expects(std::isfinite(value), "a position is finite");
     return fmt::format("G21 G10 L20 P0 {}{}", axis.letter, fixed(for_people(axis, value), decimals));
 }
 
 std::string probe_line(
     const program::ProgramAxis& axis, int axis_index, double way, double speed, const DriverStatus& status) {
     const bool usable = std::isfinite(way) && std::abs(way) > 0.0 && std::isfinite(speed) && speed > 0.0;
-    expects(usable && axis_index >= 0 && axis_index < status.position.size(), "a probing goes somewhere");
+    expects(usable && axis_index >= 0 && axis_index < status.position.size(), "a probing move has a length");
     constexpr double seconds_per_minute = 60.0;
     const double target = status.work_position()[axis_index] + way;
     return fmt::format("G21 G90 G94 G38.2 {}{} F{}",

@@ -36,7 +36,7 @@ constexpr double descents_done = 0.97;
 constexpr double chain_judged = 0.99;
 
 void check_chain_settings(const ChainSettings& s) {
-    expects(s.candidates_a_gap >= 1 && s.candidates_a_gap <= 64, "there are 1 to 64 candidates a gap");
+    expects(s.candidates_a_gap >= 1 && s.candidates_a_gap <= 64, "there are 1 to 64 candidates per gap");
     expects(lies_between(s.narrowest_gap, 0.1, 1.0), "the narrowest gap is from 0.1 to 1");
     expects(lies_between(s.widest_gap, 1.0, 2.0), "the widest gap is from 1 to 2");
     expects(s.first_descent >= 0 && s.first_descent <= 100'000, "a descent has 0 to 100 000 iterations");

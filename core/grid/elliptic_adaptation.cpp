@@ -90,8 +90,8 @@ void expects_valid_settings(const EllipticAdaptationSettings& settings) {
     expects(settings.tolerance >= 0.0 && settings.error_change >= 0.0 && settings.gap_allowance >= 0.0,
             "tolerances and allowances are not negative");
     expects(settings.max_iterations > 0 && settings.max_rounds > 0 && settings.iterations_per_step > 0,
-            "an adaptation does at least one iteration a step and one round");
-    expects(settings.memory >= 0.0 && settings.memory < 1.0, "the memory is a share, and not all");
+            "an adaptation does at least one iteration per step and one round");
+    expects(settings.memory >= 0.0 && settings.memory < 1.0, "the memory is a share below 1");
     expects(settings.error_weight.exponent > 0.0 && settings.error_weight.floor > 0.0 &&
                 settings.error_weight.smoothing_passes >= 0,
             "the weight of the error is positive");

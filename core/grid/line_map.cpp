@@ -49,7 +49,7 @@ LineMap LineMap::interpolation(int sources, int targets) {
 }
 
 LineMap LineMap::means(int sources, int targets) {
-    expects(sources >= targets, "means are fewer than what they are of");
+    expects(sources >= targets, "there are no more means than values");
     const LineMap back = interpolation(targets, sources);
     LineMap map;
     map.sources_ = sources;

@@ -75,7 +75,7 @@ Redistribution::Redistribution(const ErrorModel& model,
       state_{.current = start.array(), .best = start, .start = {}, .now = {}, .of_best = {}, .note = {}},
       start_(straight_tracks(start, direction)) {
     expects(settings.floor > 0.0 && settings.smoothings >= 0 && settings.gap_allowance >= 0.0,
-            "the floor of a monitor is positive, no count or share negative");
+            "the density floor is positive, and no count or share is negative");
 }
 
 bool Redistribution::advance(const Progress& progress) {

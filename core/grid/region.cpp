@@ -113,7 +113,7 @@ private:
 
 Field share_of(const Region& region, const geometry::BezierPatch& patch) {
     expects(std::ssize(region.outline) >= fewest_corners && region.border_mm >= 0.0,
-            "an outline has at least three corners, and a border no negative width");
+            "an outline has at least three corners, and its blend width is not negative");
     Field field = Field::constant(region_raster, region_raster, 0.0);
     const std::vector<Vec3> chords = chords_of(region.outline, patch);
     parallel_for(field.rows, 1, [&](std::ptrdiff_t row) {

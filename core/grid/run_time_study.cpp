@@ -133,7 +133,7 @@ RunTimeProfile profile_of(int side, int iterations, const StudyClocks& clocks) {
         lowest = std::min({lowest, min_cell_area(nodes), min_corner_jacobian(nodes)});
         lap(profile.checks);
     }
-    expects(lowest > 0.0, "the grids of the study stay sound");
+    expects(lowest > 0.0, "the grids of the study stay valid");
     return profile;
 }
 
@@ -152,7 +152,7 @@ RunTimeProfile fastest_profile(int side, const RunTimeSettings& settings, const 
 RunTimeStudy
 run_time_study(const RunTimeSettings& settings, const StudyClocks& clocks, const Progress& progress) {
     expects(!settings.threads.empty() && settings.iterations > 0 && settings.repeats > 0,
-            "a study of run times runs something");
+            "a run-time study has at least one run");
     const ThreadCount put_back;
     RunTimeStudy study;
     progress.check();

@@ -16,18 +16,19 @@ constexpr int lattice_per_node = 4; // the same, for long tracks
 constexpr int quick_lattice = 100;
 
 void check_track_settings(const TrackSettings& s, int nodes) {
-    expects(s.lattice == 0 || (s.lattice >= nodes && s.lattice <= 100'000), "a lattice has a place a node");
+    expects(s.lattice == 0 || (s.lattice >= nodes && s.lattice <= 100'000),
+            "a lattice has at least one place per node");
     expects(lies_between(s.monitor_share, 0.0, 0.99), "the share of the monitor is from 0 to 0.99");
     expects(lies_between(s.longest_move, 1.5, 100.0), "the longest move is from 1.5 to 100 mean steps");
     expects(lies_between(s.shortest_move, 0.0, 0.5), "the shortest move is from 0 to 0.5 mean steps");
     expects(lies_between(s.error_exponent, 1.0, 16.0), "the error exponent is from 1 to 16");
     expects(lies_between(s.axis_weight_mm_per_deg, 0.0, 100.0),
-            "the weight of the axis is from 0 to 100 mm/deg");
+            "the tool-axis weight is from 0 to 100 mm/deg");
     for (const double share : {s.tip_share, s.param_share, s.length_share, s.worst_share, s.axis_share}) {
         expects(lies_between(share, 0.0, 1.0), "a share is from 0 to 1");
     }
     expects(s.polish_sweeps >= 0 && s.polish_sweeps <= 1000, "there are 0 to 1000 polishing sweeps");
-    expects(lies_between(s.gap_allowance, 0.0, 10.0), "the allowance of the gap is from 0 to 10");
+    expects(lies_between(s.gap_allowance, 0.0, 10.0), "the gap allowance is from 0 to 10");
 }
 
 MoveWindow window_of(const PlacedTrack& start, double step, const TrackSettings& settings) {

@@ -144,7 +144,7 @@ WeightPtr mixed_weight(const MixedReasons& reasons, const MixSettings& settings,
         if (!(share > 0.0)) {
             return;
         }
-        expects(reason != nullptr, "a reason that has a share is there");
+        expects(reason != nullptr, "every contribution with a share is given");
         reason->values(places, found);
         if (is_error) {
             divide_by_largest(found);
@@ -194,7 +194,7 @@ WeightPtr field_weight(const Field& field, int nu, int nv) {
 
 bool dab(Field& field, const geometry::BezierPatch& patch, const Vec2& uv, const Brush& brush) {
     expects(brush.radius_mm > 0.0 && brush.hardness >= 0.0 && brush.hardness <= 1.0,
-            "a brush has a radius, and a hard middle inside it");
+            "a brush has a positive radius and a hardness from 0 to 1");
     const Vec3 middle = patch.position(uv.x(), uv.y());
     bool changed = false;
     for (int i = 0; i < field.rows; ++i) {

@@ -310,7 +310,7 @@ void JobLog::write(const LogStart& start) {
 
 void JobLog::write(const LogRecord& record) {
     expects(record.position.size() == std::ssize(axes_) && record.position.allFinite(),
-            "a record has a finite position an axis of the start");
+            "a record has a finite position for each axis of the start");
     Json position = Json::array();
     for (std::size_t n = 0; n < axes_.size(); ++n) {
         const double value = record.position[static_cast<Eigen::Index>(n)];

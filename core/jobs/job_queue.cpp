@@ -259,7 +259,7 @@ void JobQueue::finish(const std::function<void(Entry&)>& how) {
     const std::scoped_lock lock(mutex_);
     const auto found = std::ranges::find_if(
         entries_, [](const Entry& entry) { return entry.shown.state == QueueState::running; });
-    expects(found != entries_.end(), "a job ends that was begun");
+    expects(found != entries_.end(), "a job that ends has been started");
     how(*found);
     write(entries_);
 }

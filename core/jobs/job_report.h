@@ -20,7 +20,7 @@ struct JobReport {
     [[nodiscard]] double fraction() const;
     /// "37 of 47 blocks executed", or "sent".
     [[nodiscard]] std::string blocks_text() const;
-    /// "Block 22 of 47, line about 23, 4 confirmed, 31 sent", or "Block 4 of 47" where nothing is estimated.
+    /// "Block 22 of 47, about line 23, 4 confirmed, 31 sent", or "Block 4 of 47" where nothing is estimated.
     [[nodiscard]] std::string progress_text() const;
 };
 

@@ -326,7 +326,7 @@ std::vector<int> watched_lines(const Job& job) {
 }
 
 drivers::ToolChanges tool_changes(const Job& job, const Survey& found) {
-    expects(job.tool_change.has_value(), "its tool changes are made here");
+    expects(job.tool_change.has_value(), "the job has tool changes of its own");
     drivers::ToolChanges changes{.plan = *job.tool_change, .stops = {}};
     for (const ToolCall& call : tool_calls(job.listing->text)) {
         if (call.again) {

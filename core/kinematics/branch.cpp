@@ -18,7 +18,7 @@ double rotary_travel(const MachineModel& machine, const AxisPositions& a, const 
 const AxisPositions& nearest_branch(const MachineModel& machine,
                                     std::span<const AxisPositions> branches,
                                     const AxisPositions& previous) {
-    expects(!branches.empty(), "a branch is chosen among some");
+    expects(!branches.empty(), "there is at least one branch to choose");
     return *std::min_element(
         branches.begin(), branches.end(), [&](const AxisPositions& a, const AxisPositions& b) {
             return rotary_travel(machine, previous, a) < rotary_travel(machine, previous, b);

@@ -34,7 +34,7 @@ void go_straight(ArmMotion& motion, const ArmModel& arm, const ArmStop& stop) {
 } // namespace
 
 double joint_time(const ArmModel& arm, const JointPositions& way, double share) {
-    expects(share > 0.0 && share <= 1.0, "a share of the speed is more than 0 and at most 1");
+    expects(share > 0.0 && share <= 1.0, "a share of the speed is above 0 and at most 1");
     double longest = 0.0;
     for (int n = 0; n < arm.joint_count(); ++n) {
         longest = std::max(longest, std::abs(way[n]) / (share * arm.joint(n).max_velocity));
@@ -58,7 +58,7 @@ arm::ArmWay straight_way(const Frame& from, const Frame& to, double speed) {
 program::Program tour(const ArmModel& arm, const JointPositions& start, const std::vector<ArmStop>& stops) {
     ArmMotion motion(arm, start);
     for (const ArmStop& stop : stops) {
-        expects(stop.share > 0.0 && stop.share <= 1.0, "a stop has a share of the speed");
+        expects(stop.share > 0.0 && stop.share <= 1.0, "the speed share of a stop is above 0 and at most 1");
         try {
             if (stop.joints.size() != arm.joint_count()) {
                 throw Error(fmt::format("it was taught on an arm with {} joints", stop.joints.size()));

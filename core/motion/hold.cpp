@@ -19,7 +19,7 @@ Trajectory go_on(const Trajectory& now, double time, const Override& rates) {
 }
 
 Trajectory go_on_for(int blocks, const Trajectory& now, double time, const Override& rates) {
-    expects(blocks > 0, "a motion goes on for a block or more");
+    expects(blocks > 0, "a motion continues for at least one block");
     internal::Departure from = internal::departure(now, time);
     const int next = internal::first_block_after(now.path(), from);
     const int last = std::max(std::min(now.block_count(), next + blocks) - 1,

@@ -64,7 +64,7 @@ std::size_t Trajectory::index_of(int block) const {
 }
 
 int Trajectory::block_at(double time) const {
-    expects(!std::isnan(time), "a time is a number");
+    expects(!std::isnan(time), "a time is not NaN");
     const auto after = std::upper_bound(times_.begin(), times_.end(), time);
     const auto index = static_cast<int>(after - times_.begin()) - 1;
     return std::clamp(first_block_ + index, first_block_, std::max(first_block_, last_block()));
@@ -93,7 +93,7 @@ Trajectory::Place Trajectory::place_at(double time) const {
 Sample Trajectory::at(double time) const {
     Sample sample;
     if (block_count() == 0) {
-        expects(!std::isnan(time), "a time is a number");
+        expects(!std::isnan(time), "a time is not NaN");
         sample.position = path_->positions.front();
         sample.velocity = sample.acceleration = sample.jerk =
             kinematics::AxisPositions::Zero(sample.position.size());

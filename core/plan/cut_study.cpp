@@ -317,7 +317,7 @@ CutStudy study_cut_of(project::GridMethod method,
                       const project::Project& project,
                       const Progress& progress) {
     const auto& path = plan.evaluation(method);
-    expects(plan.workpiece && path, "there is the grid whose cut is studied");
+    expects(plan.workpiece && path, "the grid of the study has been evaluated");
     const program::PostResult posted = program::post(plan.workpiece->machine,
                                                      path->toolpath,
                                                      path->axes,

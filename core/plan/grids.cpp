@@ -310,7 +310,7 @@ std::unique_ptr<grid::GridImprover> make_improver(project::GridMethod method,
                                                   const toolpath::KinematicError& error,
                                                   Effort effort,
                                                   const std::optional<grid::Grid>& given) {
-    expects(method != project::GridMethod::uniform, "the uniform grid is not improved");
+    expects(method != project::GridMethod::uniform, "the uniform grid is not optimised");
     expect_memory(method, input);
     expect_enough_nodes(method, input);
     grid::Grid start = given ? *given : grid::Grid::uniform(input.nu, input.nv);

@@ -215,7 +215,7 @@ Activity Pipeline::activity() const {
 
 void Pipeline::start_adaptation(project::GridMethod method) {
     expects(method != project::GridMethod::uniform, "the uniform grid is not adapted");
-    expects(requested_.has_value(), "a project was asked for before its grid is adapted");
+    expects(requested_.has_value(), "a project is set before its grid is adapted");
     adapter_->start(method, *requested_, folders_);
 }
 

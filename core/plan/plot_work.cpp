@@ -16,7 +16,7 @@ namespace millwright::plan {
 namespace fs = std::filesystem;
 
 std::string plot_program_text(const PlotResult& result, const fs::path& assets) {
-    expects(result.path != nullptr, "there is a path to be written");
+    expects(result.path != nullptr, "there is a path to write");
     return posted_plot(result, *result.path, assets).released.listing.text;
 }
 

@@ -38,9 +38,10 @@ SetUpStudy set_up_study(const Workpiece& workpiece,
                         const SetUpStudySettings& settings,
                         const Progress& progress,
                         const toolpath::SetUpCosts& measure) {
-    expects(settings.reach > 0.0 && settings.height_reach > 0.0, "a part may be shifted by some way");
+    expects(settings.reach > 0.0 && settings.height_reach > 0.0, "the search ranges of a part are positive");
     expects(settings.turn_reach >= 0.0 && settings.turn_reach <= pi, "a part may be turned by 0 to pi");
-    expects(settings.nodes >= 2 && settings.nodes <= 200, "the cost is measured on 2 to 200 nodes each way");
+    expects(settings.nodes >= 2 && settings.nodes <= 200,
+            "the cost is measured on 2 to 200 nodes in each direction");
     constexpr double searching = 0.4; // share of the work
     const toolpath::SetUpCost cost = set_up_cost(workpiece, settings);
     toolpath::SetUpSearchSettings box = set_up_box(workpiece, settings);

@@ -213,7 +213,7 @@ std::vector<FittedArc> fit_arcs(const program::Program& program,
                                 const Wording& wording,
                                 const PostFormat& format,
                                 double tolerance) {
-    expects(tolerance > 0.0, "a tolerance of arcs is positive");
+    expects(tolerance > 0.0, "the tolerance of arcs is positive");
     if (!format.arcs) {
         throw Error(
             fmt::format("programs for {} cannot contain arcs", format.name), {}, "omit the arc tolerance");

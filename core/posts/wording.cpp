@@ -81,7 +81,7 @@ double length_of_feeds(const program::Program& program, const Wording& wording, 
 
 PlaneAxes plane_axes(const std::vector<program::ProgramAxis>& axes, gcode::Plane plane) {
     expects(plane == gcode::Plane::xy || plane == gcode::Plane::xz || plane == gcode::Plane::yz,
-            "an arc is of X, Y and Z");
+            "an arc needs axes X, Y and Z");
     const std::string_view letters = plane == gcode::Plane::xy   ? "XYZ"
                                      : plane == gcode::Plane::xz ? "ZXY"
                                                                  : "YZX";

@@ -194,7 +194,7 @@ private:
         if (wanted == std::exchange(tip_, wanted)) {
             return;
         }
-        expects(format_.tip.has_value(), "a control that keeps the tip says how");
+        expects(format_.tip.has_value(), "a control with tip positions has tip control");
         for (const std::string& text : wanted ? format_.tip->on : format_.tip->off) {
             code_line(with_tool(text));
         }
@@ -267,7 +267,7 @@ private:
     }
 
     std::string arc_text(const FittedArc& arc) {
-        expects(format_.arcs.has_value(), "only a control with arcs is given any");
+        expects(format_.arcs.has_value(), "arcs are written only for a control that has them");
         const bool clockwise = arc.sweep < 0.0;
         std::vector<std::string> text =
             codes(clockwise ? format_.arcs->clockwise : format_.arcs->counterclockwise, true);
@@ -349,7 +349,7 @@ private:
                 append_if_new(text, n, words(block_).to[n]);
             }
         }
-        expects(first >= 0, "a move names an axis");
+        expects(first >= 0, "a move names at least one axis");
         if (text.empty()) { // a move without any axis word would be no move
             text.push_back(axis_word(first, words(block_).to[first]));
         }

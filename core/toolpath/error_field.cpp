@@ -196,7 +196,7 @@ ErrorField error_field(const geometry::BezierPatch& patch,
                        MoveSampling sampling,
                        const Progress& progress) {
     expects(toolpath.points.size() == axes.positions.size(), "axis positions belong to their path");
-    expects(sampling.times >= 0, "a move is looked at so many times, or until its error is known");
+    expects(sampling.times >= 0, "a move is sampled a fixed number of times, or until its error is known");
     const geometry::ClosestPointSearch search(patch);
     const Cut cut{patch, search, machine, toolpath};
     const bool search_on = sampling == until_known;

@@ -29,8 +29,8 @@ void check(const SetUpSearchSettings& settings) {
     expects(least.allFinite() && most.allFinite(), "the box of a set-up is finite");
     expects((least.head<3>() < most.head<3>()).all() && least[3] <= most[3],
             "the box of a set-up has a volume");
-    expects(settings.places >= 1 && settings.places <= 50, "1 to 50 places are looked at along each axis");
-    expects(settings.turns >= 1 && settings.turns <= 50, "1 to 50 turns are looked at");
+    expects(settings.places >= 1 && settings.places <= 50, "1 to 50 positions are searched along each axis");
+    expects(settings.turns >= 1 && settings.turns <= 50, "1 to 50 turns are searched");
     expects(settings.descent >= 0 && settings.descent <= 100'000, "a descent has 0 to 100 000 evaluations");
 }
 
@@ -252,8 +252,8 @@ SetUpMap set_up_map(const SetUpCost& cost,
                     const SetUpCosts& measure) {
     check(settings);
     const bool of_turn = across == SetUpParameter::turn || up == SetUpParameter::turn;
-    expects(across != up && (!of_turn || turns(settings)), "a map is over two parameters that have room");
-    expects(places >= 2 && places <= 500, "a map has 2 to 500 places each way");
+    expects(across != up && (!of_turn || turns(settings)), "a map is over two parameters with a range");
+    expects(places >= 2 && places <= 500, "a map has 2 to 500 positions in each direction");
     const auto column = static_cast<Eigen::Index>(across);
     const auto row = static_cast<Eigen::Index>(up);
     SetUpMap map{across, up, {}, {}, {}, {}};

@@ -60,7 +60,7 @@ StepCosts travel_costs(const MachineModel& machine, std::vector<double> weights)
     if (weights.empty()) {
         weights = rotary_weights(machine);
     }
-    expects(std::ssize(weights) == machine.axis_count(), "there is one weight an axis");
+    expects(std::ssize(weights) == machine.axis_count(), "there is one weight per axis");
     expects(std::ranges::all_of(weights, [](double w) { return w >= 0.0 && std::isfinite(w); }),
             "the weight of an axis is finite and not negative");
     const StepCost travel = [weights = std::move(weights)](const AxisPositions& from,

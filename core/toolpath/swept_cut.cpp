@@ -351,7 +351,7 @@ SweptCut swept_cut(const geometry::BezierPatch& patch,
                    const Progress& progress) {
     expects(tool.cutter.has_value(), "a tool without a cutter sweeps nothing");
     expects(settings.nu >= 2 && settings.nv >= 2 && settings.step > 0.0 && settings.highest > 0.0,
-            "a raster has two points or more each way, steps and heights are above 0");
+            "a raster has at least two points in each direction, and positive steps and heights");
     const std::vector<Tile> tiles = tiles_of(patch, flipped, settings);
     const Buried buried(patch, flipped, *tool.cutter);
     SweptCut cut{settings.nu, settings.nv, {}, {}};

@@ -115,7 +115,7 @@ Eigen::Vector2i ObliqueView::pixel(const Vec3& p) const {
 }
 
 std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, const ListingGrid& grid) {
-    expects(grid.nu >= 2 && grid.nv >= 2, "the listing's grid has 2 x 2 points at least");
+    expects(grid.nu >= 2 && grid.nv >= 2, "the listing's grid has at least 2 x 2 points");
     std::vector<Vec3> samples;
     for (int i = 0; i < grid.nu; ++i) {
         for (int j = 0; j < grid.nv; ++j) {

@@ -49,7 +49,7 @@ void JogFeed::add(const Jog& jog) {
     const Eigen::Index axes = target_.size();
     const bool usable = jog.way.size() <= axes && jog.way.allFinite() && length > 0.0 && jog.speed > 0.0 &&
                         std::isfinite(jog.speed) && jog.dead_man >= 0.0;
-    expects(usable, "a jog goes somewhere at a speed");
+    expects(usable, "a jog has a length and a speed");
     Leg leg{.direction = Axes::Zero(axes), .length = length, .speed = jog.speed, .sent_to = Axes::Zero(axes)};
     leg.direction.head(jog.way.size()) = jog.way / length;
     if (jog.dead_man > 0.0) {

@@ -229,7 +229,7 @@ Listing joined(const Program& approach, const Listing& whole, int block) {
     Listing words = words_of(approach);
     const auto taken = std::ranges::count(words.text, '\n');
     const int last = whole.line_of_block[static_cast<std::size_t>(block)];
-    expects(taken <= approach_lines, "an approach has its room above the line");
+    expects(taken <= approach_lines, "an approach fits above the line");
     Listing result;
     result.text = words.text + std::string(static_cast<std::size_t>(last - 1 - taken), '\n') +
                   whole.text.substr(whole.line_starts[static_cast<std::size_t>(last) - 1]);

@@ -18,7 +18,7 @@ double length_between(double slow, double fast, double acceleration) {
 } // namespace
 
 PhaseList::PhaseList(std::vector<Phase> history) : phases_(std::move(history)) {
-    expects(!phases_.empty(), "a motion goes on from somewhere");
+    expects(!phases_.empty(), "a motion continues from a known state");
     time_ = phases_.back().time;
     way_ = phases_.back().way;
     phases_.pop_back();

@@ -124,12 +124,12 @@ void check_axes(const std::vector<program::ProgramAxis>& axes,
 
 void check_settings(const PlannerSettings& settings, const Mechanism& machine, const AxisPositions& start) {
     expects(start.size() == machine.axis_count() && start.allFinite(),
-            "a start has a finite position an axis");
+            "a start has a finite position for each axis");
     expects(settings.corner_time >= 0.0 && settings.junction_deviation >= 0.0,
             "a corner time and a junction deviation are not negative");
     expects(settings.rounding_tolerance > 0.0 && settings.rounding_angle > 0.0,
-            "the tolerances of roundings are positive");
-    expects(settings.look_ahead >= 0, "a look-ahead is a number of blocks");
+            "rounding tolerances are positive");
+    expects(settings.look_ahead >= 0, "the look-ahead is not negative");
 }
 
 AxisPositions position_after(const Block& block, const AxisPositions& before) {

@@ -175,7 +175,7 @@ Trajectory go_to_the_end_of(int last,
                             const Override& rates,
                             const Progress& progress) {
     expects(rates.feed > 0.0 && rates.feed <= highest_override && rates.rapid > 0.0 && rates.rapid <= 1.0,
-            "an override is a factor that the machine has");
+            "an override is within the range of the machine");
     const Phase now = from.history.back();
     Reach reach{now.way, now.way, now.way};
     if (last >= 0) {

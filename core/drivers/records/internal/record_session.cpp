@@ -72,7 +72,7 @@ RecordSession::RecordSession(std::shared_ptr<const MachineModel> model,
                              const RecordsOptions& options)
     : model_(std::move(model)), format_(options.format), decimals_(options.decimals),
       text_(checked_text(options, *model_)), path_(options.format.relative, 1.0, options.decimals) {
-    expects(position.size() == model_->axis_count(), "the table stands somewhere");
+    expects(position.size() == model_->axis_count(), "the table has a position for each axis");
     status_.position = std::move(position);
     status_.position_known = options.known;
     status_.velocity = status_.work_offset = AxisPositions::Zero(model_->axis_count());
@@ -368,7 +368,8 @@ void RecordSession::stands_at(const AxisPositions& position) {
                     {},
                     "enter the position when the table is at rest and unlocked");
     }
-    expects(position.size() == model_->axis_count() && position.allFinite(), "each axis stands somewhere");
+    expects(position.size() == model_->axis_count() && position.allFinite(),
+            "each axis has a finite position");
     status_.position = position;
     status_.position_known = true;
     status_.position_doubt.clear();

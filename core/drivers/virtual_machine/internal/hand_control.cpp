@@ -53,7 +53,7 @@ void refuse_o_words(const std::string& lines) {
 } // namespace
 
 HandControl::HandControl(std::shared_ptr<const MachineModel> model) : model_(std::move(model)) {
-    expects(model_ != nullptr, "a machine is controlled");
+    expects(model_ != nullptr, "there is a machine to control");
 }
 
 program::Program HandControl::read(const std::string& lines, const AxisPositions& position) {

@@ -26,9 +26,10 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 VirtualAxes::VirtualAxes(AxisPositions position, std::shared_ptr<const kinematics::MachineModel> model)
     : model_(std::move(model)), rest_position_(std::move(position)) {
-    expects(rest_position_.size() > 0 && rest_position_.allFinite(), "a machine stands at a finite position");
+    expects(rest_position_.size() > 0 && rest_position_.allFinite(), "the position of a machine is finite");
     if (model_) {
-        expects(rest_position_.size() == model_->axis_count(), "a machine stands at a position of its axes");
+        expects(rest_position_.size() == model_->axis_count(),
+                "the position of a machine has a value for each of its axes");
         control_.emplace(model_);
     }
 }
@@ -195,7 +196,8 @@ void VirtualAxes::require_rest(std::string_view what) const {
 
 void VirtualAxes::stands_at(const AxisPositions& position) {
     require_rest("position");
-    expects(position.size() == rest_position_.size() && position.allFinite(), "each axis stands somewhere");
+    expects(position.size() == rest_position_.size() && position.allFinite(),
+            "each axis has a finite position");
     rest_position_ = position;
 }
 

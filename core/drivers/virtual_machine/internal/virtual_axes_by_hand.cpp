@@ -17,7 +17,7 @@ void VirtualAxes::jog(const Jog& jog) {
     require_model("jog");
     const bool usable = jog.way.size() == rest_position_.size() && jog.way.allFinite() &&
                         jog.way.norm() > 0.0 && std::isfinite(jog.speed) && jog.speed > 0.0;
-    expects(usable, "a jog goes somewhere in the machine's axes at a speed");
+    expects(usable, "a jog moves axes of the machine at a speed");
     if (jogging() && state_ == DriverState::running && !jog_ends_) {
         if (jog.dead_man > 0.0 && !extend_jog(jog)) {
             stop_jog();
