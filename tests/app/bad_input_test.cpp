@@ -70,7 +70,7 @@ TEST_F(BadInput, WrongTypes) {
                 HasSubstr("surface/flipped: expected true"));
     EXPECT_THAT(failure_with("[10, 10, 1]", "{}"),
                 HasSubstr("surface/patches[0]/points[0][0]: expected a list"));
-    EXPECT_THAT(failure_with("\"name\"", "\"nama\""), HasSubstr("the field \"nama\" is not a valid value"));
+    EXPECT_THAT(failure_with("\"name\"", "\"nama\""), HasSubstr("the field \"nama\" is not known here"));
 }
 
 TEST_F(BadInput, ARegionInALine) {

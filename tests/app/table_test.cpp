@@ -381,7 +381,7 @@ TEST(TableCommand, WrongRecordsAreRefused) {
                              "--record",
                              "t {X} {Q}"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("the record 't {X} {Q}': there is no 'Q'"));
+    EXPECT_THAT(ended.err, HasSubstr("the record 't {X} {Q}': 'Q' does not exist"));
 }
 
 } // namespace

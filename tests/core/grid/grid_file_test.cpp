@@ -156,7 +156,7 @@ TEST(GridFile, TheFormIsFoundFromTheLines) {
               "position");
     EXPECT_EQ(either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
                                    {.rows = 4, .columns = 3, .form = FileForm::blocks}),
-              "start.dat: 3 x 4 nodes, and 4 x 3 are needed");
+              "start.dat: 3 x 4 nodes, but 4 x 3 are needed");
 }
 
 TEST(GridFile, ACoordinateOutsideOfTheSurfaceIsNamedWithItsOwnPlace) {

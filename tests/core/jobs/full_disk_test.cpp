@@ -110,7 +110,7 @@ TEST(FullDisk, StopsTheMachineWhereNoRoomWasKept) {
     });
     (void)::setrlimit(RLIMIT_FSIZE, &before);
     (void)std::signal(SIGXFSZ, handler);
-    EXPECT_THAT(said, HasSubstr("since its log cannot be written: File too large"));
+    EXPECT_THAT(said, HasSubstr("because its log cannot be written: File too large"));
     EXPECT_EQ(bench.machine.status().state, drivers::DriverState::stopped);
     const ReadLog log = read_job_log(bench.log);
     EXPECT_FALSE(log.torn);

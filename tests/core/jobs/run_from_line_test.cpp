@@ -218,7 +218,7 @@ TEST(RunFromLine, RefusesWhatNobodyCanKnow) {
     EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 6),
                 HasSubstr("needs 6 lines above it, but there are only 5"));
     EXPECT_EQ(start_line_refusal(with_head("G1 X1\n"), 7), "");
-    EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 99), HasSubstr("has 15 lines"));
+    EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 99), HasSubstr("has only 15 lines"));
     EXPECT_THAT(start_line_refusal(with_head("M2\n"), 14), HasSubstr("ends at line 13"));
     EXPECT_THAT(start_line_refusal(with_head("G1 X1\n"), 14, {.clearance = -5.0}), HasSubstr("is below"));
     EXPECT_EQ(start_line_refusal(with_head("G28\nG0 X1 Y1 Z9\n"), 15), "");

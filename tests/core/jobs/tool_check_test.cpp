@@ -171,7 +171,7 @@ TEST(ToolCheck, ReadsTheMacroBeforeTheJob) {
     job.tool_change->macro = "G53 G0 Z-1\nG53 G0 X-310\n";
     EXPECT_THAT(faults(job), HasSubstr("change.nc:2: axis X would move to -310.000 mm"));
     job.tool_change->macro = "M30\n";
-    EXPECT_THAT(faults(job), HasSubstr("hold M30"));
+    EXPECT_THAT(faults(job), HasSubstr("contains M30"));
 }
 
 TEST(ToolCheck, ABeginningInTheMiddleNamesTheTool) {

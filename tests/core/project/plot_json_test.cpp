@@ -113,7 +113,7 @@ TEST(PlotOfAProject, FaultsComeWithTheirField) {
                 HasSubstr("plot/levels[0]/passes: 0 is not between 1 and 1000"));
     EXPECT_THAT(plot_fault(R"({"machine": ""})"), HasSubstr("plot/machine: the name is empty"));
     EXPECT_THAT(plot_fault(R"({"speed": 3})"),
-                HasSubstr("plot/speed: the field \"speed\" is not a valid value"));
+                HasSubstr("plot/speed: the field \"speed\" is not known here"));
 }
 
 TEST(PlotOfAProject, OutOfItsRangesIsNotWritten) {

@@ -165,7 +165,7 @@ TEST(ProjectFile, FaultsComeWithLineColumnAndField) {
     EXPECT_THAT(project_fault("\"nu\": 20", "\"nu\": 1"), HasSubstr("grid/nu: 1 is not between 2 and 1000"));
     EXPECT_THAT(project_fault("\"nu\": 20", "\"nu\": 20.5"), HasSubstr("grid/nu: expected a whole number"));
     EXPECT_THAT(project_fault("\"nu\": 20", "\"nx\": 20"),
-                HasSubstr("grid/nx: the field \"nx\" is not a valid value"));
+                HasSubstr("grid/nx: the field \"nx\" is not known here"));
     EXPECT_THAT(project_fault("\"flipped\": false", "\"flipped\": 0"),
                 HasSubstr("surface/flipped: expected true or"));
     EXPECT_THAT(project_fault("\"along-v\"", "\"along-w\""),

@@ -351,7 +351,7 @@ TEST(CheckPoints, RefusesAHairMoreThanAnAxisGoes) {
     EXPECT_TRUE(found(0.4).empty());
     ASSERT_EQ(found(0.4001).size(), 1U);
     EXPECT_EQ(found(0.4001).front().message,
-              "axis X would go 0.4001 mm in 0.04 s, 10.0025 mm/s, and goes 10 mm/s at the most");
+              "axis X would move 0.4001 mm in 0.04 s at 10.0025 mm/s, but its maximum is 10 mm/s");
     EXPECT_TRUE(found(0.40004).empty()); // written as 0.4
     EXPECT_FALSE(found(0.40006).empty());
 }
