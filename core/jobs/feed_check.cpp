@@ -26,7 +26,7 @@ std::optional<Diagnostic> feeds_not_reached(const Job& job) {
                          fmt::format("{:.0f} mm/min exceeds the maximum speed of axis {}",
                                      60.0 * block.feed,
                                      limits.letter),
-                         "the move will be slower"};
+                         "the machine will be slower"};
             }
             break;
         }

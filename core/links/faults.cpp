@@ -16,7 +16,7 @@ template <class Number> Number number_in(std::string_view word, std::string_view
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = read.ec == std::errc{} && read.ptr == text.data() + text.size();
     if (!whole || !(value >= Number{} && value <= most)) {
-        throw Error("' has an invalid value" + std::string(word) + "' has no value it could have", {}, {});
+        throw Error("the fault '" + std::string(word) + "' has an invalid value", {}, {});
     }
     return value;
 }

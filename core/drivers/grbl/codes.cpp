@@ -90,7 +90,7 @@ constexpr std::array grblhal_errors = {
     GrblCode{43, "the feed rate exceeds the machine's maximum", "reduce it"},
     GrblCode{44, "spindle speed out of range", "use a speed between $31 and $30"},
     GrblCode{45, "a limit switch is triggered; only homing is allowed", "home the machine"},
-    GrblCode{46, "the machine must be homed first", "home it"},
+    GrblCode{46, "the machine must be homed first", "home the machine"},
     GrblCode{47, "the current tool is unknown", "set it with M61 Q"},
     GrblCode{48, "two values in the line contradict each other", "remove one of them"},
     GrblCode{49, "the power-on self-test failed", "switch the controller off and on again"},

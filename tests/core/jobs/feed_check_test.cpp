@@ -23,8 +23,9 @@ TEST(FeedCheck, TellsFeedsThatNoAxisReaches) {
     ASSERT_TRUE(fast);
     EXPECT_EQ(
         to_text(*fast),
-        fmt::format("part.ngc:3: {:.0f} mm/min exceeds the maximum speed of axis X (the move will be slower)",
-                    1.2 * fastest));
+        fmt::format(
+            "part.ngc:3: {:.0f} mm/min exceeds the maximum speed of axis X (the machine will be slower)",
+            1.2 * fastest));
     const auto both = told(2.0 * fastest, "G1 Y0\n");
     ASSERT_TRUE(both);
     EXPECT_NE(both->message.find("and so do 2 later feeds"), std::string::npos);
