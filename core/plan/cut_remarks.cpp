@@ -87,7 +87,8 @@ std::string why_higher(const project::Project& project, const Plan& plan) {
     constexpr const char* at_outline = "along an outline parallel to the tracks, the last track may be a "
                                        "full step-over away, which leaves four times the height; ";
     const bool trimmed = !plan.workpiece->trim.everything();
-    const std::string found = fmt::format("{} mm remain instead of {} mm", fixed(left, 4), shortest(wanted));
+    const std::string found =
+        fmt::format("the scallops are {} mm high instead of {} mm", fixed(left, 4), shortest(wanted));
     constexpr const char* where = "the scallop map and surface.csv of 'millwright cutter' show where";
     constexpr double to_blame = 0.5; // of what is too much
     if (off < std::max(to_blame * (left - wanted), little * wanted)) {
