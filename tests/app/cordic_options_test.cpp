@@ -81,7 +81,7 @@ TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
         }
     }
     EXPECT_THAT(run({"cordic", "run", thesis_arc, "--clock", "nan"}).err,
-                HasSubstr("--clock: \"nan\" is no finite number"));
+                HasSubstr("--clock: \"nan\" is not a finite number"));
 }
 
 TEST_F(CordicOptions, OfAMotionAreRefusedWithoutOne) {
@@ -201,7 +201,7 @@ TEST_F(CordicOptions, FillTheRamForTheProcessorAndReadItBack) {
     for (const std::string& read : {in, file}) {
         const Ended onto = run({"cordic", "run", file, "--ram", in, "--ram-out", read});
         EXPECT_EQ(onto.exit_code, 1);
-        EXPECT_THAT(onto.err, HasSubstr("--ram-out would write over "));
+        EXPECT_THAT(onto.err, HasSubstr("--ram-out would overwrite "));
     }
     EXPECT_EQ(content_of(in).size(), 4U);
     const Ended large = run({"cordic", "run", file, "--ram", written("large.ram", std::string(0x4001, 'x'))});

@@ -145,7 +145,7 @@ TEST(PictureCommand, ReliefIsCutOutOfItsPlateWithTabs) {
     const Ended ended = run(command);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out,
-                testing::ContainsRegex("points: [0-9]+.[0-9]+ m at a feed, [0-9]+.[0-9]+ m at rapid"));
+                testing::ContainsRegex("points: [0-9]+.[0-9]+ m at feed rate, [0-9]+.[0-9]+ m at rapid"));
     EXPECT_THAT(ended.out, testing::ContainsRegex("lines, [0-9]+:[0-9]+ min on forming table"));
     const std::vector<Place> way = places(content_of(file));
     EXPECT_NEAR(std::ranges::min(way, {}, &Place::z).z, -3.0, 1e-9);
@@ -360,7 +360,7 @@ TEST(PictureCommand, SaysWhatIsWrong) {
     EXPECT_THAT(
         relief("pixel.bmp", {"--depth", "1", "--gray-steps", "1"}).err,
         HasSubstr("--gray-steps: 1 gray steps are not possible (2 to 256, or 0: the picture as it is)"));
-    EXPECT_THAT(relief("pixel.bmp", {"--depth", "-1"}).err, HasSubstr("--depth: \"-1\" has to be above 0"));
+    EXPECT_THAT(relief("pixel.bmp", {"--depth", "-1"}).err, HasSubstr("--depth: \"-1\" must be above 0"));
     EXPECT_EQ(relief("pixel.bmp", {}).exit_code, 2);
     EXPECT_EQ(relief("pixel.bmp", {"--depth", "1", "--width", "3", "--dpi", "96"}).exit_code, 2);
     EXPECT_THAT(relief("wide.bmp", {"--depth", "1", "--pixel", "1000"}).err, HasSubstr("X"));
@@ -395,13 +395,13 @@ TEST(PictureCommand, InvertIsAdvisedWhereItHelpsAlone) {
                       const bool logo = x > 2 && x < 9 && y > 2 && y < 9;
                       return GrayAlpha{255, static_cast<unsigned char>(logo ? 255 : 0)};
                   }));
-    EXPECT_THAT(told("trace", {}), HasSubstr("--invert traces what is bright"));
+    EXPECT_THAT(told("trace", {}), HasSubstr("use --invert to trace what is bright"));
     EXPECT_THAT(told("engrave", {}), HasSubstr("--invert engraves what is bright"));
     write_content(picture, gray_alpha_png(12, [](int, int) { return GrayAlpha{0, 0}; }));
     for (const char* command : {"trace", "engrave", "relief"}) {
         for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--invert"}}) {
             const std::string text = told(command, more);
-            EXPECT_THAT(text, HasSubstr("is all of it transparent?")) << command;
+            EXPECT_THAT(text, HasSubstr("whole picture is transparent")) << command;
             EXPECT_THAT(text, Not(HasSubstr("--invert"))) << command;
         }
     }
@@ -419,7 +419,7 @@ TEST(PictureCommand, TraceTellsSpecksFromWhatIsNotDark) {
     write_content(folder / "pixel.bmp", bmp(1, 1, {0}));
     const Ended speck = traced({});
     EXPECT_EQ(speck.exit_code, 1);
-    EXPECT_THAT(speck.err, HasSubstr("nothing dark in it has more than 2 pixels"));
+    EXPECT_THAT(speck.err, HasSubstr("no dark area has more than 2 pixels"));
     EXPECT_THAT(speck.err, HasSubstr("--speckle 0"));
     EXPECT_THAT(speck.err, Not(HasSubstr("--threshold")));
     EXPECT_THAT(traced({"--speckle", "1"}).err, HasSubstr("more than 1 pixel,"));
@@ -429,7 +429,7 @@ TEST(PictureCommand, TraceTellsSpecksFromWhatIsNotDark) {
     EXPECT_THAT(bright.err, HasSubstr("nothing in it is dark enough"));
     EXPECT_THAT(bright.err, HasSubstr("all of it is equally bright"));
     EXPECT_THAT(bright.err, Not(HasSubstr("--threshold")));
-    EXPECT_THAT(bright.err, HasSubstr("without --invert what is dark is traced"));
+    EXPECT_THAT(bright.err, HasSubstr("leave out --invert to trace what is dark"));
     write_content(folder / "pixel.bmp", bmp(2, 1, {200, 255}));
     EXPECT_THAT(traced({}).err, HasSubstr("--threshold"));
 }

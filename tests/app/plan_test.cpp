@@ -178,7 +178,7 @@ TEST(PlanCommand, WritesOverNoProjectInItsFolder) {
     const std::string bytes = content_of(project);
     const Ended ended = run({"plan", project, "--out", scratch.path()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("report.json: would be written over, and is read"));
+    EXPECT_THAT(ended.err, HasSubstr("report.json: would be overwritten, but is an input file"));
     EXPECT_EQ(content_of(project), bytes);
     EXPECT_FALSE(fs::exists(scratch / "program.ngc"));
 }

@@ -63,8 +63,8 @@ TEST(ProgramsAsPlots, InfoTellsWaysAndTimesOfTheThesis) {
               "24 lines, 2 strokes at 1 level, 1 tool\n"
               "x 10.000 to 90.000 mm, y 10.000 to 90.000 mm, z 0.000 to 0.000 mm\n"
               "feeds across from z 10.000 mm up are travel\n"
-              "0.469 m (0.418 m drawn, 0.050 m in the air), 2 lifts\n"
-              "0.438 m at a feed in 1:22 min, 0.080 m at rapid; 1:30 min with rapids of 10 mm/s\n");
+              "0.469 m (0.418 m drawn, 0.050 m travel), 2 lifts\n"
+              "0.438 m at feed rate in 1:22 min, 0.080 m at rapid; 1:30 min with rapids of 10 mm/s\n");
 }
 
 // As rs274 has it: 252.891 mm; lowered by 5 mm that the program does not say it were 257.883.

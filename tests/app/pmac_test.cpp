@@ -147,11 +147,11 @@ TEST_F(Pmac, MotorsKeepNoPowerThatNobodyAskedToKeep) {
     };
     const Ended went = run({"pmac", "I100=1", "#1J:200", "--power", "--port", port});
     EXPECT_EQ(went.exit_code, 0) << went.err;
-    EXPECT_THAT(went.err, HasSubstr("The motors have no power any more; --keep-power"));
+    EXPECT_THAT(went.err, HasSubstr("The motors are disabled; --keep-power"));
     EXPECT_FALSE(has_power());
     const Ended kept = run({"pmac", "#1J/", "--power", "--keep-power", "--port", port});
     EXPECT_EQ(kept.exit_code, 0) << kept.err;
-    EXPECT_THAT(kept.err, HasSubstr("The motors have power, and nobody watches over them."));
+    EXPECT_THAT(kept.err, HasSubstr("The motors are enabled and no longer supervised."));
     EXPECT_TRUE(has_power());
     EXPECT_TRUE(has_power()); // questions leave it as it was
     const Ended jogged = run({"pmac", "#1J:200", "--port", port});
@@ -217,7 +217,7 @@ TEST_F(Pmac, AMotionProgramNeedsPowerThatAPersonGave) {
     const Ended ended =
         run({"send", file, "--driver", "pmac", "--port", port, "--log", (scratch / "logs").string()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("no power"));
+    EXPECT_THAT(ended.err, HasSubstr("could not be enabled"));
     EXPECT_THAT(run({"pmac", "#1P", "--port", port}).out, testing::ContainsRegex("^-?0(\\.[0-9])?\n"));
 }
 

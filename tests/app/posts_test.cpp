@@ -38,7 +38,7 @@ TEST_F(Posts, ConvertWritesAProgramForAnotherControl) {
     EXPECT_EQ(klartext.exit_code, 0) << klartext.err;
     EXPECT_THAT(klartext.out, StartsWith("0 BEGIN PGM PART MM\n"));
     EXPECT_THAT(klartext.out, HasSubstr("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n"));
-    EXPECT_THAT(klartext.err, HasSubstr("mm from where straight axes would take it"));
+    EXPECT_THAT(klartext.err, HasSubstr("mm from the path of linear axis moves"));
     // The rapids before all axes are named go by the retract, and the first one of the tip in one piece.
     EXPECT_THAT(klartext.out, testing::Not(HasSubstr("Z+50.0000 R0 FMAX\n")));
     const Ended file = convert("ac-table", "fanuc-tcp", {"--out", out});

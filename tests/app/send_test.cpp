@@ -70,7 +70,7 @@ TEST_F(Send, LetsGrblReadAProgramBeforeItRuns) {
     const Ended refused = with({"--check"});
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("line 2: error 20"));
-    EXPECT_THAT(with({"--check", "--trace-box"}).err, HasSubstr("--trace-box runs no program"));
+    EXPECT_THAT(with({"--check", "--trace-box"}).err, HasSubstr("--trace-box does not run a program"));
     EXPECT_EQ(with({"--check-only", "--continue"}).exit_code, 2);
     (void)emulator.stop();
 }
@@ -137,7 +137,7 @@ TEST_F(Send, ObeysKeysWhileItRuns) {
     sender.type("r"); // M0 is over when somebody says so
     const Ended ended = sender.end();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("(r goes on)"));
+    EXPECT_THAT(ended.err, HasSubstr("(r to resume)"));
     EXPECT_EQ(last_record(logs).at("end"), "done");
 }
 
@@ -245,7 +245,7 @@ TEST_F(Send, DispatchesAFileToTheCordicProcessor) {
     EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor passes through corners"));
     EXPECT_EQ(last_record(logs).at("end"), "done");
     EXPECT_THAT(with({"--clock", "1000"}).err, HasSubstr("took longer to compute at 0.001 MHz"));
-    EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from their beginning alone"));
+    EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from the beginning"));
     EXPECT_THAT(run({"send", file, "--driver", "cordic"}).err,
                 HasSubstr("the cordic driver needs a machine"));
     write_content(file, "G21 F600\nG38.2 X5\nM2\n");
@@ -327,7 +327,7 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
                     std::to_string(std::max(next, 2900)),
                     "--clearance",
                     "5"});
-        if (rest.err.find("the machine takes no job: it was moving") == std::string::npos) {
+        if (rest.err.find("the machine cannot accept a job: it was moving") == std::string::npos) {
             break;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -374,7 +374,7 @@ TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
     const Ended short_job = run(words());
     EXPECT_EQ(short_job.exit_code, 1);
     EXPECT_THAT(short_job.err, HasSubstr("may be lost (the controller was reset)"));
-    EXPECT_THAT(short_job.err, HasSubstr("Every job needs that, or --trust-position"));
+    EXPECT_THAT(short_job.err, HasSubstr("Every job requires this, or --trust-position"));
     EXPECT_THAT(short_job.err, HasSubstr("Stored work offsets may lead anywhere"));
 
     auto at_a_line = words();
@@ -383,7 +383,7 @@ TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
     const Ended refused = run(at_a_line);
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("(the controller was reset)"));
-    EXPECT_THAT(refused.err, HasSubstr("could begin anywhere"));
+    EXPECT_THAT(refused.err, HasSubstr("could start at the wrong position"));
     at_a_line.emplace_back("--trust-position");
     EXPECT_EQ(run(at_a_line).exit_code, 0);
     at_a_line.pop_back();
@@ -398,11 +398,11 @@ TEST_F(Send, UnlocksNothingForAJobThatIsRefused) {
     at_a_line.insert(at_a_line.end(), {"--from-line", "6", "--clearance", "5", "--unlock"});
     Ended ended = run(at_a_line);
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("could begin anywhere"));
+    EXPECT_THAT(ended.err, HasSubstr("could start at the wrong position"));
     ended = run(words());
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("--unlock goes on from where it")); // it is locked still
-    EXPECT_THAT(ended.err, testing::Not(HasSubstr("needs that"))) << "the position comes after the lock";
+    EXPECT_THAT(ended.err, HasSubstr("--unlock to continue from the current position")); // it is locked still
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("requires this"))) << "the position comes after the lock";
     EXPECT_THAT(ended.err, testing::Not(HasSubstr("reset to unlock")));
 }
 
@@ -441,7 +441,7 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
         for (const auto* why : {"program stop at line 3: M0",
                                 "optional stop at line 5: M1",
                                 "change to tool 4 at line 7: M6"}) {
-            sender.wait_for_error_text(std::string("holding: ") + why + " (r goes on)");
+            sender.wait_for_error_text(std::string("holding: ") + why + " (r to resume)");
             sender.type("r");
         }
         const Ended ended = sender.end();
