@@ -145,7 +145,7 @@ TEST(PlanCommand, CutsWithTheToolOfAFile) {
                              "--allow-gouges"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("tool: bull-nose, diameter 10 mm"));
-    EXPECT_THAT(ended.out, HasSubstr("left on the surface"));
+    EXPECT_THAT(ended.out, HasSubstr("scallop height: "));
     EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("bull-nose"));
     const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
     EXPECT_EQ(report.at("tool").at("cutter"), "bull-nose");

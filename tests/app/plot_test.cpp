@@ -374,9 +374,9 @@ TEST(PlotCommand, InfoOfNoPlotFails) {
     for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--json"}}) {
         EXPECT_EQ(info_of("", more).exit_code, 1);
         EXPECT_THAT(info_of("", more).err,
-                    HasSubstr("there is no command of HPGL in it, nor does it begin as G-code"));
-        EXPECT_THAT(info_of(std::string(1000, '\xff'), more).err, HasSubstr("no command of HPGL"));
-        EXPECT_THAT(info_of("IN;SP1;PU;SP;", more).err, HasSubstr("there is nothing to draw in it"));
+                    HasSubstr("it contains no HPGL command, and does not begin as G-code"));
+        EXPECT_THAT(info_of(std::string(1000, '\xff'), more).err, HasSubstr("contains no HPGL command"));
+        EXPECT_THAT(info_of("IN;SP1;PU;SP;", more).err, HasSubstr("it contains nothing to draw"));
     }
     EXPECT_EQ(nlohmann::json::parse(info_of("IN;SP1;", {"--json"}).out).at("extents_mm"), nullptr);
 }
@@ -546,7 +546,7 @@ TEST(PlotCommand, JunkIsNotDecoded) {
                              "--out",
                              (folder / "points.csv").string()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("no command of HPGL"));
+    EXPECT_THAT(ended.err, HasSubstr("contains no HPGL command"));
     EXPECT_FALSE(std::filesystem::exists(folder / "points.csv"));
 }
 

@@ -356,7 +356,7 @@ TEST_F(Send, AnotherCommandStopsWhatAKilledOneLeftMoving) {
     const Ended stopped = run(stop);
     EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
     EXPECT_THAT(stopped.out, HasSubstr("The machine was stopped (idle"));
-    EXPECT_THAT(run(stop).out, HasSubstr("The machine stands"));
+    EXPECT_THAT(run(stop).out, HasSubstr("The machine is not moving"));
     fs::remove_all(logs);
     write_content(file, zigzag(3));
     EXPECT_EQ(run(words()).exit_code, 0);
@@ -485,7 +485,7 @@ TEST_F(Send, AsksForAMachineWhereItPlans) {
                 HasSubstr("the stream driver needs a port"));
     EXPECT_THAT(
         run({"send", file, "--driver", "grbl", "--port", port, "--machine", "router-xyz"}).err,
-        HasSubstr("a machine and where it stands are for the drivers virtual, cordic, stream and records"));
+        HasSubstr("--machine and --at apply only to the drivers virtual, cordic, stream and records"));
 }
 
 TEST_F(Send, ListsJobsAndPorts) {
@@ -493,7 +493,7 @@ TEST_F(Send, ListsJobsAndPorts) {
     for (const std::string& none : {std::string("/dev/zero"), program_file().string()}) {
         const Ended refused = run({"jobs", none});
         EXPECT_EQ(refused.exit_code, 1) << none;
-        EXPECT_THAT(refused.err, HasSubstr(none + ": is no folder"));
+        EXPECT_THAT(refused.err, HasSubstr(none + ": is not a folder"));
         EXPECT_EQ(refused.out, "");
     }
     write_content(logs + ".jsonl", "nonsense\n");

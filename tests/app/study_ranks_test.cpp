@@ -104,7 +104,8 @@ TEST_F(StudyOnRanks, TheOthersNameTheirCasesWhenRank0IsLost) {
         AllOf(HasSubstr("rank 1 was stopped and rank 0 does not respond; missing cases: dome on "
                         "rotary-tilt-listing with 20 points (begun), dome on rotary-tilt-listing with "
                         "40 points, "),
-              HasSubstr("no case was written to " + (folder_ / "out" / "unfinished").string())));
+              HasSubstr("no case that rank 1 can see was written to " +
+                        (folder_ / "out" / "unfinished").string())));
 }
 
 TEST_F(StudyOnRanks, CasesThatAreDoneOutliveRank0) {
@@ -123,7 +124,7 @@ TEST_F(StudyOnRanks, CasesThatAreDoneOutliveRank0) {
               "not in these tables: 1 of 2 cases\ndome on rotary-tilt-listing with 12 points\n");
     EXPECT_THAT(content_of(unfinished / "kinematic-error.csv"), HasSubstr("\ndome,ca-head,12,"));
     EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("the cases that were done are in " + unfinished.string() +
+                AllOf(HasSubstr("the finished cases are in " + unfinished.string() +
                                 ", whose missing.txt names the others\n"),
                       HasSubstr("its last finished case may not be written: dome on ca-head with 12 points"),
                       Not(HasSubstr("missing cases"))));

@@ -262,7 +262,7 @@ TEST(ThesisCommand, RefusesAStartGridThatIsNone) {
                             "--out",
                             scratch / "o.dat"});
     EXPECT_EQ(none.exit_code, 2);
-    EXPECT_THAT(none.err, HasSubstr("--residuals is of --method elliptic"));
+    EXPECT_THAT(none.err, HasSubstr("--residuals applies only to --method elliptic"));
 }
 
 TEST(ThesisCommand, WritesTheGridOfEveryMethod) {
