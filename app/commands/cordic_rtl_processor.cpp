@@ -81,7 +81,7 @@ void add_cordic_rtl_processor(CLI::App& group, Command& chosen) {
     CLI::Option& file =
         *command.add_option("FILE",
                             options->source.file,
-                            "Program for the test bench: G-code, assembler text (.asm) or image (.bin); "
+                            "Program for the test bench: G-code, assembly source (.asm) or image (.bin); "
                             "default: random instructions and every way to stop");
     command
         .add_option(

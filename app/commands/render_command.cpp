@@ -112,8 +112,8 @@ viewport::MachineSolids solids_of(const OpenedProject& opened, const plan::Plan&
             throw;
         }
         fmt::print(stderr,
-                   "warning: {}: file not found: the machine is drawn with simple bodies (create the file "
-                   "with millwright machine bodies {} --out {})\n",
+                   "warning: {}: there is no such file: the machine is drawn with simple bodies (create the "
+                   "file with millwright machine bodies {} --out {})\n",
                    printable(bodies.string()),
                    printable(file.string()),
                    printable(bodies.string()));

@@ -79,8 +79,7 @@ void print_out_of_reach(const SetUpStudy& study,
     const auto holes =
         std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
     if (holes > 0) {
-        fmt::print(
-            "out of reach: {} of {} of the map\n", holes, counted(study.map.costs.size(), "placement"));
+        fmt::print("out of reach: {} of {} of the map\n", holes, counted(study.map.costs.size(), "position"));
     }
 }
 
@@ -141,11 +140,11 @@ int set_up(const StudySetUpOptions& options) {
     print_set_up("best", study.search.best);
     if (settings.goal == SetUpGoal::error) {
         fmt::print("mean: distance from the surface curve between the nodes of a move, used to compare "
-                   "placements; axis: the largest angle on the finished part\n");
+                   "positions; axis: the largest angle on the finished part\n");
     }
     const bool gains = study.search.best.cost < study.search.start.cost;
     if (!gains) {
-        fmt::print("no gain: no placement better than the start was found\n");
+        fmt::print("no gain: no position better than the start was found\n");
     }
     print_out_of_reach(study, workpiece, settings);
     const std::string edge = plan::edge_sentence(study.search,
@@ -168,7 +167,7 @@ void add_study_set_up_command(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<StudySetUpOptions>();
     plan::SetUpStudySettings& settings = options->settings;
     CLI::App& command =
-        *group.add_subcommand("set-up", "Find the best placement on the table for the part of a project");
+        *group.add_subcommand("set-up", "Find the best position on the table for the part of a project");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "Folder for set-up.csv and set-up.png")
         ->required()
@@ -197,8 +196,7 @@ void add_study_set_up_command(CLI::App& group, Command& chosen) {
         ->check(CLI::Range(0.01, 1e4));
     command.add_option("--turn-reach", options->turn_reach_deg, "Search range of the rotation, degrees")
         ->check(CLI::Range(0.0, 180.0));
-    command
-        .add_option("--accept", options->accepted, "Write the project with the part in the best placement")
+    command.add_option("--accept", options->accepted, "Write the project with the part in the best position")
         ->type_name("FILE");
     command.callback([&chosen, options] { chosen = [options] { return set_up(*options); }; });
 }

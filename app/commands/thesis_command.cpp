@@ -139,7 +139,7 @@ void add_files(CLI::App& thesis, Command& chosen) {
         .add_option_function<std::string>(
             "--constants",
             [options, constants](const std::string& name) { options->constants = constants.at(name); },
-            "Machine and placement of the part: the project's (default), or one of the thesis's three sets")
+            "Machine and position of the part: the project's (default), or one of the thesis's three sets")
         ->check(CLI::IsMember(constants).description(""))
         ->type_name(listed(constants));
     command.add_flag("--listing-faults",

@@ -309,7 +309,7 @@ TEST_F(CordicOptions, AreForTheKindOfFileThatTheyAreFor) {
     EXPECT_THAT(again.err, HasSubstr("is already an image"));
     EXPECT_THAT(
         run({"cordic", "asm", "--help"}).out,
-        AllOf(HasSubstr("G-code or assembler text (.asm)"), HasSubstr("G-code: speed of rapid moves")));
+        AllOf(HasSubstr("G-code or assembly source (.asm)"), HasSubstr("G-code: speed of rapid moves")));
 }
 
 TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {

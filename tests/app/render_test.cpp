@@ -47,7 +47,7 @@ TEST(RenderCommand, DrawsAMachineWhoseFileOfBodiesIsMissingByItsSimpleBodies) {
     const auto file = scratch / "machine.png";
     const Ended alone = run({"render", project, "--view", "machine", "--size", "320x200", "--out", file});
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
-    EXPECT_THAT(alone.err, HasSubstr("rotary-tilt-listing.glb: file not found"));
+    EXPECT_THAT(alone.err, HasSubstr("rotary-tilt-listing.glb: there is no such file"));
     const std::string simple_bodies = content_of(file);
     const Ended made =
         run({"machine", "bodies", scratch / "own.json", "--out", scratch / "rotary-tilt-listing.glb"});

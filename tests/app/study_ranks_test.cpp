@@ -156,25 +156,24 @@ TEST_F(StudyOnRanks, ASetUpSearchFindsWhatOneProcessFinds) {
 
 TEST_F(StudyOnRanks, PlacesOfALostRankAreNamed) {
     Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
-    program.wait_for_error_text("90000 placements on 2 ranks");
+    program.wait_for_error_text("90000 positions on 2 ranks");
     kill_rank(program, 1);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(ended.err, HasSubstr("rank 1 has not ended; "));
-    EXPECT_THAT(ended.err, HasSubstr(" of its placements are missing: from ("));
+    EXPECT_THAT(ended.err, HasSubstr(" of its positions are missing: from ("));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }
 
 TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLost) {
     Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
-    program.wait_for_error_text(
-        "50 %  90000 placements on 2 ranks"); // before, the other may not know of them
+    program.wait_for_error_text("50 %  90000 positions on 2 ranks"); // before, the other may not know of them
     kill_rank(program, 0);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("rank 1 was stopped and rank 0 does not respond; "),
-                      HasSubstr(" of its placements are missing: from ("),
+                      HasSubstr(" of its positions are missing: from ("),
                       HasSubstr("; nothing is written\n")));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }
@@ -191,7 +190,7 @@ TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLostOnItsWayDownhill) {
     EXPECT_THAT(
         ended.err,
         AllOf(HasSubstr("rank 1 was stopped and rank 0 does not respond; it had measured all of its "),
-              HasSubstr(" placements, which are lost with rank 0, as is what rank 0 computes alone after "
+              HasSubstr(" positions, which are lost with rank 0, as is what rank 0 computes alone after "
                         "them: from ("),
               HasSubstr("; nothing is written\n")));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
