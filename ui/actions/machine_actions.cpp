@@ -435,7 +435,7 @@ void add_machine_actions(Actions& actions) {
          icons::fit_view},
         can_trace,
         trace_box);
-    add(actions, {"start.cancel", dialog_menu, "Cancel", "Nothing is moving.", "", ""}, always, leave_start);
+    add(actions, {"start.cancel", dialog_menu, "Cancel", "Nothing moves.", "", ""}, always, leave_start);
     add(actions,
         {"machine.hold",
          "Machine",
