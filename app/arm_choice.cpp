@@ -20,7 +20,7 @@ using arm::JointKind;
 using arm::JointPositions;
 
 void add_arm_option(CLI::App& command, std::string& arm) {
-    command.add_option("--arm", arm, "Arm that ships with the program, or an arm file")
+    command.add_option("--arm", arm, "Shipped arm or arm file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
 }
@@ -43,7 +43,7 @@ double from_joint(const ArmModel& arm, int joint, double position) {
 
 JointPositions given_joints(const ArmModel& arm, const std::vector<double>& shown) {
     if (static_cast<int>(shown.size()) != arm.joint_count()) {
-        throw Error(fmt::format("{} has {}, {} positions were given",
+        throw Error(fmt::format("{} has {}, but {} positions were given",
                                 arm.name(),
                                 counted(arm.joint_count(), "joint"),
                                 shown.size()));

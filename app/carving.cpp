@@ -77,29 +77,35 @@ void add_carving_options(CLI::App& command, CarvingOptions& options) {
     plot::CarvingSettings& settings = options.settings;
     command.add_option("--out", options.cutting.out, "G-code file")->required();
     command
-        .add_option("--tool", options.tool, "V-bit: v:DEGREES[:MM[:END]], END its flat width or rRADIUS, mm")
+        .add_option("--tool",
+                    options.tool,
+                    "V-bit: v:DEGREES[:MM[:END]]; END is the width of a flat tip or rRADIUS, mm")
         ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
     command
-        .add_option(
-            "--largest-depth", settings.largest_depth, "No deeper than so many mm; else as the bit reaches")
+        .add_option("--largest-depth",
+                    settings.largest_depth,
+                    "Maximum depth, mm (default: as deep as the bit reaches)")
         ->check(above_zero());
-    command.add_option("--depth-per-pass", settings.depth_per_pass, "Deeper cuts are made in passes, mm")
+    command.add_option("--depth-per-pass", settings.depth_per_pass, "Depth per pass, mm")
         ->check(above_zero());
     command
-        .add_option("--step-over",
-                    settings.step_over,
-                    "Between passes on a floor at the largest depth, mm; else ridges are a tenth of it")
+        .add_option(
+            "--step-over",
+            settings.step_over,
+            "Step-over on floors at the largest depth, mm (default: for ridges of a tenth of the depth)")
         ->check(above_zero());
     command.add_flag(
-        "--leave-floor", options.leave_floor, "Floors are left for an end mill, but for their edges");
-    command.add_option("--accuracy", settings.tolerance, "Of place and depth, mm")
+        "--leave-floor", options.leave_floor, "Leave floors for an end mill, except along their edges");
+    command.add_option("--accuracy", settings.tolerance, "Tolerance of position and depth, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--close-gaps", settings.close_gaps, "Ends of outlines so near are joined, mm")
+    command
+        .add_option(
+            "--close-gaps", settings.close_gaps, "Join ends of outlines up to this distance apart, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_flag("--json", options.json, "Print the answer as JSON");
+    command.add_flag("--json", options.json, "Print the result as JSON");
     add_cutting_options(command, options.cutting);
 }
 

@@ -32,39 +32,43 @@
 namespace millwright::app {
 
 CLI::Option& add_controller_options(CLI::App& command, ControllerChoice& choice) {
-    command.add_flag("--one-by-one", choice.one_by_one, "Wait for the answer to each line before the next");
-    command.add_flag("--check", choice.check, "Let the controller read each program in its check mode first");
-    command.add_flag("--check-only", choice.check_only, "The same, and run nothing");
     command.add_flag(
-        "--trace-box",
-        choice.trace_box,
-        "Go around the box of the cuts, at their greatest height with the spindle off; run nothing");
+        "--one-by-one", choice.one_by_one, "Wait for the answer to each line before sending the next");
+    command.add_flag("--check", choice.check, "Check each program in the controller's check mode first");
+    command.add_flag("--check-only", choice.check_only, "Check only, run nothing");
+    command.add_flag("--trace-box",
+                     choice.trace_box,
+                     "Trace the bounding box of the cuts at their greatest height, spindle off; run nothing");
     command.add_flag("--unlock", choice.unlock, "Unlock a locked controller without homing");
     command.add_flag("--trust-position",
                      choice.trust_position,
-                     "The machine stands where the controller says: somebody has looked");
-    command.add_flag("--keys", choice.keys, "Obey p r + - 0 b o q from an input that is no terminal, too");
-    command.add_flag("--power", choice.power, "Give the motors power: somebody has looked; of a PMAC");
+                     "Confirm that the reported machine position is correct (operator has checked)");
     command.add_flag(
-        "--keep-power", choice.keep_power, "Motors of a PMAC keep theirs afterwards: somebody watches");
-    command.add_flag("--home", choice.home, "Home the machine first: it moves");
-    command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1, too");
-    command.add_flag("--single-block", choice.single_block, "Rest after each block, from the first on");
+        "--keys", choice.keys, "Accept the keys p r + - 0 b o q even if the input is not a terminal");
+    command.add_flag("--power", choice.power, "PMAC: enable the motors (operator has checked the machine)");
+    command.add_flag(
+        "--keep-power", choice.keep_power, "PMAC: leave the motors enabled afterwards (operator supervises)");
+    command.add_flag("--home", choice.home, "Home the machine first (the machine moves)");
+    command.add_flag("--optional-stop", choice.optional_stop, "Stop at M1 (optional stop)");
+    command.add_flag(
+        "--single-block", choice.single_block, "Pause after each block, starting with the first");
     return *command
                 .add_option("--port",
                             choice.port,
-                            "Serial port as /dev/ttyUSB0 or /dev/ttyUSB0,9600,8E1, or tcp:HOST:PORT; of a "
-                            "coordinate stream also file:PATH")
+                            "Serial port such as /dev/ttyUSB0 or /dev/ttyUSB0,9600,8E1, or tcp:HOST:PORT; "
+                            "for a coordinate stream also file:PATH")
                 ->type_name("PORT");
 }
 
 void expect_one_way(const ControllerChoice& choice, int from_line) {
     if (choice.trace_box && (choice.check || choice.check_only)) {
-        throw UsageError(
-            "--trace-box runs no program that could be checked", {}, "check it with --check-only first");
+        throw UsageError("--trace-box does not run a program, so there is nothing to check",
+                         {},
+                         "check the program with --check-only first");
     }
     if (from_line > 1 && (choice.trace_box || choice.check || choice.check_only)) {
-        throw UsageError("checks and traces are of whole programs", {}, "leave --from-line out");
+        throw UsageError(
+            "--check, --check-only and --trace-box apply to whole programs", {}, "leave out --from-line");
     }
 }
 
@@ -122,9 +126,9 @@ void Controller::expect_rest() const {
     const drivers::DriverStatus now = driver_->status();
     if (drivers::is_at_work(now.state)) {
         const std::string why = now.message.empty() ? std::string(to_text(now.state)) : now.message;
-        throw Error("the machine takes no job: " + why,
+        throw Error("the machine cannot accept a job: " + why,
                     {},
-                    "wait until it has stopped, or end that: millwright stop --driver " + choice_.driver +
+                    "wait until it has stopped, or stop it: millwright stop --driver " + choice_.driver +
                         " --port " + choice_.port);
     }
 }
@@ -196,8 +200,9 @@ void Controller::expect_unlock() const {
         throw Error(status.message,
                     {},
                     choice_.driver == "grbl"
-                        ? "look at the machine; then --home homes it, and --unlock goes on from where it is"
-                        : "look at the machine; --unlock goes on from where it is");
+                        ? "inspect the machine; then use --home to home it, or --unlock to continue from the "
+                          "current position"
+                        : "inspect the machine; then use --unlock to continue from the current position");
     }
 }
 
@@ -221,9 +226,10 @@ void Controller::settle_position(bool at_a_line, const std::stop_token& stop) {
         return;
     }
     if (at_a_line) {
-        throw Error(drivers::doubt_sentence(why) + " A job that begins at a line could begin anywhere",
+        throw Error(drivers::doubt_sentence(why) +
+                        " A job started at a line could start at the wrong position",
                     {},
-                    "--trust-position if it stands where the controller says");
+                    "use --trust-position if the reported position is correct");
     }
     const bool every_job = drivers::needs_confirmation(driver_->status(), driver_->stored_offsets());
     if (every_job && ::isatty(STDIN_FILENO) != 0) {
@@ -231,21 +237,20 @@ void Controller::settle_position(bool at_a_line, const std::stop_token& stop) {
         return;
     }
     fmt::print(stderr,
-               "millwright: {} {} needs that, or --trust-position if it is where the controller says.\n",
+               "millwright: {} {} requires this, or --trust-position if the reported position is correct.\n",
                drivers::doubt_sentence(why),
-               every_job ? "Every job" : "A job that begins at a line");
+               every_job ? "Every job" : "A job started at a line");
 }
 
 /// No word but yes lets anything move.
 void Controller::ask_whether_position_is_right(const std::string& why, const std::stop_token& stop) {
-    const std::string answer =
-        question(drivers::doubt_sentence(why) +
-                     "\nIs the machine where the controller says? Type yes to run the job, anything else to "
-                     "leave it > ",
-                 stop);
+    const std::string answer = question(
+        drivers::doubt_sentence(why) +
+            "\nIs the reported position correct? Type yes to run the job, anything else to cancel > ",
+        stop);
     if (answer != "yes") {
         throw Error(
-            "nothing was started: the position is not confirmed", {}, "--trust-position confirms it, too");
+            "the job was not started: the position is not confirmed", {}, "confirm it with --trust-position");
     }
     driver_->trust_position();
     remember();
@@ -311,7 +316,7 @@ void Controller::check_there(const jobs::Job& job, const std::stop_token& stop) 
 /// A check and a trace change no tool.
 void Controller::say_what_is_left_out(const jobs::Job& job) const {
     if (job.tool_change && !jobs::tool_calls(job.listing->text).empty()) {
-        fmt::print("{}: the tool changes (M6) are left out here.\n", job.project);
+        fmt::print("{}: tool changes (M6) are skipped here.\n", job.project);
         std::fflush(stdout);
     }
 }
@@ -320,12 +325,11 @@ void Controller::say_what_is_left_out(const jobs::Job& job) const {
 void Controller::say_what_is_not_measured(const jobs::Job& job) const {
     const bool by_hand = job.tool_change->way == drivers::ToolChangeWay::stop;
     if (by_hand && !jobs::tool_calls(job.listing->text).empty()) {
-        fmt::print(
-            stderr,
-            "millwright: {}: after a tool change the job goes on with the zero of Z that is in force. Use "
-            "tools of the same length (stop collars), or --tool-change probe; the window can set the zero "
-            "of each tool.\n",
-            job.project);
+        fmt::print(stderr,
+                   "millwright: {}: after a tool change the job continues with the current Z zero. Use tools "
+                   "of the same length (stop collars), or --tool-change probe; in the window you can set the "
+                   "zero for each tool.\n",
+                   job.project);
     }
 }
 
@@ -335,9 +339,10 @@ void Controller::expect_tool_changes(const jobs::Job& job) const {
                            ? std::vector<jobs::ToolCall>()
                            : jobs::tool_calls(job.listing->text);
     if (!calls.empty()) {
-        throw Error(Diagnostic{{job.project, calls.front().line, calls.front().column, -1},
-                               "the program changes tools (M6), which Grbl refuses (error 20)",
-                               "--tool-change stop waits there for you; probe also measures the tool"});
+        throw Error(Diagnostic{
+            {job.project, calls.front().line, calls.front().column, -1},
+            "the program changes tools (M6), which Grbl refuses (error 20)",
+            "use --tool-change stop to wait for a manual tool change, or probe to also measure the tool"});
     }
 }
 
@@ -352,18 +357,17 @@ void Controller::ask_for_tool(const jobs::Job& job, const std::stop_token& stop)
     if (::isatty(STDIN_FILENO) == 0) {
         fmt::print(stderr, "millwright: {}\n", sentence);
         if (!choice_.right_tool) {
-            throw Error("nothing was started: the tool in the spindle is not confirmed",
+            throw Error("the job was not started: the tool in the spindle is not confirmed",
                         {},
-                        "--right-tool says it, or answer yes at a terminal");
+                        "give --right-tool, or answer yes at a terminal");
         }
         return;
     }
     if (!choice_.right_tool &&
-        question(sentence + "\nIs it? Type yes to run the job, anything else to leave it > ", stop) !=
-            "yes") {
-        throw Error("nothing was started: the tool in the spindle is not confirmed",
+        question(sentence + "\nIs it? Type yes to run the job, anything else to cancel > ", stop) != "yes") {
+        throw Error("the job was not started: the tool in the spindle is not confirmed",
                     {},
-                    "--right-tool confirms it, too");
+                    "confirm it with --right-tool");
     }
 }
 

@@ -27,7 +27,7 @@ template <class Read> auto understood(std::string_view bytes, const Read& read) 
     try {
         return read(Json::from_msgpack(bytes.begin(), bytes.end()));
     } catch (const std::exception& fault) {
-        throw Error(std::string("a rank told something that is not understood: ") + fault.what());
+        throw Error(std::string("a rank sent an invalid message: ") + fault.what());
     }
 }
 

@@ -26,41 +26,43 @@ namespace millwright::app {
 void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--machine", options.machine, "Shipped machine or machine file")
         ->capture_default_str();
-    command.add_option("--feed", options.feed_mm_per_min, "Cutting, mm/min")
+    command.add_option("--feed", options.feed_mm_per_min, "Cutting feed rate, mm/min")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--plunge", options.plunge_mm_per_min, "Into the work, mm/min")
+    command.add_option("--plunge", options.plunge_mm_per_min, "Plunge feed rate, mm/min")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--safe-height", options.safe_height, "Above the top, mm")
+    command.add_option("--safe-height", options.safe_height, "Safe height above the top of the work, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--spindle", options.spindle_rpm, "Turns per minute, 0 for none")
+    command.add_option("--spindle", options.spindle_rpm, "Spindle speed, rpm (0: no spindle)")
         ->check(not_below_zero())
         ->capture_default_str();
     add_post_options(command, options.post).capture_default_str();
     add_drawing_origin(command, options.origin);
-    command.add_option("--path", options.path_file, "The path too: a file of X, Y, Z, speed")
+    command.add_option("--path", options.path_file, "Also write the path to this file: X, Y, Z, speed")
         ->type_name("FILE");
     PreviewOptions& preview = options.preview;
     constexpr int most_pixels = 10'000;
-    command.add_option("--preview", preview.file, "PNG file: how the work looks when it is done")
+    command.add_option("--preview", preview.file, "PNG file for a preview of the finished work")
         ->type_name("FILE");
-    command.add_option("--preview-size", preview.pixels, "Pixels of its longer side")
+    command.add_option("--preview-size", preview.pixels, "Pixels on the longer side of the preview")
         ->check(CLI::Range(1, most_pixels))
         ->capture_default_str();
     command.add_flag(
-        "--against-light", preview.against_light, "Preview the light that goes through the plate");
-    command.add_option("--plate", preview.plate, "Thickness of the plate, mm; nothing is cut deeper")
+        "--against-light", preview.against_light, "Backlit preview: light shining through the plate");
+    command.add_option("--plate", preview.plate, "Plate thickness, mm; also limits the depth of cut")
         ->check(above_zero());
-    command.add_flag("--through", preview.through, "Cuts may go deeper than the plate");
-    command.add_option("--half-light", preview.half_light, "So much of the plate halves the light, mm")
+    command.add_flag("--through", preview.through, "Allow cuts deeper than the plate");
+    command
+        .add_option(
+            "--half-light", preview.half_light, "Thickness of the plate material that halves the light, mm")
         ->check(above_zero())
         ->capture_default_str();
 }
 
 void add_drawing_origin(CLI::App& command, std::vector<double>& origin) {
-    command.add_option("--origin", origin, "Where the drawing's origin lies on the machine: X,Y, mm")
+    command.add_option("--origin", origin, "Drawing origin in machine coordinates: X,Y, mm")
         ->delimiter(',')
         ->expected(2)
         ->allow_extra_args(false);
@@ -187,7 +189,7 @@ WrittenProgram write_program_files(const plot::CutPath& path,
 
 void print_program(const WrittenProgram& written) {
     constexpr double m = 1e-3;
-    fmt::print("{}: {:.3f} m at a feed, {:.3f} m at rapid, lifts among them\n",
+    fmt::print("{}: {:.3f} m at feed rate, {:.3f} m at rapid, lifts included\n",
                counted(written.points, "point"),
                m * written.lengths.cut,
                m * written.lengths.travel);

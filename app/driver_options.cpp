@@ -60,7 +60,7 @@ void expect_options_of_driver(const CLI::App& command, const std::string& driver
         const CLI::Option* const option = command.get_option_no_throw(std::string(known.name));
         const bool given = option != nullptr && option->count() > 0;
         if (given && std::ranges::find(known.drivers, driver) == known.drivers.end()) {
-            throw UsageError(fmt::format("the {} driver has no {}: that is of {}",
+            throw UsageError(fmt::format("the {} driver does not support {}, which is for {}",
                                          driver,
                                          known.name,
                                          fmt::join(known.drivers, ", ")));

@@ -38,7 +38,7 @@ Links open_links(const EmulationChoice& choice,
             std::make_unique<links::TcpServer>(static_cast<std::uint16_t>(choice.tcp), choice.bind));
     }
     if (inner.empty()) {
-        throw UsageError("nobody could reach the emulated controller", {}, "name --pty LINK or --tcp PORT");
+        throw UsageError("the emulated controller has no connection", {}, "give --pty LINK or --tcp PORT");
     }
     Links links;
     for (auto& link : inner) {
@@ -62,31 +62,31 @@ links::FaultSpec faults_of(const EmulationChoice& choice) {
 } // namespace
 
 void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
-    command.add_option("--pty", choice.pty, "Symbolic link to make to a pseudo-terminal")->type_name("LINK");
+    command.add_option("--pty", choice.pty, "Symbolic link to create to a pseudo-terminal")
+        ->type_name("LINK");
     constexpr int greatest_port = 65535;
-    command.add_option("--tcp", choice.tcp, "TCP port to listen on; 0: any free one")
+    command.add_option("--tcp", choice.tcp, "TCP port to listen on (0: any free port)")
         ->check(CLI::Range(0, greatest_port))
         ->type_name("PORT");
     command.add_option("--bind", choice.bind, "Address to listen on")
         ->type_name("ADDRESS")
         ->capture_default_str();
     command
-        .add_option(
-            "--faults",
-            choice.faults,
-            "Faults of wire and controller, as drop=0.001,seed=7; N of disconnect=N, stall=N, reset=N, "
-            "alarm=N and estop=N counts bytes")
+        .add_option("--faults",
+                    choice.faults,
+                    "Faults of the link and the controller, such as drop=0.001,seed=7; N in disconnect=N, "
+                    "stall=N, reset=N, alarm=N and estop=N counts bytes")
         ->type_name("SPEC");
     constexpr double slowest = 0.01;
     constexpr double fastest = 1000.0;
-    command.add_option("--speed", choice.speed, "Machine seconds a second")
+    command.add_option("--speed", choice.speed, "Machine seconds per real second")
         ->check(CLI::Range(slowest, fastest))
         ->capture_default_str();
     command
         .add_option("--wait-for-host",
                     choice.wait_for_host,
-                    "Machine seconds without a word after which its time stands still until the next: for "
-                    "computers too busy to speak in time")
+                    "Machine seconds without a byte from the host after which the emulated time pauses until "
+                    "the next byte (for slow hosts)")
         ->check(CLI::Range(0.001, 3600.0))
         ->type_name("SECONDS");
 }

@@ -15,7 +15,7 @@ CLI::Validator finite_number() {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
         const bool whole = !text.empty() && *end == '\0'; // else it is no number, which is said elsewhere
-        return whole && !std::isfinite(value) ? fmt::format("\"{}\" is no finite number", text)
+        return whole && !std::isfinite(value) ? fmt::format("\"{}\" is not a finite number", text)
                                               : std::string();
     };
     return {fault_of, ""};
@@ -24,7 +24,7 @@ CLI::Validator finite_number() {
 CLI::Validator above_zero() {
     const auto fault_of = [](std::string& text) {
         return std::strtod(text.c_str(), nullptr) > 0.0 ? std::string()
-                                                        : fmt::format("\"{}\" has to be above 0", text);
+                                                        : fmt::format("\"{}\" must be above 0", text);
     };
     return {fault_of, ""};
 }
@@ -32,7 +32,7 @@ CLI::Validator above_zero() {
 CLI::Validator not_below_zero() {
     const auto fault_of = [](std::string& text) {
         return std::strtod(text.c_str(), nullptr) >= 0.0 ? std::string()
-                                                         : fmt::format("\"{}\" has to be 0 or more", text);
+                                                         : fmt::format("\"{}\" must be 0 or more", text);
     };
     return {fault_of, ""};
 }

@@ -32,7 +32,7 @@ void answer_for_gouges(const OpenedProject& opened,
     if (!allowed) {
         throw GougeError(fmt::format("{}; {}", gouges, not_done),
                          opened.file,
-                         "--allow-gouges accepts it; millwright cutter lists the lines");
+                         "use --allow-gouges to accept it, or millwright cutter to list the lines");
     }
     fmt::print(stderr, "warning: {}\n", gouges);
 }

@@ -31,10 +31,9 @@ std::optional<JobStory> log_of(const QueuedJob& job, const std::filesystem::path
 std::string how_it_goes_on(const JobStory& story) {
     const jobs::WayOn way = jobs::way_on(story);
     return way.why_the_beginning.empty()
-               ? fmt::format("Line {} comes next{}.",
-                             way.line,
-                             way.needs_clearance ? "; --clearance Z belongs to it" : "")
-               : with_full_stop("It runs again from its beginning alone: " + way.why_the_beginning);
+               ? fmt::format(
+                     "Resumes at line {}{}.", way.line, way.needs_clearance ? ", with --clearance Z" : "")
+               : with_full_stop("It can only restart from the beginning: " + way.why_the_beginning);
 }
 
 } // namespace

@@ -70,7 +70,7 @@ Interrupt::Interrupt(Suspending suspending) : suspending_(suspending), watched_(
     pthread_sigmask(SIG_BLOCK, &watched_, nullptr);
     signals_ = ::signalfd(-1, &watched_, SFD_CLOEXEC);
     over_ = ::eventfd(0, EFD_CLOEXEC);
-    expects(signals_ >= 0 && over_ >= 0, "the system gives a handle for signals");
+    expects(signals_ >= 0 && over_ >= 0, "the system provides a signal handle");
     thread_ = std::jthread([this] { listen(); });
 }
 
@@ -102,7 +102,7 @@ void Interrupt::listen() {
         }
         if (suspends(signal.ssi_signo)) {
             if (signal.ssi_signo == SIGTSTP && error_takes_text()) {
-                fmt::print(stderr, "\nmillwright: not suspended while it watches over a machine\n");
+                fmt::print(stderr, "\nmillwright: not suspended while it supervises a machine\n");
             }
             continue;
         }

@@ -29,7 +29,7 @@ void JobPrinter::tell_waiting(const drivers::DriverStatus& now, bool keys) {
         const auto& change = now.tool_change;
         const bool for_tool = change && change->waits && !change->held && !change->keeps_zero;
         const std::string_view goes_on =
-            for_tool ? " (r goes on, with the zero of Z that is in force)" : " (r goes on)";
+            for_tool ? " (r to resume, with the current Z zero)" : " (r to resume)";
         printer_.say(why + (keys ? std::string(goes_on) : ""));
     }
 }

@@ -56,17 +56,18 @@ void say_kept(const fs::path& file, const fs::path& name) {
     fmt::print(stderr,
                "millwright: {}\n",
                to_text(Diagnostic{{file, 0, 0, -1},
-                                  "was not as Millwright wrote it last; what was there is now in " +
+                                  "was changed since Millwright wrote it; the changed file is now " +
                                       name.filename().string(),
                                   {}}));
 }
 
 void say_taken_away(const fs::path& file) {
-    fmt::print(stderr,
-               "millwright: {}\n",
-               to_text(Diagnostic{{file, 0, 0, -1},
-                                  "was of an earlier command, did not fit the new files, and was removed",
-                                  {}}));
+    fmt::print(
+        stderr,
+        "millwright: {}\n",
+        to_text(Diagnostic{{file, 0, 0, -1},
+                           "was left by an earlier command, did not match the new files, and was removed",
+                           {}}));
 }
 
 KeptOutputs::KeptOutputs(std::vector<fs::path> files) : files_(std::move(files)) {

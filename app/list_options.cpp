@@ -18,7 +18,7 @@ void expect_full_list(const CLI::Option& option, std::string_view list) {
     const bool empty_place = list.starts_with(comma) || list.ends_with(comma) ||
                              list.find(std::string(2, comma)) != std::string_view::npos;
     if (empty_place) {
-        throw UsageError(fmt::format("{}: \"{}\" has an empty place", option.get_name(), list));
+        throw UsageError(fmt::format("{}: \"{}\" has an empty entry", option.get_name(), list));
     }
 }
 

@@ -106,10 +106,9 @@ std::string command_words(const CLI::App& app) {
 
 int main(int argc, char** argv) {
     guard_output_streams();
-    CLI::App app(
-        "Designs surfaces, shows where a 5-axis machine would cut them wrong, and makes programs that do "
-        "not.\nWithout a command: opens the workbench.",
-        "millwright");
+    CLI::App app("Designs surfaces, shows where a 5-axis machine would miscut them, and generates programs "
+                 "that avoid it.\nWithout a command: opens the workbench.",
+                 "millwright");
     app.formatter(std::make_shared<HelpFormat>()); // the commands take it from here, and the next, too
     app.option_defaults()->always_capture_default();
     app.set_version_flag("--version", "millwright " + std::string(project::version()));

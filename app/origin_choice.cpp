@@ -18,7 +18,7 @@ void add_origin_option(CLI::App& command, std::vector<double>& origin, const std
     // alone.
     command
         .add_option_function<std::vector<double>>(
-            name, take, "Where the program's zero lies on the machine: X,Y or X,Y,Z, mm")
+            name, take, "Program zero in machine coordinates: X,Y or X,Y,Z, mm")
         ->delimiter(',')
         ->expected(2, CLI::detail::expected_max_vector_size)
         ->allow_extra_args(false);

@@ -57,9 +57,11 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
     const std::string name = file.string();
     if (is_picture(head)) {
         throw Error(
-            "this is a picture, no plot",
+            "this is a picture, not a plot",
             file,
-            fmt::format("'millwright picture relief {0}', trace, carve or engrave makes a path of it", name));
+            fmt::format(
+                "make a path from it with 'millwright picture relief {0}', or with trace, carve or engrave",
+                name));
     }
     if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
         throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),
@@ -68,9 +70,10 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
     }
     if (plot::is_path_file(head)) {
         throw Error(
-            "this is a path file, no plot: where the tool goes stands in it",
+            "this is a path file, not a plot: it contains the tool positions",
             file,
-            fmt::format("'millwright {0}' shows it, 'millwright send {0}' sends it to a table", name));
+            fmt::format("show it with 'millwright {0}', or send it to a table with 'millwright send {0}'",
+                        name));
     }
 }
 

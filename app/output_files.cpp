@@ -78,7 +78,7 @@ void expect_writable_file(const Named& out) {
     std::error_code missing;
     if (fs::is_directory(out.value, missing)) {
         throw Error(
-            fmt::format("{} names a folder, and writes a file", out.option), out.value, "add a file name");
+            fmt::format("{} names a folder, but must name a file", out.option), out.value, "add a file name");
     }
     if (!fs::exists(out.value, missing) || fs::is_regular_file(out.value, missing)) {
         const Draft draft(out.value); // begins as the writing will
@@ -92,7 +92,7 @@ void expect_writable_folder(const Named& out) {
         return;
     }
     if (!fs::is_directory(out.value, missing)) {
-        throw Error(fmt::format("{} names a file, and needs a folder", out.option), out.value);
+        throw Error(fmt::format("{} names a file, but must name a folder", out.option), out.value);
     }
     try {
         const Draft draft(fs::path(out.value) / "millwright");
@@ -111,9 +111,10 @@ void expect_outputs_apart(const CLI::App& app) {
         for (const Named& other : files.others) {
             std::error_code failure;
             if (fs::exists(other.value, failure) && same_file(out.value, other.value)) {
-                throw Error(fmt::format("{} would write over {}, which is read", out.option, other.option),
-                            out.value,
-                            "give it another name");
+                throw Error(
+                    fmt::format("{} would overwrite {}, which is an input file", out.option, other.option),
+                    out.value,
+                    "give it another name");
             }
         }
         for (std::size_t k = 0; k < n; ++k) {

@@ -59,7 +59,7 @@ void expect_replaceable(const fs::path& place, const fs::path& source) {
         throw Error("cannot write: Is a directory", place);
     }
     if (!source.empty() && fs::equivalent(place, source, failure)) {
-        throw Error("would be written over, and is read", place, "choose another folder");
+        throw Error("would be overwritten, but is an input file", place, "choose another folder");
     }
 }
 

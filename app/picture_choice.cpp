@@ -27,32 +27,35 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
     constexpr double largest = 1e5;
     const auto sizes = CLI::Range(1e-4, largest);
     command.add_option("FILE", choice.file, "PNG, JPEG or BMP picture")->required();
-    auto* width = command.add_option("--width", choice.size.width, "Of the picture, mm")->check(sizes);
-    auto* dots = command.add_option("--dpi", choice.size.dots_per_inch, "Pixels per inch")->check(sizes);
-    auto* pixel = command.add_option("--pixel", choice.size.pixel, "Width of a pixel, mm")->check(sizes);
+    auto* width = command.add_option("--width", choice.size.width, "Picture width, mm")->check(sizes);
+    auto* dots =
+        command.add_option("--dpi", choice.size.dots_per_inch, "Resolution, pixels per inch")->check(sizes);
+    auto* pixel = command.add_option("--pixel", choice.size.pixel, "Pixel width, mm")->check(sizes);
     width->excludes(dots)->excludes(pixel);
     dots->excludes(pixel);
     command
-        .add_option(
-            "--region", choice.region, "Pixels from the top left: LEFT,TOP,WIDTH,HEIGHT; 0: up to the edge")
+        .add_option("--region",
+                    choice.region,
+                    "Region in pixels from the top left: LEFT,TOP,WIDTH,HEIGHT (0: to the edge)")
         ->delimiter(',')
         ->expected(4)
         ->allow_extra_args(false);
     command
-        .add_option("--gray", choice.reading.gray, "Brightness of colours: mean (as the thesis) or luminance")
+        .add_option(
+            "--gray", choice.reading.gray, "Gray value of colours: mean (as in the thesis) or luminance")
         ->transform(one_of(gray_rules))
         ->type_name(listed(gray_rules))
         ->default_str("mean");
     command
         .add_option("--gray-steps",
                     choice.reading.gray_steps,
-                    "Brightness in so many steps, as 2, 8 or 16; 0: as it is")
+                    "Number of gray levels, such as 2, 8 or 16 (0: unchanged)")
         ->check(parsed_by([](const std::string& text) { plot::expect_gray_steps(std::atoi(text.c_str())); }))
         ->type_name("0|2-256");
-    command.add_option("--pixel-aspect", choice.reading.pixel_aspect, "Height of a pixel by its width")
+    command.add_option("--pixel-aspect", choice.reading.pixel_aspect, "Pixel height divided by pixel width")
         ->check(CLI::Range(0.05, 20.0))
         ->capture_default_str();
-    command.add_flag("--invert", choice.reading.invert, "Dark becomes bright");
+    command.add_flag("--invert", choice.reading.invert, "Invert the picture: dark becomes bright");
 }
 
 namespace {
@@ -76,7 +79,7 @@ bool inverting_helps(const PictureChoice& choice,
 }
 
 std::string invert_hint(const PictureChoice& choice, bool helps, const InvertHints& hints) {
-    return !helps                  ? "inverted, there is nothing either: is all of it transparent?"
+    return !helps ? "check whether the whole picture is transparent: it is empty even if inverted"
            : choice.reading.invert ? hints.plain
                                    : hints.invert;
 }

@@ -33,7 +33,7 @@ std::string fault_of_speed(const std::string& text) {
     const bool inside = speed >= VirtualSpeed::slowest && speed <= VirtualSpeed::fastest;
     return whole && (inside || exactly_equal(speed, VirtualSpeed::unlimited))
                ? std::string()
-               : fmt::format("'{}' is neither 0 nor between {} and {}",
+               : fmt::format("'{}' must be 0 or between {} and {}",
                              text,
                              VirtualSpeed::slowest,
                              VirtualSpeed::fastest);
@@ -50,8 +50,8 @@ void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice
     command
         .add_option("--speed",
                     choice.speed,
-                    "Times real time, of the virtual machine and the CORDIC processor, 0.01 to 1000; 0: as "
-                    "fast as it goes")
+                    "Speed of the virtual machine or the CORDIC processor, times real time: 0.01 to 1000; 0: "
+                    "as fast as possible")
         ->type_name("X")
         ->check(CLI::Validator(fault_of_speed, ""))
         ->capture_default_str();
@@ -64,7 +64,7 @@ void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice
 void check(const PlannedMachineChoice& choice) {
     const bool takes_records = choice.driver == "stream" || choice.driver == "records";
     if (!choice.record.pattern.empty() && !takes_records) {
-        throw UsageError("records are for the stream and records drivers");
+        throw UsageError("--record applies only to the stream and records drivers");
     }
     const bool inside = choice.driver == "virtual" || choice.driver == "cordic";
     if (!inside && choice.controller.port.empty()) {
@@ -130,9 +130,9 @@ void PlannedMachine::connect(const jobs::Job& job) {
     } else if (job.machine->name() != model_) {
         throw Error(
             fmt::format(
-                "{} is for machine '{}', and '{}' is connected", job.project, job.machine->name(), model_),
+                "{} is for machine '{}', but '{}' is connected", job.project, job.machine->name(), model_),
             {},
-            "run it by itself");
+            "run it in a separate command");
     }
 }
 

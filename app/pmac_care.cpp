@@ -26,13 +26,13 @@ bool part_from(pmac::PmacDriver& driver) {
     const bool had_power = driver.any_power();
     driver.close();
     if (const std::string farewell = driver.farewell(); !farewell.empty()) {
-        fmt::print(stderr, "millwright: {}\n", with_sentence(capitalised(farewell), "Look at the machine."));
+        fmt::print(stderr, "millwright: {}\n", with_sentence(capitalised(farewell), "Inspect the machine."));
         return false;
     }
     if (driver.any_power()) {
-        fmt::print(stderr, "The motors have power, and nobody watches over them.\n");
+        fmt::print(stderr, "The motors are enabled and no longer supervised.\n");
     } else if (had_power) {
-        fmt::print(stderr, "The motors have no power any more; --keep-power would leave it to them.\n");
+        fmt::print(stderr, "The motors are disabled; --keep-power would leave them enabled.\n");
     }
     return true;
 }

@@ -77,7 +77,7 @@ void PmacTalk::give_power() {
             return;
         }
     }
-    throw Error("the motors get no power", {}, "are all of them active (Ix00 = 1)?");
+    throw Error("the motors could not be enabled", {}, "check that all of them are active (Ix00 = 1)");
 }
 
 void PmacTalk::let_lines_give_power() {
@@ -112,7 +112,7 @@ std::string PmacTalk::ask(const std::string& line) {
         now = driver_->status();
     }
     if (now.answer.state != drivers::CommandAnswer::State::done) {
-        throw Error(now.answer.text.empty() ? "the card did not take '" + line + "'" : now.answer.text);
+        throw Error(now.answer.text.empty() ? "the card did not accept '" + line + "'" : now.answer.text);
     }
     return now.answer.text;
 }

@@ -16,7 +16,7 @@ namespace millwright::app {
 
 CLI::Option& add_post_options(CLI::App& command, PostChoice& choice) {
     constexpr double coarsest = 1.0;
-    command.add_option("--arcs", choice.arc_tolerance, "Fit arcs that stay so near to the moves, mm")
+    command.add_option("--arcs", choice.arc_tolerance, "Fit arcs within this distance of the moves, mm")
         ->check(CLI::Range(0.0, coarsest));
     command.add_flag("--line-numbers", choice.line_numbers, "Number the lines");
     return *command.add_option("--post", choice.post, "Shipped post or post file")->type_name("NAME|FILE");
@@ -81,15 +81,15 @@ PostedText posted(const program::Program& program,
 
 void print_notes(const PostedText& posted) {
     if (posted.format.positions == posts::PositionsOf::tip) {
-        fmt::print(
-            stderr,
-            "{}: the tip goes straight from block to block, at most {:.4f} mm from where straight axes "
-            "would take it\n",
-            posted.format.name,
-            posted.text.tip_deviation);
+        fmt::print(stderr,
+                   "{}: the tool tip moves straight from block to block, at most {:.4f} mm from the path of "
+                   "linear axis moves\n",
+                   posted.format.name,
+                   posted.text.tip_deviation);
     }
     if (posted.path_mode_changes) {
-        fmt::print(stderr, "the path mode (G61, G64) changes along the program; the first one is written\n");
+        fmt::print(stderr,
+                   "the path mode (G61, G64) changes within the program; only the first one is written\n");
     }
     if (posted.text.arcs > 0) {
         fmt::print(stderr, "{}\n", counted(posted.text.arcs, "arc"));

@@ -14,7 +14,7 @@ namespace millwright::app {
 std::string question(const std::string& text, const std::stop_token& stop) {
     fmt::print("{}", printable(text));
     if (const int failure = output_failure(); failure != 0) {
-        throw Error("nobody can be asked: standard output could not be written: " +
+        throw Error("cannot ask for input: standard output could not be written: " +
                     std::error_code(failure, std::generic_category()).message());
     }
     std::string answer;

@@ -12,16 +12,16 @@ struct Ranks::UnderWay {};
 Ranks::Ranks() {
     const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
     if (size != nullptr && std::string(size) != "1") {
-        throw Error("this build has no MPI, each process would do the whole work",
+        throw Error("this build has no MPI: each process would do the whole work",
                     {},
-                    "install libopenmpi-dev, then build again");
+                    "install libopenmpi-dev, then rebuild");
     }
 }
 
 Ranks::~Ranks() = default;
 
 void Ranks::tell(std::string_view) const {
-    throw Defect("rank 0 is told, it does not tell");
+    throw Defect("rank 0 receives messages, it does not send them");
 }
 
 void Ranks::tell_all(std::string_view) const {} // there is nobody else

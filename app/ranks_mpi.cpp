@@ -58,7 +58,7 @@ Ranks::Ranks() : under_way_(std::make_unique<UnderWay>()) {
     int given = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS ||
         given < MPI_THREAD_FUNNELED) {
-        throw Error("MPI does not start, or not beside threads");
+        throw Error("MPI did not start, or does not support threads");
     }
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
@@ -79,20 +79,20 @@ Ranks::~Ranks() {
 }
 
 void Ranks::tell(std::string_view message) const {
-    expects(rank_ != 0, "rank 0 is told, it does not tell");
+    expects(rank_ != 0, "rank 0 receives messages, it does not send them");
     under_way_->send(message, 0);
 }
 
 void Ranks::tell_all(std::string_view message) const {
-    expects(rank_ == 0, "rank 0 tells all");
-    expects(!message.empty() && !under_way_->let_go, "an empty message lets the others go");
+    expects(rank_ == 0, "only rank 0 sends to all");
+    expects(!message.empty() && !under_way_->let_go, "an empty message releases the other ranks");
     for (int to = 1; to < size_; ++to) {
         under_way_->send(message, to);
     }
 }
 
 void Ranks::let_go() const {
-    expects(rank_ == 0, "rank 0 lets the others go");
+    expects(rank_ == 0, "only rank 0 releases the other ranks");
     const bool before = std::exchange(under_way_->let_go, true);
     for (int to = 1; to < size_ && !before; ++to) {
         under_way_->send({}, to);

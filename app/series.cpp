@@ -135,20 +135,20 @@ private:
 
     void refuse_leftovers() const {
         if (!left().empty()) {
-            throw Error(fmt::format("{} of an earlier command {} left",
+            throw Error(fmt::format("{} of an earlier command {} still queued",
                                     counted(left().size(), "job"),
                                     left().size() == 1 ? "is" : "are"),
                         file_,
-                        "go on with them by --continue, or take the file away");
+                        "resume with --continue, or delete the file");
         }
     }
 
     void take_up() {
         if (left().empty()) {
-            throw Error("there is nothing to go on with",
+            throw Error("there is nothing to resume",
                         file_,
-                        "a command of one file leaves a log alone: millwright jobs " + choice_.log +
-                            " tells how that one goes on");
+                        "after a command with one file, run millwright jobs " + choice_.log +
+                            " to see how to resume it");
         }
         for (const QueuedJob& job : left()) {
             load_or_leave_out(job);
@@ -161,7 +161,7 @@ private:
             queue_->load(job.id, made(job.project, job.from_line));
         } catch (const Error& error) {
             if (choice_.confirmed ||
-                question(fmt::format("{} cannot go on: {}\ns: leave it out, anything else: not now > ",
+                question(fmt::format("{} cannot continue: {}\ns: skip it, anything else: not now > ",
                                      job.project,
                                      to_text(error.diagnostic())),
                          stop_) != "s") {
@@ -179,29 +179,27 @@ private:
         if (choice_.confirmed) {
             return Decision::begin;
         }
-        const std::string answer =
-            question(fmt::format("Next: {}, {}. Look at the machine.\n"
-                                 "y: start it, s: leave it out, anything else: not now > ",
-                                 job.project,
-                                 counted(job.blocks, "block")),
-                     stop_);
+        const std::string answer = question(fmt::format("Next: {}, {}. Inspect the machine.\n"
+                                                        "y: start it, s: skip it, anything else: not now > ",
+                                                        job.project,
+                                                        counted(job.blocks, "block")),
+                                            stop_);
         return answer == "y" ? Decision::begin : answer == "s" ? Decision::leave_out : Decision::not_now;
     }
 
     Decision ask_about_held(const QueuedJob& job) {
         if (choice_.confirmed) {
-            throw Error(fmt::format("{} did not come to its end: {}", job.project, job.sentence),
+            throw Error(fmt::format("{} did not finish: {}", job.project, job.sentence),
                         {},
-                        "without --yes it is asked what becomes of it");
+                        "run without --yes to be asked how to continue");
         }
-        const std::string story =
-            fmt::format("{} did not come to its end: {}\nLook at the machine and the part.\n",
-                        job.project,
-                        held_story(job, choice_.log));
+        const std::string story = fmt::format("{} did not finish: {}\nInspect the machine and the part.\n",
+                                              job.project,
+                                              held_story(job, choice_.log));
         for (std::string before = story;;) {
             const std::string answer =
-                question(before + "a: again from its beginning, a number: from this line, s: leave it out, "
-                                  "anything else: not now > ",
+                question(before + "a: restart from the beginning, a number: resume from this line, s: skip "
+                                  "it, anything else: not now > ",
                          stop_);
             if (answer == "s") {
                 return Decision::leave_out;
@@ -234,9 +232,8 @@ private:
 
     void say_what_is_left() const {
         if (on_disk_ && !left().empty()) {
-            fmt::print("{} left in {}: --continue goes on with them.\n",
-                       counted(left().size(), "job"),
-                       file_.string());
+            fmt::print(
+                "{} left in {}: resume with --continue.\n", counted(left().size(), "job"), file_.string());
         }
     }
 };
@@ -245,24 +242,26 @@ private:
 
 void add_series_options(CLI::App& command, SeriesChoice& choice, const std::string& files) {
     command.add_option("FILE", choice.files, files);
-    command.add_option("--log", choice.log, "Folder of the job logs")
+    command.add_option("--log", choice.log, "Folder for the job logs")
         ->type_name("DIR")
         ->capture_default_str();
     constexpr int greatest_line = 1'000'000'000;
     command
-        .add_option("--from-line",
-                    choice.from_line,
-                    "Begin the first file there, with everything before it brought into force")
+        .add_option(
+            "--from-line",
+            choice.from_line,
+            "Start the first file at this line, with all modes and offsets set by the lines before it")
         ->check(CLI::Range(1, greatest_line))
         ->type_name("N");
-    command.add_flag("--continue", choice.go_on, "Go on with the jobs that an earlier command has left");
-    command.add_flag("--yes", choice.confirmed, "Begin each job without asking when the one before is done");
+    command.add_flag("--continue", choice.go_on, "Resume the jobs left by an earlier command");
+    command.add_flag(
+        "--yes", choice.confirmed, "Start each job without asking when the previous one is done");
     command.parse_complete_callback([&choice] {
         if (choice.files.empty() && !choice.go_on) {
             throw CLI::RequiredError("FILE, or --continue,");
         }
         if (!choice.files.empty() && choice.go_on) {
-            throw CLI::ValidationError("--continue", "goes on with what is left, and takes no files");
+            throw CLI::ValidationError("--continue", "resumes the jobs that are left, and takes no files");
         }
     });
 }
@@ -289,8 +288,8 @@ void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
     command
         .add_option("--clearance",
                     clearance,
-                    "Z of the work in which the tool can go anywhere, for --from-line, mm (also where the "
-                    "program is in inches)")
+                    "Clearance height for --from-line: work Z at which the tool can move freely, mm (even if "
+                    "the program is in inches)")
         ->type_name("Z")
         ->check(finite_number());
 }
@@ -298,7 +297,7 @@ void add_clearance_option(CLI::App& command, std::optional<double>& clearance) {
 int run_series(const SeriesChoice& choice, const SeriesSteps& steps, const std::stop_token& stop) {
     if (steps.instead) {
         if (choice.go_on) {
-            throw UsageError("--continue goes on with jobs, and none is run here");
+            throw UsageError("--continue resumes jobs, but no job is run here");
         }
         std::vector<jobs::Job> jobs;
         for (const std::string& file : choice.files) {

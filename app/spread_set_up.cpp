@@ -62,7 +62,7 @@ std::string range_of(std::span<const SetUpPlace> places, const std::vector<std::
 }
 
 std::string without_places(std::span<const SetUpPlace> places, const std::vector<std::size_t>& without) {
-    return fmt::format("without {} of its places: {}", without.size(), range_of(places, without));
+    return fmt::format("{} of its positions are missing: {}", without.size(), range_of(places, without));
 }
 
 /// What has come of one request.
@@ -156,7 +156,7 @@ public:
     [[nodiscard]] std::string lost() const {
         const std::scoped_lock lock(turn_);
         return fmt::format(
-            "rank {} was stopped, and rank 0 does not answer; {}", ranks_.rank(), share_lost());
+            "rank {} was stopped and rank 0 does not respond; {}", ranks_.rank(), share_lost());
     }
 
 private:
@@ -171,7 +171,7 @@ private:
     /// What it measured went to rank 0, which keeps it in memory alone.
     [[nodiscard]] std::string share_lost() const {
         if (places_.empty()) {
-            return "it had not been asked for any place yet";
+            return "no position had been assigned to it yet";
         }
         const std::vector<std::size_t> own = from(static_cast<std::size_t>(ranks_.rank()));
         if (const std::vector<std::size_t> without = from(next_); !without.empty()) {
@@ -182,12 +182,11 @@ private:
                                       measured)
                         : std::string());
         }
-        return own.empty()
-                   ? fmt::format("none of the {} places was its own", places_.size())
-                   : fmt::format("it had measured all of its {}, which are lost with rank 0, as is what that "
-                                 "does alone after them: {}",
-                                 counted(own.size(), "place"),
-                                 range_of(places_, own));
+        return own.empty() ? fmt::format("none of the {} positions was assigned to it", places_.size())
+                           : fmt::format("it had measured all of its {}, which are lost with rank 0, as is "
+                                         "what rank 0 computes alone after them: {}",
+                                         counted(own.size(), "position"),
+                                         range_of(places_, own));
     }
 
     const Ranks& ranks_;
@@ -212,7 +211,7 @@ std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, co
         .heard = [&](int from, const std::string& bytes) { costs.take(from, unpacked_costs(bytes)); },
         .over =
             [&] {
-                progress.report(costs.fraction(), shared_work(places.size(), "place", ranks_));
+                progress.report(costs.fraction(), shared_work(places.size(), "position", ranks_));
                 return costs.over();
             },
         .given_up = [&] { costs.tell_lost(1, say_); }};
@@ -220,7 +219,8 @@ std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, co
     costs.tell_lost(0, say_);
     const std::vector<std::string>& lost = costs.lost();
     if (!lost.empty()) {
-        throw Error(fmt::format("{} of {} places were measured: {}", costs.come(), places.size(), lost[0]));
+        throw Error(
+            fmt::format("{} of {} positions were measured: {}", costs.come(), places.size(), lost[0]));
     }
     if (!whole) {
         throw Cancelled();

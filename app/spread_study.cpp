@@ -94,7 +94,7 @@ public:
         if (missing.empty()) {
             return std::nullopt;
         }
-        return fmt::format("rank {} {}; without its cases: {}", rank, fate(ranks_[rank]), missing);
+        return fmt::format("rank {} {}; missing cases: {}", rank, fate(ranks_[rank]), missing);
     }
     /// Notes and tells what is lost by the ranks from `first` on that was not told before.
     void tell_lost(std::size_t first, const StudyNews& news) {
@@ -146,14 +146,14 @@ std::string lost_with_rank_0(const Ranks& ranks, std::span<const StudyCase> case
     }
     std::string lost;
     if (!missing.empty()) {
-        lost += "; without its cases: " + missing;
+        lost += "; missing cases: " + missing;
     }
     if (next >= step) {
-        lost += "; its last that is done may not be written: " + name_of(cases[next - step]);
+        lost += "; its last finished case may not be written: " + name_of(cases[next - step]);
     }
     return lost.empty()
                ? std::string()
-               : fmt::format("rank {} was stopped, and rank 0 does not answer{}", ranks.rank(), lost);
+               : fmt::format("rank {} was stopped and rank 0 does not respond{}", ranks.rank(), lost);
 }
 
 } // namespace

@@ -45,21 +45,20 @@ void expect_another(const std::vector<plot::Level>& named,
     });
     if (same) {
         throw Error(
-            fmt::format("the level '{}': pen {} has one with the same tool and order", text, level.pen),
+            fmt::format("level '{}': pen {} already has one with the same tool and order", text, level.pen),
             {},
-            "leave one out, or give it another order= or tool=, so that both are cut");
+            "remove one, or give it another order= or tool=, so that both are cut");
     }
 }
 
 void expect_not_below(double change_height, double safe_height) {
     if (change_height < safe_height) {
-        throw Error(
-            fmt::format("--change-position: tools would be changed at Z {:g} mm, below the safe height "
-                        "of {:g} mm",
-                        change_height,
-                        safe_height),
-            {},
-            "give a Z that is not below it, or a lower --safe-height");
+        throw Error(fmt::format("--change-position: the tool change position at Z {:g} mm is below the safe "
+                                "height of {:g} mm",
+                                change_height,
+                                safe_height),
+                    {},
+                    "give a Z at or above it, or a lower --safe-height");
     }
 }
 
@@ -93,7 +92,7 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
         const int pen = plot::parse_level(text, like).pen;
         const auto drawn = std::ranges::find(cut.levels, pen, &plot::Level::pen);
         if (drawn == cut.levels.end()) {
-            throw Error(fmt::format("the level '{}': pen {} draws nothing", text, pen));
+            throw Error(fmt::format("level '{}': pen {} draws nothing", text, pen));
         }
         const plot::Level level = plot::parse_level(text, *drawn);
         expect_another(named, level, text);
@@ -121,7 +120,7 @@ public:
             path_ = std::move(path);
         }
         const plot::WorkTime time = plot::work_time(strokes, cut.levels, {}, Vec2::Zero(), end_);
-        fmt::print("{}: {}, {} by the thesis, {} at your feeds, {} by the planner\n",
+        fmt::print("{}: {}, {} by the thesis's formula, {} at the given feed rates, {} by the planner\n",
                    what,
                    way_for_people(time),
                    plot::time_for_people(time.seconds),
@@ -142,7 +141,7 @@ private:
 
 std::string way_for_people(const plot::WorkTime& time) {
     constexpr double m = 1e-3;
-    return fmt::format("{:.3f} m ({:.3f} m drawn, {:.3f} m in the air), {} {}",
+    return fmt::format("{:.3f} m ({:.3f} m drawn, {:.3f} m travel), {} {}",
                        m * time.distance(),
                        m * time.cut_length,
                        m * time.travel_length,
@@ -151,56 +150,62 @@ std::string way_for_people(const plot::WorkTime& time) {
 }
 
 void add_stroke_options(CLI::App& command, StrokeCutting& options) {
-    command.add_option("--side", options.plan.side, "Of closed strokes: on-line, outside or inside")
+    command
+        .add_option("--side", options.plan.side, "Cutter side of closed strokes: on-line, outside or inside")
         ->transform(one_of(sides))
         ->type_name(listed(sides))
         ->default_str("on-line");
     command
         .add_option(
-            "--tool-diameter", options.plan.tool_diameter, "Of an end mill, for --side and --preview, mm")
+            "--tool-diameter", options.plan.tool_diameter, "End mill diameter for --side and --preview, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--corners", options.plan.corners, "For --side: sharp or round")
+    command.add_option("--corners", options.plan.corners, "Corners with --side: sharp or round")
         ->transform(one_of(corner_kinds))
         ->type_name(listed(corner_kinds))
         ->default_str("sharp");
     command
-        .add_option("--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines so far apart, mm")
+        .add_option("--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines at this spacing, mm")
         ->check(above_zero());
-    command.add_option("--hatch-angle", options.hatch_angle_deg, "Of the lines to x, degrees");
-    command.add_flag("--hatch-cross", options.plan.hatch_cross, "And once more at right angles");
+    command.add_option("--hatch-angle", options.hatch_angle_deg, "Angle of the hatch lines to X, degrees");
+    command.add_flag("--hatch-cross", options.plan.hatch_cross, "Add a second hatch at right angles");
     command
         .add_option(
-            "--contours", options.plan.contour_pitch, "Fill closed strokes with outlines so far apart, mm")
+            "--contours", options.plan.contour_pitch, "Fill closed strokes with contours at this spacing, mm")
         ->check(above_zero());
     command.add_flag("--order", options.plan.order, "Reorder and reverse strokes for less travel");
-    command.add_option("--link", options.plan.link, "Join strokes over gaps shorter than so many mm")
+    command.add_option("--link", options.plan.link, "Join strokes across gaps shorter than this, mm")
         ->check(not_below_zero());
-    command.add_flag("--inside", options.plan.link_inside, "Links keep to their side of closed strokes");
-    command.add_option("--depth", options.depth, "Below the top, mm")
+    command.add_flag("--inside", options.plan.link_inside, "Do not let links cross closed strokes");
+    command.add_option("--depth", options.depth, "Depth below the top, mm")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--passes", options.passes, "Cuts to the depth")
+    command.add_option("--passes", options.passes, "Number of passes to full depth")
         ->check(above_zero())
         ->capture_default_str();
     command
         .add_option("--level",
                     options.levels,
-                    "Of one pen: PEN:depth=MM,passes=N,feed=F,plunge=F,order=N,tool=N,side=SIDE,cutter=MM,"
-                    "tabs=N,off")
+                    "Settings of one pen: "
+                    "PEN:depth=MM,passes=N,feed=F,plunge=F,order=N,tool=N,side=SIDE,cutter=MM,tabs=N,off")
         ->check(parsed_by([](const std::string& text) { (void)plot::parse_level(text, {}); }))
         ->allow_extra_args(false);
     command
-        .add_option(
-            "--change-position", options.change_position, "Where tools are changed on the machine: X,Y,Z, mm")
+        .add_option("--change-position",
+                    options.change_position,
+                    "Tool change position in machine coordinates: X,Y,Z, mm")
         ->delimiter(',')
         ->expected(3)
         ->allow_extra_args(false);
-    command.add_option("--tabs", options.tabs.count, "Left standing on closed strokes")
+    command.add_option("--tabs", options.tabs.count, "Number of tabs on closed strokes")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--tab-width", options.tabs.width, "mm")->check(above_zero())->capture_default_str();
-    command.add_option("--tab-height", options.tabs.height, "mm")->check(above_zero())->capture_default_str();
+    command.add_option("--tab-width", options.tabs.width, "Tab width, mm")
+        ->check(above_zero())
+        ->capture_default_str();
+    command.add_option("--tab-height", options.tabs.height, "Tab height, mm")
+        ->check(above_zero())
+        ->capture_default_str();
     add_cutting_options(command, options.cutting);
 }
 

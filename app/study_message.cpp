@@ -120,7 +120,7 @@ StudyMessage unpacked(std::string_view bytes) {
         }
         return message;
     } catch (const std::exception& fault) {
-        throw Error(std::string("a rank told something that is not understood: ") + fault.what());
+        throw Error(std::string("a rank sent an invalid message: ") + fault.what());
     }
 }
 

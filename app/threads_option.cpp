@@ -29,7 +29,7 @@ std::optional<int> number_in(const std::string& text) {
 CLI::Validator number_of_threads() {
     const auto fault_of = [](const std::string& text) {
         return number_in(text) ? std::string()
-                               : fmt::format("\"{}\" is no whole number from 1 to {}", text, most_threads);
+                               : fmt::format("\"{}\" is not a whole number from 1 to {}", text, most_threads);
     };
     return {fault_of, ""};
 }
@@ -39,7 +39,7 @@ void add_to(CLI::App& command) {
         .add_option_function<std::string>(
             "--threads",
             [](const std::string& text) { set_thread_count(number_in(text).value_or(0)); },
-            "Compute in so many threads; by default one a core")
+            "Number of threads (default: one per core)")
         ->check(number_of_threads())
         ->type_name("N");
 }

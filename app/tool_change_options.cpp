@@ -25,34 +25,33 @@ void add_tool_change_options(CLI::App& command, ControllerChoice& choice) {
     command
         .add_option("--tool-change",
                     choice.tool_change,
-                    "At M6 of a Grbl: stop and wait; probe: then measure the tool at a sensor; macro=FILE: "
-                    "then send the lines of a file")
+                    "Tool change (M6) with Grbl: stop waits; probe waits, then measures the tool with a "
+                    "sensor; macro=FILE waits, then sends the lines of a file")
         ->type_name("stop|probe|macro=FILE");
     command
         .add_option("--tool-sensor",
                     choice.tool_sensor,
-                    "Place of the sensor, for --tool-change probe: X,Y, Z for travelling, deepest Z of the "
-                    "search, machine coordinates in mm, and perhaps the feed in mm/min")
+                    "Tool sensor position for --tool-change probe: X,Y, travel Z, lowest Z of the search, in "
+                    "machine coordinates, mm; optionally the feed rate, mm/min")
         ->delimiter(',')
         ->expected(fewest_numbers, fewest_numbers + 1)
         ->allow_extra_args(false)
         ->check(finite_number())
         ->type_name("X,Y,Z,Z[,F]");
     constexpr double longest = 600.0;
-    command
-        .add_option("--spin-up", choice.spin_up, "s for the spindle to come to its speed after a tool change")
+    command.add_option("--spin-up", choice.spin_up, "Spindle spin-up time after a tool change, s")
         ->check(CLI::Range(0.0, longest))
         ->type_name("S")
         ->capture_default_str();
     command.add_flag("--right-tool",
                      choice.right_tool,
-                     "Confirm that the tool that the first line needs is in the spindle");
+                     "Confirm that the tool needed at the first line is in the spindle");
 }
 
 std::optional<drivers::ToolChangePlan> tool_change_plan(const ControllerChoice& choice) {
     const std::string_view way = choice.tool_change;
     if (!choice.tool_sensor.empty() && way != "probe") {
-        throw UsageError("a tool sensor is for --tool-change probe");
+        throw UsageError("--tool-sensor is only for --tool-change probe");
     }
     if (way.empty()) {
         return std::nullopt;
@@ -61,7 +60,8 @@ std::optional<drivers::ToolChangePlan> tool_change_plan(const ControllerChoice& 
     plan.spin_up = choice.spin_up;
     if (way == "probe") {
         if (choice.tool_sensor.empty()) {
-            throw UsageError("--tool-change probe needs the place of the sensor", {}, "--tool-sensor");
+            throw UsageError(
+                "--tool-change probe needs the position of the tool sensor", {}, "--tool-sensor");
         }
         const std::vector<double>& numbers = choice.tool_sensor;
         plan.way = drivers::ToolChangeWay::probe;
@@ -75,8 +75,7 @@ std::optional<drivers::ToolChangePlan> tool_change_plan(const ControllerChoice& 
         plan.macro_file = std::string(way.substr(macro_word.size()));
         plan.macro = read_file(plan.macro_file);
     } else if (way != "stop") {
-        throw UsageError("--tool-change takes stop, probe or macro=FILE, and not '" + choice.tool_change +
-                         "'");
+        throw UsageError("--tool-change must be stop, probe or macro=FILE, not '" + choice.tool_change + "'");
     }
     return plan;
 }

@@ -31,42 +31,46 @@ refuse_empty(const plot::Picture& picture, const PictureChoice& choice, const pl
     plot::TraceSettings with_specks = tracing;
     with_specks.speckle = 0;
     if (!plot::trace(picture, with_specks).empty()) {
-        throw Error(fmt::format("nothing dark in it has more than {} {}, and so small specks are left out",
-                                tracing.speckle,
-                                tracing.speckle == 1 ? "pixel" : "pixels"),
-                    choice.file,
-                    "--speckle 0 traces them, too");
+        throw Error(
+            fmt::format("no dark area has more than {} {}, and areas up to this size are removed as specks",
+                        tracing.speckle,
+                        tracing.speckle == 1 ? "pixel" : "pixels"),
+            choice.file,
+            "use --speckle 0 to trace them");
     }
     const bool helps = inverting_helps(
         choice, [&](const SizedPicture& other) { return !plot::trace(other.picture, tracing).empty(); });
     const auto [darkest, brightest] = std::ranges::minmax(picture.gray);
-    throw Error(
-        "nothing in it is dark enough to be traced",
-        choice.file,
-        fmt::format("{}; {}",
-                    darkest == brightest ? "all of it is equally bright" : "--threshold says what is dark",
-                    invert_hint(choice,
-                                helps,
-                                {.invert = "--invert traces what is bright",
-                                 .plain = "without --invert what is dark is traced"})));
+    throw Error("nothing in it is dark enough to trace",
+                choice.file,
+                fmt::format("{}; {}",
+                            darkest == brightest ? "all of it is equally bright" : "adjust --threshold",
+                            invert_hint(choice,
+                                        helps,
+                                        {.invert = "use --invert to trace what is bright",
+                                         .plain = "leave out --invert to trace what is dark"})));
 }
 
 } // namespace
 
 void add_tracing_options(CLI::App& command, plot::TraceSettings& tracing) {
-    command.add_option("--threshold", tracing.threshold, "What is not brighter is dark, 0 to 1")
+    command
+        .add_option(
+            "--threshold", tracing.threshold, "Brightness threshold, 0 to 1: pixels up to it are dark")
         ->capture_default_str();
-    command.add_option("--speckle", tracing.speckle, "Leave out what has so few pixels")
-        ->check(not_below_zero())
-        ->capture_default_str();
-    command.add_option("--corner", tracing.corner, "0: corners stay, 1.334: all are smoothed")
-        ->capture_default_str();
-    command.add_option("--tolerance", tracing.tolerance, "Join curves that change so little, pixels")
+    command.add_option("--speckle", tracing.speckle, "Remove specks of up to this many pixels")
         ->check(not_below_zero())
         ->capture_default_str();
     command
-        .add_option(
-            "--turns", tracing.turns, "Where dark pixels touch at corners: black, white, left, right, ...")
+        .add_option("--corner", tracing.corner, "Corner smoothing: 0 keeps all corners, 1.334 smooths all")
+        ->capture_default_str();
+    command.add_option("--tolerance", tracing.tolerance, "Tolerance for joining curves, pixels")
+        ->check(not_below_zero())
+        ->capture_default_str();
+    command
+        .add_option("--turns",
+                    tracing.turns,
+                    "Turn policy where dark pixels touch at corners: black, white, left, right, ...")
         ->transform(one_of(turn_policies))
         ->type_name(listed(turn_policies))
         ->default_str("minority");

@@ -75,8 +75,8 @@ std::optional<fs::path> UnfinishedStudy::set_earlier_aside() const {
     std::error_code failure;
     fs::rename(folder_, aside, failure);
     if (failure) {
-        throw Error(fmt::format(
-            "an earlier study in {} cannot be set aside: {}", folder_.string(), failure.message()));
+        throw Error(
+            fmt::format("cannot set aside the earlier study in {}: {}", folder_.string(), failure.message()));
     }
     return aside;
 }

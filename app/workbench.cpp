@@ -87,7 +87,7 @@ void let_go(actions::Workshop& workshop) {
 /// The window is gone without a word: whatever moves is stopped, as at the end that the system asks for, and
 /// what has not been saved stays for the next start. Nothing that belongs to a display may be touched again.
 [[noreturn]] void end_without_display(std::unique_ptr<actions::Workshop>& workshop) {
-    fmt::print(stderr, "millwright: the display is gone; whatever moves is stopped\n");
+    fmt::print(stderr, "millwright: the display connection is lost; all motion is stopped\n");
     workshop.reset();
     constexpr int failed = 1;
     std::_Exit(failed);

@@ -26,7 +26,7 @@ int write_arm_bodies(const ArmBodiesOptions& options) {
     const arm::ArmFile file = arm_file_of(options.arm);
     if (!file.actuators) {
         throw Error(file.arm.name() +
-                    ": bodies are made from the linkages, which its file does not describe");
+                    ": bodies are generated from the linkages, which its file does not describe");
     }
     const arm::MotomanSolids made = arm::motoman_solids(file.arm, *file.actuators);
     write_file(options.out, geometry::glb_of(made.bodies, file.arm.name()));
@@ -37,10 +37,11 @@ int write_arm_bodies(const ArmBodiesOptions& options) {
 } // namespace
 
 void add_arm_bodies_command(CLI::App& group, Command& chosen) {
-    CLI::App& command = *group.add_subcommand("bodies", "Make the bodies of an arm from its lengths, as glb");
+    CLI::App& command =
+        *group.add_subcommand("bodies", "Generate the bodies of an arm from its lengths, as glb");
     const auto options = std::make_shared<ArmBodiesOptions>();
     add_arm_option(command, options->arm);
-    command.add_option("--out", options->out, "File to write")->required()->type_name("FILE.glb");
+    command.add_option("--out", options->out, "Output file")->required()->type_name("FILE.glb");
     command.callback([&chosen, options] { chosen = [options] { return write_arm_bodies(*options); }; });
 }
 

@@ -45,7 +45,7 @@ arm::JointPositions start_of(const ArmModel& arm, const ArmSimulationOptions& op
     }
     arm::JointPositions start = given_joints(arm, options.start);
     if (const int outside = arm.joint_outside(start); outside >= 0) {
-        throw Error(fmt::format("--start is outside of the limits of joint {}", arm.joint(outside).name));
+        throw Error(fmt::format("--start is outside the limits of joint {}", arm.joint(outside).name));
     }
     return start;
 }
@@ -74,26 +74,26 @@ int simulate(const ArmSimulationOptions& options) {
 } // namespace
 
 void add_arm_command(CLI::App& app, Command& chosen) {
-    CLI::App& group = *app.add_subcommand("arm", "Robot arms: where joints bring the tool, and which do");
+    CLI::App& group = *app.add_subcommand("arm", "Robot arms: kinematics, reach, motors and service data");
     group.require_subcommand(1);
     add_arm_pose_commands(group, chosen);
     add_arm_drives_command(group, chosen);
     const auto options = std::make_shared<ArmSimulationOptions>();
-    CLI::App& path =
-        *group.add_subcommand("simulate", "Joints along a motion file, for any arm, from its home");
+    CLI::App& path = *group.add_subcommand(
+        "simulate", "Joint positions along a motion file, for any arm, starting at its home");
     add_arm_option(path, options->arm);
-    path.add_option("FILE", options->file, "Motion file: blocks of words that end with ;")->required();
-    path.add_option("--step", options->step_mm, "Distance of the points, mm")
+    path.add_option("FILE", options->file, "Motion file: blocks of words, each ending with ;")->required();
+    path.add_option("--step", options->step_mm, "Point spacing, mm")
         ->check(CLI::Range(0.001, 1000.0))
         ->capture_default_str();
     path.add_option("--start",
                     options->start,
-                    "Where the joints begin, degrees or mm; without it at the home of the arm")
+                    "Start position of the joints, degrees or mm (default: the arm's home)")
         ->delimiter(',')
         ->expected(1, static_cast<int>(arm::most_arm_joints))
         ->allow_extra_args(false)
         ->type_name("J1,J2,...");
-    path.add_option("--out", options->out, "File for the positions and joints")->required();
+    path.add_option("--out", options->out, "Output file for positions and joints")->required();
     path.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
     add_arm_bodies_command(group, chosen);
     add_arm_reach_command(group, chosen);

@@ -36,11 +36,11 @@ arm::DrivePositions given_counts(const std::vector<double>& numbers) {
     arm::DrivePositions counts;
     if (static_cast<Eigen::Index>(numbers.size()) != counts.size()) {
         throw Error(
-            fmt::format("the arm has {} drives, {} counts were given", counts.size(), numbers.size()));
+            fmt::format("the arm has {} drives, but {} counts were given", counts.size(), numbers.size()));
     }
     for (std::size_t n = 0; n < numbers.size(); ++n) {
         if (!(std::abs(numbers[n]) <= most)) {
-            throw Error(fmt::format("drive {} needs counts from {:g} to {:g}", n + 1, -most, most));
+            throw Error(fmt::format("drive {}: counts must be from {:g} to {:g}", n + 1, -most, most));
         }
         counts[static_cast<Eigen::Index>(n)] = numbers[n];
     }
@@ -121,7 +121,7 @@ void print_table(const arm::ArmModel& arm, const ArmDriveReadings& found) {
 int actuators(const ArmDrivesOptions& options) {
     const arm::ArmFile file = arm_file_of(options.arm);
     if (!file.actuators) {
-        throw Error(file.arm.name() + " has no actuators: its file describes none, each joint is a drive");
+        throw Error(file.arm.name() + " has no actuators: its file describes none, so each joint is a drive");
     }
     ArmDriveReadings found =
         options.counts ? arm::drive_readings(*file.actuators, given_counts(options.numbers))
@@ -136,14 +136,13 @@ int actuators(const ArmDrivesOptions& options) {
 
 void add_arm_drives_command(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<ArmDrivesOptions>();
-    CLI::App& command = *group.add_subcommand(
-        "actuators", "Counts and lengths of the arm's drives for given joints, and their limits");
+    CLI::App& command =
+        *group.add_subcommand("actuators", "Drive counts and lengths for given joints, with their limits");
     add_arm_option(command, options->arm);
-    command.add_flag("--json", options->json, "Print the answer as JSON");
-    command.add_flag("--counts", options->counts, "The numbers are counts of the drives: print the joints");
+    command.add_flag("--json", options->json, "Print the result as JSON");
+    command.add_flag("--counts", options->counts, "The numbers are drive counts: print the joints");
     command
-        .add_option(
-            "NUMBERS", options->numbers, "Position of every joint in degrees; with --counts A1 A2 A3 A4 A5")
+        .add_option("NUMBERS", options->numbers, "Joint positions, degrees; with --counts: A1 A2 A3 A4 A5")
         ->required()
         ->expected(1, 9)
         ->type_name("J1 J2 ...");

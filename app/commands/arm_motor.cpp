@@ -46,8 +46,8 @@ int offset(const ArmMotorOptions& options) {
     search.from = options.from;
     search.most_way = options.most_way;
     const pmac::OffsetFound found = pmac::find_offset(talk.card(), options.motor, search);
-    fmt::print("motor {}: creeps back up to Ix29 = {}, forward from {}: {} is the middle (it was {})\n"
-               "at most {:.0f} counts from where it began; it has no power now\n",
+    fmt::print("motor {}: creeps backward up to Ix29 = {}, forward from {}; the middle is {} (it was {})\n"
+               "at most {:.0f} counts from its start position; the motor is disabled now\n",
                options.motor,
                found.backward,
                found.forward,
@@ -56,7 +56,7 @@ int offset(const ArmMotorOptions& options) {
                found.farthest);
     if (options.apply) {
         set_motor_variable(talk.card(), options.motor, 29, found.middle);
-        fmt::print("I{}29={}; SAVE would keep it\n", options.motor, found.middle);
+        fmt::print("I{}29={}; use SAVE to keep it\n", options.motor, found.middle);
     }
     return 0;
 }
@@ -79,7 +79,7 @@ void draw(const pmac::StepResponse& response, const ArmMotorOptions& options) {
         should.y.push_back(response.size);
     }
     const viewport::Chart chart{
-        fmt::format("motor {}: answer to a step of {:.0f} counts", options.motor, response.size),
+        fmt::format("motor {}: response to a step of {:.0f} counts", options.motor, response.size),
         "s",
         "position",
         "counts",
@@ -99,13 +99,13 @@ void expect_step(const ArmMotorOptions& options) {
         const double degrees = std::abs(options.step.size) / axis.counts_per_degree;
         if (axis.motor == options.motor && degrees > pmac::pmac_step_deg) {
             throw Error(
-                fmt::format("a step of {:.0f} counts is one of {:.1f} degrees, and beyond {} degrees a "
-                            "jog is slowed down",
-                            options.step.size,
-                            degrees,
-                            pmac::pmac_step_deg),
+                fmt::format(
+                    "a step of {:.0f} counts is {:.1f} degrees, but jogs beyond {} degrees are slowed down",
+                    options.step.size,
+                    degrees,
+                    pmac::pmac_step_deg),
                 {},
-                fmt::format("--size {:.0f} at most",
+                fmt::format("use --size {:.0f} or less",
                             std::floor(pmac::pmac_step_deg * axis.counts_per_degree)));
         }
     }
@@ -128,7 +128,7 @@ int step(const ArmMotorOptions& options) {
     for (const auto& [number, value] : response.variables) {
         variables += fmt::format(" I{}{:02}={}", options.motor, number, shortest(value));
     }
-    fmt::print("with{} (and so they are again)\nto change: {}\n", variables, response.advice);
+    fmt::print("with{} (values restored)\nto change: {}\n", variables, response.advice);
     if (!options.out.empty()) {
         write_file(options.out, csv(response));
     }
@@ -144,15 +144,15 @@ int direction(const ArmMotorOptions& options) {
         talk.give_power();
     }
     const pmac::DirectionFound found = pmac::direction_check(talk.card(), options.motor, options.direction);
-    fmt::print("motor {}: {}{} of a jog were {:+.0f} counts, of a program {:+.0f}: {}\n",
+    fmt::print("motor {}: {}{} gave {:+.0f} counts in a jog, {:+.0f} in a program: {}\n",
                options.motor,
                found.axis,
                shortest(options.direction.way),
                found.jog,
                found.program,
-               found.agree ? "the same way" : "NOT the same way");
+               found.agree ? "same direction" : "NOT the same direction");
     if (!found.agree) {
-        fmt::print("Its axis is defined by {} counts: look at the sign, and at power and encoder.\n",
+        fmt::print("Its axis is defined by {} counts: check the sign, the motor power and the encoder.\n",
                    shortest(found.scale));
     }
     return found.agree ? 0 : 1;
@@ -172,7 +172,8 @@ CLI::App& add_motor_subcommand(CLI::App& group,
 }
 
 void add_power(CLI::App& command, const std::shared_ptr<ArmMotorOptions>& options) {
-    command.add_flag("--power", options->power, "The arm's motors may have power; somebody has looked");
+    command.add_flag(
+        "--power", options->power, "Allow the arm's motors to be enabled (operator has checked the arm)");
 }
 
 } // namespace
@@ -180,31 +181,39 @@ void add_power(CLI::App& command, const std::shared_ptr<ArmMotorOptions>& option
 void add_arm_motor_commands(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<ArmMotorOptions>();
     CLI::App& still = add_motor_subcommand(
-        group, "offset", "Find the output at which a motor stands still (Ix29). The motor creeps!", options);
-    still.add_flag("--apply", options->apply, "Set Ix29 to it");
-    still.add_option("--from", options->from, "Offset to begin with, bits; by default Ix29 as it is")
+        group,
+        "offset",
+        "Find the output offset at which a motor does not move (Ix29). The motor creeps!",
+        options);
+    still.add_flag("--apply", options->apply, "Set Ix29 to the result");
+    still.add_option("--from", options->from, "Initial offset, bits (default: the current Ix29)")
         ->check(CLI::Range(-32767, 32767));
-    still.add_option("--most-way", options->most_way, "Counts beyond which the search is given up")
+    still.add_option("--most-way", options->most_way, "Travel at which the search is given up, counts")
         ->check(CLI::Range(100.0, 1e9))
         ->capture_default_str();
     still.callback([&chosen, options] { chosen = [options] { return offset(*options); }; });
-    CLI::App& way = add_motor_subcommand(
-        group, "direction", "Whether jogs and programs go the same way. The motor moves!", options);
-    way.add_option("--way", options->direction.way, "There and back, degrees")
+    CLI::App& way =
+        add_motor_subcommand(group,
+                             "direction",
+                             "Check that jogs and programs move in the same direction. The motor moves!",
+                             options);
+    way.add_option("--way", options->direction.way, "Travel there and back, degrees")
         ->check(CLI::Range(0.01, 10.0))
         ->capture_default_str();
     add_power(way, options);
     way.callback([&chosen, options] { chosen = [options] { return direction(*options); }; });
     CLI::App& answer = add_motor_subcommand(
-        group, "step", "A motor's answer to a step, and what to change. The motor moves!", options);
-    answer.add_option("--size", options->step.size, "Counts, there and back")
+        group, "step", "Measure a motor's step response and suggest changes. The motor moves!", options);
+    answer.add_option("--size", options->step.size, "Step size there and back, counts")
         ->check(CLI::Range(-1e4, 1e4))
         ->capture_default_str();
-    answer.add_option("--seconds", options->step.duration, "That are watched")
+    answer.add_option("--seconds", options->step.duration, "Recording time, s")
         ->check(CLI::Range(0.05, 60.0))
         ->capture_default_str();
-    answer.add_option("--out", options->out, "File for the readings: seconds,counts")->type_name("CSV");
-    answer.add_option("--picture", options->picture, "File for a plot of them")->type_name("PNG");
+    answer.add_option("--out", options->out, "Output file for the readings: seconds,counts")
+        ->type_name("CSV");
+    answer.add_option("--picture", options->picture, "Output file for a plot of the readings")
+        ->type_name("PNG");
     add_power(answer, options);
     answer.callback([&chosen, options] { chosen = [options] { return step(*options); }; });
 }

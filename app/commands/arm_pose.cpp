@@ -130,7 +130,7 @@ void search(const ArmModel& arm, const Frame& goal, bool any_roll, Solutions& fo
     const auto demand = any_roll ? arm::ArmDemand::tip_and_axis : arm::ArmDemand::frame;
     found.joints = arm::solve_arm_from_many_starts(arm, goal, demand, resting(arm), starting_points);
     if (found.joints.empty()) {
-        found.reason = fmt::format("none was found from {} starting points", starting_points);
+        found.reason = fmt::format("none found from {} starting points", starting_points);
     }
 }
 
@@ -204,26 +204,26 @@ ToolGoal goal_of(const ArmPoseOptions& options) {
     const bool by_rotation = !options.rotation.empty();
     const std::size_t wanted = by_rotation ? 3 : 6;
     if (v.size() != wanted) {
-        throw UsageError(fmt::format("the goal has {} numbers, {} were given", wanted, v.size()),
+        throw UsageError(fmt::format("the goal needs {} numbers, but {} were given", wanted, v.size()),
                          {},
                          by_rotation ? "with --frame: X Y Z"
                                      : "X Y Z AX AY AZ, or X Y Z with --frame R11,R12,...,R33");
     }
     if (by_rotation && options.roll_deg) {
-        throw UsageError("--frame tells the roll: leave --roll out");
+        throw UsageError("--frame already sets the roll: leave out --roll");
     }
     ToolGoal goal;
     goal.pointed.tip = Vec3(v[0], v[1], v[2]);
     goal.pointed.axis = by_rotation ? Vec3(Vec3::UnitZ()) : Vec3(v[3], v[4], v[5]);
     if (!is_finite(goal.pointed.tip) || !is_finite(goal.pointed.axis)) {
-        throw Error("the goal is not finite");
+        throw Error("the goal contains a number that is not finite");
     }
     constexpr double farthest_mm = 1e6;
     if (!(goal.pointed.tip.cwiseAbs().maxCoeff() <= farthest_mm)) {
-        throw Error(fmt::format("the goal is farther than {:g} mm", farthest_mm));
+        throw Error(fmt::format("the goal is farther away than {:g} mm", farthest_mm));
     }
     if (!(goal.pointed.axis.norm() > 1e-9)) {
-        throw Error("the tool axis has no direction", {}, "its three numbers are 0");
+        throw Error("the tool axis has no direction", {}, "give at least one number other than 0");
     }
     if (options.roll_deg && !std::isfinite(*options.roll_deg)) {
         throw Error("the roll is not a finite number");
@@ -289,7 +289,7 @@ CLI::App& add_pose_command(CLI::App& group,
                            const std::shared_ptr<ArmPoseOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     add_arm_option(command, options->arm);
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     return command;
 }
 
@@ -297,31 +297,30 @@ CLI::App& add_pose_command(CLI::App& group,
 
 void add_arm_pose_commands(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<ArmPoseOptions>();
-    CLI::App& fk = add_pose_command(group, "fk", "The tool for given joints", options);
-    fk.add_option("JOINTS", options->numbers, "Position of every joint: degrees, mm of a sliding one")
+    CLI::App& fk = add_pose_command(group, "fk", "Tool pose for given joints", options);
+    fk.add_option("JOINTS", options->numbers, "Joint positions, degrees (sliding joints: mm)")
         ->required()
         ->expected(1, 9)
         ->type_name("J1 J2 ...");
     fk.callback([&chosen, options] { chosen = [options] { return forward(*options); }; });
-    CLI::App& ik = add_pose_command(group, "ik", "Every position of the joints for a given tool", options);
+    CLI::App& ik = add_pose_command(group, "ik", "All joint positions for a given tool pose", options);
     ik.add_option(
-          "GOAL", options->numbers, "Tip in mm and direction of the tool axis; the tip alone with --frame")
+          "GOAL", options->numbers, "Tool tip, mm, and direction of the tool axis; with --frame only the tip")
         ->required()
         ->expected(3, 6)
         ->type_name("X Y Z AX AY AZ");
-    ik.add_option(
-          "--frame",
-          options->rotation,
-          "Rotation matrix of the tool, row by row: its columns are the tool's x, y and z in the base")
+    ik.add_option("--frame",
+                  options->rotation,
+                  "Rotation matrix of the tool, row by row: its columns are the tool's x, y and z axes in "
+                  "the base frame")
         ->delimiter(',')
         ->expected(9)
         ->allow_extra_args(false)
         ->type_name("R11,R12,...,R33");
     ik.add_flag("--project",
                 options->project,
-                "Turn the goal by the smallest angle into the plane of an arm with five joints");
-    ik.add_option(
-          "--roll", options->roll_deg, "Roll of the tool about its axis, degrees; without it any will do")
+                "For an arm with five joints: turn the goal by the smallest angle into the plane of the arm");
+    ik.add_option("--roll", options->roll_deg, "Roll of the tool about its axis, degrees (default: any)")
         ->type_name("DEG");
     ik.callback([&chosen, options] { chosen = [options] { return inverse(*options); }; });
 }

@@ -80,7 +80,7 @@ MachineModel machine_of(const ArmReachOptions& options) {
 Frame frame_of(const std::vector<double>& v) {
     for (const double value : v) {
         if (!std::isfinite(value)) {
-            throw Error("the frame has a number that is not finite");
+            throw Error("the frame contains a number that is not finite");
         }
     }
     return project::base_T_path({Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])});
@@ -90,9 +90,10 @@ Frame frame_of(const std::vector<double>& v) {
 void refuse_plots(const std::string& file) {
     if (project::is_plot_file(file)) {
         (void)read_file(file); // that it is missing is told first
-        throw Error("a plot is no program yet",
-                    file,
-                    fmt::format("'millwright plot toolpath {} --out program.ngc' makes one of it", file));
+        throw Error(
+            "a plot is not a program",
+            file,
+            fmt::format("make a program from it with 'millwright plot toolpath {} --out program.ngc'", file));
     }
 }
 
@@ -111,15 +112,15 @@ std::vector<ArmWay> ways_of(const ArmReachOptions& options) {
     gcode::MachineProgram found = builder.take();
     if (!found.faults.empty()) {
         Diagnostic fault = found.faults.front();
-        fault.hint = options.machine.empty() ? "name the machine that the program is for with --machine" : "";
+        fault.hint = options.machine.empty() ? "name the machine of the program with --machine" : "";
         throw Error(fault);
     }
     print_warnings(found.unplaced);
     auto ways =
         program::arm_ways(std::make_shared<const program::Program>(std::move(found.program)), machine, frame);
     if (ways.empty()) {
-        throw Error(
-            Diagnostic{.place = {.file = options.file}, .message = "the program moves nothing", .hint = {}});
+        throw Error(Diagnostic{
+            .place = {.file = options.file}, .message = "the program contains no motion", .hint = {}});
     }
     return ways;
 }
@@ -142,7 +143,7 @@ std::optional<double> planned_path_time(const ArmModel& arm,
 
 /// Before the first move no line has moved anything.
 std::string line_text(int line) {
-    return line == 0 ? "where the program begins" : fmt::format("line {}", line);
+    return line == 0 ? "start of the program" : fmt::format("line {}", line);
 }
 
 std::string from_to(const char* one, const char* many, std::size_t first, std::size_t last) {
@@ -195,7 +196,7 @@ void print_text(const ArmReachOptions& options,
                 const ArmModel& arm,
                 const ArmReach& reach,
                 const std::optional<double>& planned) {
-    fmt::print("{}: the arm goes {:.1f} of {:.1f} mm ({:.1f} %)\n",
+    fmt::print("{}: the arm reaches {:.1f} of {:.1f} mm ({:.1f} %)\n",
                options.file,
                reach.reached,
                reach.length,
@@ -218,11 +219,11 @@ void print_text(const ArmReachOptions& options,
     }
     if (reach.lowest.size() > 0) {
         fmt::print(
-            "least manipulability {:.6f}, {}\n", reach.least_manipulability, line_text(reach.least_line));
+            "lowest manipulability {:.6f}, {}\n", reach.least_manipulability, line_text(reach.least_line));
         fmt::print("tool axis turned by at most {:.3f} deg\n", to_degrees(reach.most_tilt));
     }
     if (planned) {
-        fmt::print("feeds as programmed {:.2f} s, all of it planned for the arm {:.2f} s\n",
+        fmt::print("time at the programmed feed rates {:.2f} s, planned for the arm {:.2f} s\n",
                    reach.programmed_time,
                    *planned);
     }
@@ -322,32 +323,33 @@ int reach(const ArmReachOptions& options) {
 
 void add_arm_reach_command(CLI::App& group, Command& chosen) {
     CLI::App& command =
-        *group.add_subcommand("reach", "How much of a program an arm can go, and why not the rest");
+        *group.add_subcommand("reach", "How much of a program an arm can reach, and what prevents the rest");
     const auto options = std::make_shared<ArmReachOptions>();
     add_arm_option(command, options->arm);
     command.add_option("FILE", options->file, "G-code program")->required();
     command
-        .add_option(
-            "--frame",
-            options->frame,
-            "Where the part is in the arm's base: mm and degrees, turned about x, then y, then z of the base")
+        .add_option("--frame",
+                    options->frame,
+                    "Position of the part in the arm's base: mm and degrees, rotated about x, then y, then z "
+                    "of the base")
         ->delimiter(',')
         ->expected(6)
         ->allow_extra_args(false)
         ->type_name("X,Y,Z,A,B,C")
         ->capture_default_str();
-    command.add_option("--machine", options->machine, "Machine that a program with rotary axes is for")
+    command.add_option("--machine", options->machine, "Machine of a program with rotary axes")
         ->type_name("NAME|FILE");
-    command.add_option("--tolerance", options->tolerance_mm, "Of the tip from the programmed path, mm")
+    command
+        .add_option("--tolerance", options->tolerance_mm, "Tolerance of the tip from the programmed path, mm")
         ->check(CLI::Range(1e-6, 100.0))
         ->capture_default_str();
     command
         .add_option("--tilt",
                     options->tilt_deg,
-                    "By how much the tool may be turned where the arm cannot hold it, degrees")
+                    "Largest rotation of the tool where the arm cannot hold the programmed axis, degrees")
         ->check(CLI::Range(0.0, 90.0))
         ->capture_default_str();
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return reach(*options); }; });
 }
 

@@ -36,7 +36,7 @@ int calibrate(const ArmServiceOptions& options) {
     if (fits.empty()) {
         throw Error(Diagnostic{.place = {.file = options.file},
                                .message = "there are no readings",
-                               .hint = "a line is: motor counts angle"});
+                               .hint = "write lines of: motor counts angle"});
     }
     auto list = nlohmann::ordered_json::array();
     for (const pmac::ScaleFit& fit : fits) {
@@ -51,8 +51,8 @@ int calibrate(const ArmServiceOptions& options) {
                             {"readings", fit.readings}});
             continue;
         }
-        fmt::print("motor {}: {:.4f} counts a degree (+- {:.4f}), {:.1f} counts at 0 deg; {}, "
-                   "{:.3f} deg rms, at most {:+.3f} deg in line {}\n",
+        fmt::print("motor {}: {:.4f} counts per degree (+- {:.4f}), {:.1f} counts at 0 deg; {}, {:.3f} deg "
+                   "rms, at most {:+.3f} deg in line {}\n",
                    fit.motor,
                    fit.counts_per_degree,
                    fit.counts_per_degree_error,
@@ -69,7 +69,7 @@ int calibrate(const ArmServiceOptions& options) {
 }
 
 std::string kilo_ohms(const std::optional<double>& value) {
-    return value ? fmt::format("{:.2f} kOhm", *value) : std::string("none is fitted");
+    return value ? fmt::format("{:.2f} kOhm", *value) : std::string("none fitted");
 }
 
 void print_resistor_table(std::span<const pmac::FittedResistor> table, double peak, double current) {
@@ -84,24 +84,26 @@ void print_resistor_table(std::span<const pmac::FittedResistor> table, double pe
 void print_speed(const ArmServiceOptions& options) {
     const auto speed = pmac::speed_resistor(options.max_rpm, options.tacho);
     fmt::print("RT  (speed): {}\n",
-               !speed         ? "none: take a tachometer of a higher constant"
+               !speed         ? "none: use a tachometer with a higher constant"
                : *speed > 0.0 ? fmt::format("{:.0f}", *speed)
                               : "a bridge");
     const auto loss = pmac::tacho_loss_resistor(options.max_rpm, options.tacho);
-    fmt::print("RRT (loss of the tachometer; switch 3 on first): {}\n",
+    fmt::print("RRT (tachometer loss; switch 3 on first): {}\n",
                loss ? fmt::format("{:.0f}", *loss) : "none");
 }
 
 int amplifier(const ArmServiceOptions& options) {
     if (options.peak > 0.0 && !(std::max(options.nominal, options.limit) <= options.peak)) {
         throw Error(fmt::format(
-            "the peak current of the amplifier, {} A, is less than what the motor may have", options.peak));
+            "the peak current of the amplifier, {} A, is below the peak current limit of the motor",
+            options.peak));
     }
     if (options.nominal > 0.5 * options.peak && options.nominal > 0.0) {
-        throw Error(fmt::format("an amplifier of {} A peak gives {} A for long, without RIN: less than {} A",
-                                options.peak,
-                                0.5 * options.peak,
-                                options.nominal));
+        throw Error(
+            fmt::format("an amplifier of {} A peak supplies {} A continuously without RIN: less than {} A",
+                        options.peak,
+                        0.5 * options.peak,
+                        options.nominal));
     }
     if (options.max_rpm > 0.0) {
         print_speed(options);
@@ -149,18 +151,18 @@ int wiring(const ArmServiceOptions& options) {
 }
 
 void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<ArmServiceOptions>& options) {
-    CLI::App& command = *group.add_subcommand("amplifier", "Resistors of a Midi-Maestro amplifier");
+    CLI::App& command = *group.add_subcommand("amplifier", "Resistors for a Midi-Maestro amplifier");
     const auto amperes = CLI::Range(0.1, 1000.0);
-    CLI::Option* speed = command.add_option("--max-rpm", options->max_rpm, "Greatest speed of the motor")
+    CLI::Option* speed = command.add_option("--max-rpm", options->max_rpm, "Maximum speed of the motor, rpm")
                              ->check(CLI::Range(1.0, 1e5));
-    speed->needs(command.add_option("--tacho", options->tacho, "Constant of its tachometer, V per 1000 rpm")
+    speed->needs(command.add_option("--tacho", options->tacho, "Tachometer constant, V per 1000 rpm")
                      ->check(CLI::Range(1e-3, 1e3)));
     CLI::Option* peak =
         command.add_option("--peak", options->peak, "Peak current of the amplifier, A")->check(amperes);
     command.add_option("--nominal", options->nominal, "Nominal current of the motor, A")
         ->check(amperes)
         ->needs(peak);
-    command.add_option("--limit", options->limit, "Peak current that the motor may have, A")
+    command.add_option("--limit", options->limit, "Peak current limit of the motor, A")
         ->check(amperes)
         ->needs(peak);
     command.callback([&chosen, options] {
@@ -176,14 +178,13 @@ void add_amplifier(CLI::App& group, Command& chosen, const std::shared_ptr<ArmSe
 void add_arm_service_commands(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<ArmServiceOptions>();
     CLI::App& scale =
-        *group.add_subcommand("calibrate", "Counts a degree of each motor, from measured angles");
-    scale.add_option("FILE", options->file, "Lines of: motor counts angle")->required();
-    scale.add_flag("--json", options->json, "Print the answer as JSON");
+        *group.add_subcommand("calibrate", "Counts per degree of each motor, from measured angles");
+    scale.add_option("FILE", options->file, "File with lines of: motor counts angle")->required();
+    scale.add_flag("--json", options->json, "Print the result as JSON");
     scale.callback([&chosen, options] { chosen = [options] { return calibrate(*options); }; });
     add_amplifier(group, chosen, options);
-    CLI::App& pins =
-        *group.add_subcommand("wiring", "Pins and jumpers of a PMAC-Lite, and what to check first");
-    pins.add_option("MOTOR", options->motor, "1 to 4; all if it is left out")->check(CLI::Range(1, 4));
+    CLI::App& pins = *group.add_subcommand("wiring", "Pins and jumpers of a PMAC-Lite, and first checks");
+    pins.add_option("MOTOR", options->motor, "Motor, 1 to 4 (default: all)")->check(CLI::Range(1, 4));
     pins.callback([&chosen, options] { chosen = [options] { return wiring(*options); }; });
 }
 

@@ -82,8 +82,7 @@ int stream(const StreamOptions& options) {
     }
     if (streamed.sets_feed) {
         fmt::print(stderr,
-                   "note: F is not used: each move takes {:.0f} ms, in which no motor turns faster than "
-                   "--speed {}\n",
+                   "note: F is ignored: each move takes {:.0f} ms, in which no motor exceeds --speed {}\n",
                    1e3 * stream.move_time(),
                    options.deg_per_s);
     }
@@ -107,14 +106,15 @@ void add_arm_stream_command(CLI::App& group, Command& chosen) {
     CLI::App& command = *group.add_subcommand(
         "stream", "Stream a motion file through the dual-ported RAM of an emulated PMAC, point by point");
     add_arm_option(command, options->arm);
-    command.add_option("FILE", options->file, "Motion file: blocks of words that end with ;")->required();
-    command.add_option("--step", options->step_mm, "Distance of the points, mm")
+    command.add_option("FILE", options->file, "Motion file: blocks of words, each ending with ;")->required();
+    command.add_option("--step", options->step_mm, "Point spacing, mm")
         ->check(CLI::Range(0.001, 1000.0))
         ->capture_default_str();
-    command.add_option("--speed", options->deg_per_s, "No motor turns faster, degrees per second")
+    command.add_option("--speed", options->deg_per_s, "Maximum motor speed, degrees per second")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
-    command.add_option("--watch", options->watch, "CSV file: words and flags of the RAM at each change")
+    command
+        .add_option("--watch", options->watch, "CSV file for the words and flags of the RAM at each change")
         ->type_name("FILE");
     command.callback([&chosen, options] { chosen = [options] { return stream(*options); }; });
 }

@@ -64,12 +64,12 @@ Case case_of(const CordicAccuracyOptions& options) {
     if (fixed && format.integer_bits < least_integer_bits) {
         throw Error(fmt::format("vectors of length 1 do not fit into {}", cordic::to_text(format)),
                     {},
-                    fmt::format("{} rotations of them need {} bits before the point",
+                    fmt::format("for {} rotations of them use at least {} bits before the point",
                                 cordic::to_text(m),
                                 least_integer_bits));
     }
     if (options.rounding && !fixed) {
-        throw Error("--rounding is for fixed point", {}, "--format qI.F");
+        throw Error("--rounding applies only to fixed point", {}, "use --format qI.F");
     }
     format.rounding = options.rounding ? cordic::parse_rounding(*options.rounding) : format.rounding;
     return {format,
@@ -242,24 +242,29 @@ int accuracy(const CordicAccuracyOptions& options) {
 void add_cordic_accuracy(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<CordicAccuracyOptions>();
     CLI::App& command = *group.add_subcommand(
-        "accuracy", "Proven bounds beside measured errors, and the thesis's experiments");
+        "accuracy", "Proven bounds compared with measured errors, and the thesis's experiments");
     command.add_option("--out", options->out, "Folder for accuracy.csv and the pictures")
         ->required()
         ->type_name("DIR");
-    command.add_option("--random", options->random, "Inputs of formats longer than 16 bits")
+    command
+        .add_option("--random", options->random, "Number of random inputs for formats longer than 16 bits")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
         ->capture_default_str();
     command
-        .add_option("--format", options->format, "One format alone: f64 (default), f32, or qI.F as in q2.22")
+        .add_option(
+            "--format", options->format, "Only this format: f64 (default), f32, or qI.F such as q2.22")
         ->check(number_format_text());
     command
-        .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")
+        .add_option("--rounding", options->rounding, "Rounding of the bits that a fixed-point shift drops")
         ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}));
-    command.add_option("--system", options->system, "circular (default), linear or hyperbolic")
+    command
+        .add_option(
+            "--system", options->system, "Coordinate system: circular (default), linear or hyperbolic")
         ->check(CLI::IsMember({"circular", "linear", "hyperbolic"}));
-    command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
+    command
+        .add_option("--iterations", options->iterations, "Use steps 0, 1, 2 ... instead of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
-    command.add_option("--seed", options->seed, "Of the random inputs")->capture_default_str();
+    command.add_option("--seed", options->seed, "Seed of the random inputs")->capture_default_str();
     command.callback([&chosen, options] { chosen = [options] { return accuracy(*options); }; });
 }
 

@@ -92,7 +92,7 @@ int rotate(const NumberOptions& options) {
         answer["words"] = hexadecimal_words(found.words);
         fmt::print("{}\n", answer.dump(2));
     } else {
-        fmt::print("x {}\ny {}\nz {} rad left\nerror {}\n{} clocks\n",
+        fmt::print("x {}\ny {}\nz {} rad remaining\nerror {}\n{} clocks\n",
                    shortest(found.x),
                    shortest(found.y),
                    shortest(found.z),
@@ -151,14 +151,15 @@ CLI::App& add_command(CLI::App& group,
                       const char* text,
                       const std::shared_ptr<NumberOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
-    command.add_option("--format", options->format, "Number format: f64, f32, or qI.F as in q2.22")
+    command.add_option("--format", options->format, "Number format: f64, f32, or qI.F such as q2.22")
         ->check(number_format_text())
         ->capture_default_str();
     command
-        .add_option("--rounding", options->rounding, "What a fixed-point shift does with the bits it drops")
+        .add_option("--rounding", options->rounding, "Rounding of the bits that a fixed-point shift drops")
         ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}))
         ->capture_default_str();
-    command.add_option("--iterations", options->iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
+    command
+        .add_option("--iterations", options->iterations, "Use steps 0, 1, 2 ... instead of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
     return command;
 }
@@ -183,7 +184,7 @@ CLI::App& add_numbers(CLI::App& group,
     add_number(command, "X", options->x, "First coordinate").required();
     add_number(command, "Y", options->y, "Second coordinate").required();
     add_cordic_pass(command, options->pass);
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     return command;
 }
 
@@ -196,10 +197,10 @@ void add_rtl(CLI::App& group, Command& chosen) {
     command.add_option("--out", options->out, "Folder for the Verilog files and their test vectors")
         ->required()
         ->type_name("DIR");
-    command.add_option("--vectors", options->vectors, "Test vectors from the model")
+    command.add_option("--vectors", options->vectors, "Number of test vectors from the model")
         ->check(CLI::Range(std::int64_t{1}, most_vectors))
         ->capture_default_str();
-    command.add_option("--seed", options->seed, "Of the test vectors")->capture_default_str();
+    command.add_option("--seed", options->seed, "Seed of the test vectors")->capture_default_str();
     command.callback([&chosen, options] { chosen = [options] { return rtl(*options); }; });
 }
 
@@ -207,15 +208,15 @@ void add_rtl(CLI::App& group, Command& chosen) {
 
 void add_cordic_command(CLI::App& app, Command& chosen) {
     CLI::App& group =
-        *app.add_subcommand("cordic", "The G-code processor that rotates by shifts and additions");
+        *app.add_subcommand("cordic", "CORDIC G-code processor: rotates by shifts and additions");
     group.require_subcommand(1);
     const auto options = std::make_shared<NumberOptions>();
-    CLI::App& rotating = add_numbers(group, "rotate", "Turn a vector by any angle", options);
-    add_number(rotating, "DEGREES", options->angle_deg, "Counter-clockwise; of a raw pass z itself")
+    CLI::App& rotating = add_numbers(group, "rotate", "Rotate a vector by any angle", options);
+    add_number(rotating, "DEGREES", options->angle_deg, "Angle, counter-clockwise; in a raw pass z itself")
         .required();
     rotating.callback([&chosen, options] { chosen = [options] { return rotate(*options); }; });
     CLI::App& measuring = add_numbers(group, "vector", "Length and direction of a vector", options);
-    add_number(measuring, "--z", options->pass.z, "With --raw: the z that the pass begins with, default 0");
+    add_number(measuring, "--z", options->pass.z, "With --raw: initial z of the pass (default: 0)");
     measuring.callback([&chosen, options] { chosen = [options] { return vector(*options); }; });
     add_cordic_accuracy(group, chosen);
     add_cordic_run(group, chosen);

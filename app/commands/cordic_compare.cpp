@@ -47,8 +47,9 @@ cordic::Mcs51Line line_of(const std::string& text) {
         const auto [stop, fault] = std::from_chars(at, end, numbers[n]);
         const bool last = n + 1 == numbers.size();
         if (fault != std::errc{} || (last ? stop != end : stop == end || *stop != ',')) {
-            throw Error(
-                fmt::format("\"{}\" is no line", text), {}, "X0,Y0,X1,Y1 in whole thousandths, as 5,7,4,8");
+            throw Error(fmt::format("\"{}\" is not a line", text),
+                        {},
+                        "give X0,Y0,X1,Y1 in whole thousandths, such as 5,7,4,8");
         }
         at = last ? stop : stop + 1;
     }
@@ -58,7 +59,7 @@ cordic::Mcs51Line line_of(const std::string& text) {
 std::vector<Mcs51Row> mcs51_rows(const CordicCompareOptions& options) {
     if (options.mcs51.empty()) {
         if (!options.lines.empty()) {
-            throw Error("--line is for a program of the MCS-51", {}, "--mcs51 F.ihx");
+            throw Error("--line applies only to a program of the MCS-51", {}, "give --mcs51 F.ihx");
         }
         return {};
     }
@@ -68,16 +69,16 @@ std::vector<Mcs51Row> mcs51_rows(const CordicCompareOptions& options) {
     for (const std::string& text : options.lines.empty() ? thesis : options.lines) {
         const cordic::Mcs51Line line = line_of(text);
         if (line.x0 == line.x1 && line.y0 == line.y1) {
-            throw Error(fmt::format("the line {} has no length", text));
+            throw Error(fmt::format("the line {} has zero length", text));
         }
         rows.push_back({line, cordic::run_mcs51_line(code, line, options.mcs51)});
         const auto& run = rows.back().run;
         if (!std::isfinite(run.vx) || !std::isfinite(run.vy)) {
             throw Error(
                 fmt::format(
-                    "of the line {} the program gives no velocity: vx {}, vy {}", text, run.vx, run.vy),
+                    "for the line {} the program returns no velocity: vx {}, vy {}", text, run.vx, run.vy),
                 options.mcs51,
-                "is it built as the documents say?");
+                "check that it is built as documented");
         }
     }
     return rows;
@@ -144,15 +145,15 @@ int compare(const CordicCompareOptions& options) {
     fmt::print("{:<24}{:>16}{:>16}\n", "clocks", mcs51.clocks, line.clocks);
     fmt::print("{:<24}{:>13.6g} us{:>13.6g} us\n", "time", 1e6 * mcs51.seconds, 1e6 * line.seconds);
     fmt::print("{:<24}{:>16.0f}{:>16.0f}\n",
-               "turns per minute, up to",
+               "maximum speed, rpm",
                std::floor(mcs51.most_rpm),
                std::floor(line.most_rpm));
-    fmt::print("{:<24}{:>14.3f} %{:>14.3f} %\n", "of a 20 ms stitch", 100.0 * slow.share, 100.0 * fast.share);
     fmt::print(
-        "{:.3f} % fewer clocks, {:.1f} times; a stitch of 3 mm needs {:.0f} turns per minute of the screw\n",
-        100.0 * line.reduction,
-        line.times_fewer,
-        fast.screw_rpm);
+        "{:<24}{:>14.3f} %{:>14.3f} %\n", "share of a 20 ms stitch", 100.0 * slow.share, 100.0 * fast.share);
+    fmt::print("{:.3f} % fewer clocks, {:.1f} times; a stitch of 3 mm needs a screw speed of {:.0f} rpm\n",
+               100.0 * line.reduction,
+               line.times_fewer,
+               fast.screw_rpm);
     print_mcs51(rows, line.clocks);
     return 0;
 }
@@ -162,17 +163,16 @@ int compare(const CordicCompareOptions& options) {
 void add_cordic_compare(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<CordicCompareOptions>();
     CLI::App& command =
-        *group.add_subcommand("compare", "The processor beside the thesis's micro-controller");
+        *group.add_subcommand("compare", "Compare the processor with the thesis's microcontroller");
     add_cordic_clock(command, options->clock_hz);
-    command
-        .add_option("--mcs51", options->mcs51, "Execute this program of an MCS-51, too, and count its clocks")
+    command.add_option("--mcs51", options->mcs51, "Also execute this MCS-51 program and count its clocks")
         ->type_name("F.ihx");
     command
         .add_option("--line",
                     options->lines,
-                    "X0,Y0,X1,Y1 that it computes, in thousandths; several times for several")
+                    "Line X0,Y0,X1,Y1 for the program to compute, in thousandths (repeatable)")
         ->type_name("X0,Y0,X1,Y1");
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
 }
 

@@ -75,13 +75,13 @@ void refuse_overrun(const std::vector<motion::StepJitter>& axes,
         const int line = program.blocks[static_cast<std::size_t>(axis.overrun_block)].source_line;
         throw Error(
             Diagnostic{{file, line, 0, -1},
-                       fmt::format("the timer cannot give the pulses of {}: {:.6g} a second are due, it "
-                                   "gives {:.6g}, and the last ones would be {:.3g} s late",
+                       fmt::format("the timer cannot generate the pulses of {}: {:.6g} per second are "
+                                   "needed, {:.6g} are possible, and the last ones would be {:.3g} s late",
                                    gcode::axis_letters[n],
                                    axis.max_frequency,
                                    options.timer_hz / static_cast<double>(options.min_interval),
                                    axis.max_jitter),
-                       "a faster --timer, a shorter --min-interval, fewer --steps or a lower feed"});
+                       "use a faster --timer, a shorter --min-interval, fewer --steps or a lower feed rate"});
     }
 }
 
@@ -156,32 +156,33 @@ void write_servo(const motion::Trajectory& trajectory, const CordicMotionOptions
 } // namespace
 
 void add_cordic_motion_options(CLI::App& command, CordicMotionOptions& options) {
-    CLI::Option* const profile = command
-                                     .add_option("--profile",
-                                                 options.profile,
-                                                 "Put the set-points in time and measure their step pulses")
-                                     ->check(CLI::IsMember({"trapezoid", "s-curve"}));
-    command.add_option("--jerk", options.jerk, "Of the S-curve, mm/s3")
+    CLI::Option* const profile =
+        command
+            .add_option("--profile",
+                        options.profile,
+                        "Plan a motion through the set-points with this profile and measure its step pulses")
+            ->check(CLI::IsMember({"trapezoid", "s-curve"}));
+    command.add_option("--jerk", options.jerk, "Jerk of the S-curve, mm/s3")
         ->check(CLI::Range(1e-3, 1e9))
         ->needs(profile)
         ->default_str(fmt::format("{}", usual_jerk));
-    command.add_option("--steps", options.steps_per_mm, "Steps a mm of each axis")
+    command.add_option("--steps", options.steps_per_mm, "Steps per mm of each axis")
         ->check(CLI::Range(1e-3, 1e6))
         ->needs(profile)
         ->capture_default_str();
-    command.add_option("--timer", options.timer_hz, "Frequency of the timer that gives the pulses, Hz")
+    command.add_option("--timer", options.timer_hz, "Frequency of the pulse timer, Hz")
         ->check(CLI::Range(1.0, 1e10))
         ->needs(profile)
         ->capture_default_str();
-    command.add_option("--min-interval", options.min_interval, "Ticks between two pulses of an axis")
+    command.add_option("--min-interval", options.min_interval, "Minimum ticks between two pulses of an axis")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
         ->needs(profile)
         ->capture_default_str();
     command.add_option("--pulses", options.pulses, "Write the pulses (CSV)")->type_name("FILE");
     CLI::Option* const servo =
-        command.add_option("--servo", options.servo, "Write the set-points of a servo controller (CSV)")
+        command.add_option("--servo", options.servo, "Write the set-points for a servo controller (CSV)")
             ->type_name("FILE");
-    command.add_option("--period", options.servo_period, "Of the servo controller, s")
+    command.add_option("--period", options.servo_period, "Period of the servo controller, s")
         ->check(CLI::Range(1e-6, 10.0))
         ->needs(servo)
         ->capture_default_str();
@@ -194,14 +195,15 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
                                              const std::string& file) {
     if (options.profile.empty()) {
         if (!options.pulses.empty() || !options.servo.empty()) {
-            throw Error(
-                "pulses and servo set-points need a motion", {}, "give --profile trapezoid or s-curve");
+            throw Error("pulses and servo set-points need a motion profile",
+                        {},
+                        "give --profile trapezoid or s-curve");
         }
         return std::nullopt;
     }
     const bool s_curve = options.profile == "s-curve";
     if (options.jerk && !s_curve) {
-        throw Error("--jerk is for the profile s-curve");
+        throw Error("--jerk applies only to --profile s-curve");
     }
     const double jerk = s_curve ? options.jerk.value_or(usual_jerk) : 0.0;
     constexpr double of_no_motion = 1.0;
@@ -215,7 +217,7 @@ std::optional<CordicMotionReport> move_along(const cordic::Processor& processor,
     CordicMotionReport report;
     if (std::isfinite(most_acceleration) && most_acceleration > greatest) {
         report.remarks.push_back(fmt::format(
-            "--acceleration allows more than the program's own Amax, which holds: {:.6g} mm/s2", greatest));
+            "--acceleration exceeds the program's own Amax, which applies: {:.6g} mm/s2", greatest));
     }
     report.seconds = trajectory.duration();
     sample(trajectory, report);
@@ -232,8 +234,8 @@ void print(const CordicMotionReport& report) {
                report.max_speed,
                report.max_acceleration);
     for (const AxisPulses& axis : report.axes) {
-        fmt::print("{}: {} up to {:.6g} Hz, given with up to {:.6g} Hz, {}, jitter {:.3g} "
-                   "us at most, {:.3g} us RMS, {} late\n",
+        fmt::print("{}: {} up to {:.6g} Hz, output at up to {:.6g} Hz, {}, jitter {:.3g} us at most, {:.3g} "
+                   "us RMS, {} late\n",
                    axis.letter,
                    counted(axis.pulses, "pulse"),
                    axis.max_frequency,

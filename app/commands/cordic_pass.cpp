@@ -21,11 +21,11 @@ void add_cordic_pass(CLI::App& command, CordicPassOptions& options) {
     command.add_flag(
         "--raw",
         options.raw,
-        "One pass of the iteration, z in rad (always so in the linear and the hyperbolic system)");
-    command.add_flag("--fold", options.folds, "With --raw: Pre before the pass, and Post behind a rotation");
+        "Run one pass of the iteration, z in rad (always so in the linear and hyperbolic systems)");
+    command.add_flag("--fold", options.folds, "With --raw: Pre before the pass, and Post after a rotation");
     command.add_flag("--matlab-zero",
                      options.matlab_zero,
-                     "With --raw: a step with nothing to turn is left out, as in the thesis's MATLAB model");
+                     "With --raw: skip steps with nothing to turn, as in the thesis's MATLAB model");
 }
 
 std::vector<std::string> hexadecimal_words(const std::array<cordic::Word, 3>& words) {
@@ -38,7 +38,7 @@ std::vector<std::string> hexadecimal_words(const std::array<cordic::Word, 3>& wo
 
 void refuse_pass_options(const CordicPassOptions& options) {
     if (!options.is_raw() && (options.folds || options.matlab_zero || !options.z.empty())) {
-        throw Error("--fold, --matlab-zero and --z are options of a raw pass", {}, "add --raw");
+        throw Error("--fold, --matlab-zero and --z apply only to a raw pass", {}, "add --raw");
     }
 }
 

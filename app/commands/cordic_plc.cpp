@@ -15,20 +15,22 @@ namespace millwright::app {
 
 void add_cordic_plc_options(CLI::App& command, CordicPlcOptions& options) {
     CLI::Option* const logic =
-        command.add_option("--plc", options.logic, "Logic of the machine, as an instruction list")
+        command.add_option("--plc", options.logic, "Machine logic, as an instruction list")
             ->type_name("FILE");
-    command.add_option("--inputs", options.inputs, "When its inputs change: lines of SECONDS BIT 0 or 1")
+    command.add_option("--inputs", options.inputs, "Input changes of the logic: lines of SECONDS BIT 0 or 1")
         ->type_name("FILE")
         ->needs(logic);
-    command.add_option("--scan", options.scan_ms, "Period of the logic, ms")
+    command.add_option("--scan", options.scan_ms, "Scan period of the logic, ms")
         ->check(CLI::Range(1e-3, 1e4))
         ->capture_default_str()
         ->needs(logic);
-    command.add_option("--ahead", options.records_ahead, "Set-points that the motion controller takes ahead")
+    command
+        .add_option(
+            "--ahead", options.records_ahead, "Set-points that the motion controller takes in advance")
         ->check(CLI::Range(1, 10'000))
         ->capture_default_str()
         ->needs(logic);
-    command.add_option("--time", options.most_seconds, "Ends a run with logic, s")
+    command.add_option("--time", options.most_seconds, "Time limit of a run with logic, s")
         ->check(CLI::Range(1e-3, 1e6))
         ->capture_default_str()
         ->needs(logic);

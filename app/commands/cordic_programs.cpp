@@ -35,7 +35,8 @@ int show_microprogram(const CordicProgramsOptions& options) {
 
 int assemble(const CordicProgramsOptions& options) {
     if (std::filesystem::path(options.source.file).extension() == ".bin") {
-        throw Error("is an image already", options.source.file, "millwright cordic disasm prints its text");
+        throw Error(
+            "is already an image", options.source.file, "print its text with millwright cordic disasm");
     }
     const cordic_machine::CordicProgram program = cordic_program(options.source, options.arithmetic);
     const auto bytes = cordic::to_bytes(program.image);
@@ -67,18 +68,18 @@ CLI::App& add_file(CLI::App& group,
 
 void add_cordic_programs(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<CordicProgramsOptions>();
-    CLI::App& assembling =
-        add_file(group, "asm", "Make the image of a program", options, "G-code or assembler text (.asm)");
+    CLI::App& assembling = add_file(
+        group, "asm", "Assemble a program into an image", options, "G-code or assembly source (.asm)");
     assembling.add_option("--out", options->out, "Image file (.bin)")->required()->type_name("FILE");
     assembling.callback([&chosen, options] { chosen = [options] { return assemble(*options); }; });
     CLI::App& showing = add_file(group,
                                  "disasm",
-                                 "Print a program as assembler text",
+                                 "Print a program as assembly source",
                                  options,
-                                 "Image (.bin), G-code or assembler text (.asm)");
+                                 "Image (.bin), G-code or assembly source (.asm)");
     showing.callback([&chosen, options] { chosen = [options] { return disassemble(*options); }; });
     CLI::App& micro = *group.add_subcommand("microprogram", "Print the processor's microprogram");
-    micro.add_flag("--over-bus", options->over_bus, "With set-points byte by byte over the bus");
+    micro.add_flag("--over-bus", options->over_bus, "Send set-points byte by byte over the bus");
     micro.callback([&chosen, options] { chosen = [options] { return show_microprogram(*options); }; });
 }
 

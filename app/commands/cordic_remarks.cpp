@@ -44,7 +44,7 @@ std::optional<Diagnostic> idle_remark(const cordic::Processor& processor,
     }
     const cordic::CodeAddress address = std::next(first)->instruction_at;
     const cordic::CodeLine at = cordic::line_at(program.code_lines, address);
-    constexpr std::string_view what = "the first motion that leads to where the axes are already";
+    constexpr std::string_view what = "this motion ends where the axes already are (the first such motion)";
     return Diagnostic{{file, at.line, at.column, -1},
                       at.line > 0 ? std::string(what) : fmt::format("{}, at {:#06x}", what, address),
                       {}};
@@ -68,20 +68,20 @@ std::string cause_of_speed_error(const cordic::Processor& processor,
     const double way = std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
     if (report.position_error >= 0.5 * report.speed_error * way) {
         return fmt::format(
-            "its ends are up to {:.2g} mm beside theirs, on a way of {:.2g} mm", report.position_error, way);
+            "its ends are up to {:.2g} mm off, on a path of {:.2g} mm", report.position_error, way);
     }
     if (comes_from_sign_of_zero(processor, from, to)) {
-        return "--matlab-zero turns nothing along an axis, and takes a gain out that was not made";
+        return "with --matlab-zero nothing is turned along an axis, but the gain is removed all the same";
     }
     const cordic::Sequence& sequence = processor.settings().sequence;
     const int last = sequence.shifts[static_cast<std::size_t>(sequence.step_count - 1)];
     const double left = 2.0 * std::atan(std::ldexp(1.0, -last));
     if (left >= 0.5 * report.speed_error) {
-        return fmt::format("{} turn its direction by up to {:.2g} degrees beside",
+        return fmt::format("{} leave its direction up to {:.2g} degrees off",
                            counted(sequence.step_count, "iteration"),
                            to_degrees(left));
     }
-    return fmt::format("{} has too few bits for it", cordic::to_text(processor.format()));
+    return fmt::format("{} has too few bits", cordic::to_text(processor.format()));
 }
 
 } // namespace
@@ -97,15 +97,14 @@ std::vector<Diagnostic> remarks_on(const cordic::Processor& processor,
         remarks.push_back(std::move(*idle));
     }
     if (of_gcode && choice.arithmetic.thesis_direction && has_arcs(processor)) {
-        remarks.push_back(
-            {{file, 0, 0, -1},
-             "arcs turn the other way, as in the thesis's model: they end beside where the program says, "
-             "and what follows leads straight back",
-             {}});
+        remarks.push_back({{file, 0, 0, -1},
+                           "arcs turn the other way, as in the thesis's model: they end off the programmed "
+                           "point, and the next motion goes straight back",
+                           {}});
     }
     if (of_gcode && report.speed_error > notable_speed_error) {
         remarks.push_back({{file, program.points[report.speed_error_at].line, 0, -1},
-                           fmt::format("the speed is up to {:.0f} % beside the feed: {}",
+                           fmt::format("the speed deviates from the feed rate by up to {:.0f} %: {}",
                                        100.0 * report.speed_error,
                                        cause_of_speed_error(processor, report, program.points)),
                            {}});

@@ -81,20 +81,22 @@ void add_cordic_rtl_processor(CLI::App& group, Command& chosen) {
     CLI::Option& file =
         *command.add_option("FILE",
                             options->source.file,
-                            "Program that the bench executes: G-code, assembler text (.asm) or image (.bin); "
-                            "without it, random instructions and every way to stop");
-    command.add_option("--format", options->source.format, "Fixed point as in q12.20; of an image its own")
+                            "Program for the test bench: G-code, assembly source (.asm) or image (.bin); "
+                            "default: random instructions and every way to stop");
+    command
+        .add_option(
+            "--format", options->source.format, "Fixed-point format such as q12.20; an image has its own")
         ->check(number_format_text());
     add_cordic_arithmetic(command, options->choice.arithmetic);
     add_cordic_unit(command, options->choice);
-    command.add_option("--out", options->out, "Folder for the Verilog files and what the bench reads")
+    command.add_option("--out", options->out, "Folder for the Verilog files and the input of the test bench")
         ->required()
         ->type_name("DIR");
-    command.add_option("--instructions", options->instructions, "Random instructions, about so many")
+    command.add_option("--instructions", options->instructions, "Approximate number of random instructions")
         ->check(CLI::Range(std::int64_t{1}, most_instructions))
         ->capture_default_str()
         ->excludes(&file);
-    command.add_option("--seed", options->seed, "Of the random instructions")
+    command.add_option("--seed", options->seed, "Seed of the random instructions")
         ->capture_default_str()
         ->excludes(&file);
     command.callback([&chosen, options] { chosen = [options] { return rtl_processor(*options); }; });

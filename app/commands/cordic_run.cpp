@@ -186,7 +186,7 @@ void print_run_report(const cordic::RunReport& report, const cordic::Processor& 
                    report.speed_error);
     }
     if (report.fastest) {
-        fmt::print("{} late; none would be up to {:.6g} mm/min\n",
+        fmt::print("{} late; none would be late at up to {:.6g} mm/min\n",
                    counted(report.late.size(), "set-point"),
                    to_mm_per_min(*report.fastest));
     }
@@ -196,7 +196,7 @@ void fill_ram(cordic::Processor& processor, const CordicRunOptions& options) {
     const std::string bytes = options.ram.empty() ? std::string() : read_file(options.ram);
     std::vector<std::uint8_t>& ram = processor.memory().ram;
     if (bytes.size() > ram.size()) {
-        throw Error(fmt::format("{} bytes, the RAM holds {}", bytes.size(), ram.size()), options.ram);
+        throw Error(fmt::format("{} bytes, but the RAM holds {}", bytes.size(), ram.size()), options.ram);
     }
     std::ranges::copy(bytes, ram.begin());
 }
@@ -221,11 +221,12 @@ bool is_at_an_end(const cordic::Processor& processor,
                   const std::optional<cordic::SupervisedRun>& supervised) {
     using cordic::SupervisedEnd;
     if (supervised && supervised->end == SupervisedEnd::out_of_time) {
-        throw Error("the machine is not at the end of the program when its time is over", {}, "--time");
+        throw Error("the time limit ended before the program did", {}, "raise --time");
     }
     if (supervised && supervised->end == SupervisedEnd::stopped) {
-        throw Error(
-            "the logic stopped the machine before the end of the program", {}, "as an emergency stop does");
+        throw Error("the logic stopped the machine before the end of the program",
+                    {},
+                    "check whether an emergency stop is active");
     }
     return processor.state().stop == cordic::Stop::halted;
 }
@@ -292,17 +293,17 @@ void add_cordic_run(CLI::App& group, Command& chosen) {
     add_cordic_source(command, options->source);
     add_cordic_clock(command, options->clock_hz);
     CLI::Option* const trace =
-        command.add_option("--trace", options->trace, "Write waves for GTKWave (VCD)")->type_name("FILE");
-    command.add_option("--ram", options->ram, "What the host has written to the dual-port RAM")
+        command.add_option("--trace", options->trace, "Write waveforms for GTKWave (VCD)")->type_name("FILE");
+    command.add_option("--ram", options->ram, "Dual-port RAM as written by the host before the run")
         ->type_name("FILE");
-    command.add_option("--ram-out", options->ram_out, "Write what is in the RAM at the end")
+    command.add_option("--ram-out", options->ram_out, "Write the content of the RAM at the end")
         ->type_name("FILE");
     add_cordic_choice(command, options->choice);
     add_cordic_clocks(command, options->most_clocks);
     add_cordic_motion_options(command, options->motion);
     add_cordic_plc_options(command, options->plc);
     trace->excludes("--plc");
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return run_cordic_program(*options); }; });
 }
 

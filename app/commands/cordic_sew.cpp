@@ -61,7 +61,7 @@ int sew(const CordicSewOptions& options) {
         fmt::print("{}\n", answer.dump(2));
         return 0;
     }
-    fmt::print("{} of {:.6g} ms, in {:.6g} ms of which the needle is up and the feed may move\n",
+    fmt::print("{} of {:.6g} ms; for {:.6g} ms of each the needle is up and the feed may move\n",
                counted(sewn.stitches, "stitch", "stitches"),
                1e3 * one.period,
                1e3 * one.window);
@@ -79,30 +79,29 @@ int sew(const CordicSewOptions& options) {
 
 void add_cordic_sew(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<CordicSewOptions>();
-    CLI::App& command =
-        *group.add_subcommand("sew", "A program as stitches: what a sewing machine could not keep up with");
+    CLI::App& command = *group.add_subcommand(
+        "sew", "Run a program as stitches: what a sewing machine could not keep up with");
     add_cordic_source(command, options->source);
     add_cordic_choice(command, options->choice);
     add_cordic_clock(command, options->clock_hz);
     add_cordic_clocks(command, options->most_clocks);
     const auto positive = CLI::Range(1e-3, 1e7);
-    command
-        .add_option(
-            "--needle-rpm", options->sewing.needle_rpm, "Turns per minute of the needle, a stitch each")
+    command.add_option("--needle-rpm", options->sewing.needle_rpm, "Needle speed, rpm (one stitch per turn)")
         ->check(positive)
         ->capture_default_str();
     command
-        .add_option(
-            "--needle-down", options->sewing.needle_down, "Part of a turn in which the feed must stand")
+        .add_option("--needle-down",
+                    options->sewing.needle_down,
+                    "Fraction of a turn in which the feed must not move")
         ->check(CLI::Range(0.0, 0.99))
         ->capture_default_str();
-    command.add_option("--screw-pitch", options->sewing.screw_pitch, "Feed of a turn of the screw, mm")
+    command.add_option("--screw-pitch", options->sewing.screw_pitch, "Feed per turn of the screw, mm")
         ->check(positive)
         ->capture_default_str();
-    command.add_option("--screw-rpm", options->sewing.most_screw_rpm, "Greatest speed of the screw")
+    command.add_option("--screw-rpm", options->sewing.most_screw_rpm, "Maximum speed of the screw, rpm")
         ->check(positive)
         ->capture_default_str();
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return sew(*options); }; });
 }
 

@@ -83,13 +83,13 @@ cordic_machine::CordicProgram compiled(const CordicSource& source, const CordicA
 void refuse_options_of_gcode(const CordicSource& source) {
     for (const CLI::Option* const option : source.of_gcode) {
         if (option->count() > 0) {
-            throw Error(fmt::format("{} is for G-code", option->get_name()), source.file);
+            throw Error(fmt::format("{} applies only to G-code", option->get_name()), source.file);
         }
     }
     if (source.acceleration && !source.plans_motion) {
-        throw Error("--acceleration is for G-code and for a motion behind the processor",
+        throw Error("--acceleration applies only to G-code and to a motion after the processor",
                     source.file,
-                    "the program has its own Amax");
+                    "leave it out: the program has its own Amax");
     }
 }
 
@@ -97,7 +97,7 @@ void expect_format(const CordicSource& source, const cordic::NumberFormat& found
     if (source.format && cordic::parse_number_format(*source.format) != found) {
         throw Error(fmt::format("the program is in {}, not in {}", cordic::to_text(found), *source.format),
                     source.file,
-                    "leave --format out");
+                    "leave out --format");
     }
 }
 
@@ -112,7 +112,7 @@ void expect_arithmetic(const CordicSource& source,
     const auto refused = [&](std::string_view made_for, std::string_view option) {
         throw Error(fmt::format("the program is made for {}", made_for),
                     source.file,
-                    fmt::format("leave {} out", option));
+                    fmt::format("leave out {}", option));
     };
     if (asked.iterations && *asked.iterations != found.iterations) {
         refused(name_of_iterations(found.iterations), "--iterations");
@@ -143,7 +143,7 @@ cordic_machine::CordicProgram assembled(const CordicSource& source, const Cordic
     expect_format(source, made.image.format);
     expect_arithmetic(source, arithmetic, made.image.made_for);
     if (made.image.code.empty()) {
-        throw Error("there is no instruction in the program", source.file, "HLT ends one");
+        throw Error("the program contains no instruction", source.file, "write a program that ends with HLT");
     }
     print_warnings(made.warnings);
     return {std::move(made.image), {}, std::move(made.lines), {}, {}, std::move(made.warnings)};
@@ -166,24 +166,23 @@ bool is_of_microprogram(cordic::Stop stop) {
 void add_cordic_source(CLI::App& command, CordicSource& source, const char* kinds) {
     command.add_option("FILE", source.file, kinds)->required();
     add_origin_option(command, source.origin);
-    command.add_option("--format", source.format, "Number format: f64, f32, or qI.F as in q12.20")
+    command.add_option("--format", source.format, "Number format: f64, f32, or qI.F such as q12.20")
         ->check(number_format_text())
         ->default_str("f32");
     source.of_gcode = {
         command
             .add_option(
-                "--arc-tolerance", source.tolerance, "G-code: farthest that the path may be from its arc, mm")
+                "--arc-tolerance", source.tolerance, "G-code: largest deviation of the path from an arc, mm")
             ->check(CLI::Range(1e-9, 1e3))
             ->capture_default_str(),
-        command.add_option("--rapid", source.rapid_mm_per_min, "G-code: speed of G0, mm/min")
+        command.add_option("--rapid", source.rapid_mm_per_min, "G-code: speed of rapid moves (G0), mm/min")
             ->check(CLI::Range(1e-3, 1e7))
             ->capture_default_str(),
-        command.add_flag("--thesis-arcs", source.thesis_arcs, "G-code: end arcs where their rotations lead"),
+        command.add_flag("--thesis-arcs", source.thesis_arcs, "G-code: end arcs where their rotations end"),
         command.add_flag("--whole-arcs",
                          source.whole_arcs,
-                         "G-code: do not divide arcs, however far rounding leads them from the tolerance"),
-        command.add_flag(
-            "--other-axes", source.other_axes, "G-code: leave out what other axes than X, Y and Z do"),
+                         "G-code: do not divide arcs, even if rounding exceeds the tolerance"),
+        command.add_flag("--other-axes", source.other_axes, "G-code: ignore axes other than X, Y and Z"),
         command.get_option("--origin")};
     command.add_option("--acceleration", source.acceleration, "G-code: Amax, mm/s2")
         ->check(CLI::Range(1e-3, 1e7))
@@ -196,16 +195,17 @@ CLI::Validator number_format_text() {
 
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic) {
     command
-        .add_option("--iterations", arithmetic.iterations, "Steps 0, 1, 2 ... in place of the thesis's 29")
+        .add_option("--iterations", arithmetic.iterations, "Use steps 0, 1, 2 ... instead of the thesis's 29")
         ->check(CLI::Range(1, cordic::most_steps));
     command
-        .add_option("--rounding", arithmetic.rounding, "What a fixed-point shift does with the bits it drops")
+        .add_option("--rounding", arithmetic.rounding, "Rounding of the bits that a fixed-point shift drops")
         ->check(CLI::IsMember({"truncate", "toward-zero", "nearest", "nearest-even"}))
         ->default_str("truncate");
+    command.add_flag("--thesis-direction",
+                     arithmetic.thesis_direction,
+                     "Interpret G2 as counter-clockwise, as in the thesis's model");
     command.add_flag(
-        "--thesis-direction", arithmetic.thesis_direction, "G2 counter-clockwise, as the thesis's model");
-    command.add_flag(
-        "--matlab-zero", arithmetic.matlab_zero, "The thesis's MATLAB model where an angle is 0");
+        "--matlab-zero", arithmetic.matlab_zero, "Treat an angle of 0 as in the thesis's MATLAB model");
 }
 
 cordic::MadeFor made_for_options(const CordicArithmetic& arithmetic) {
@@ -217,19 +217,18 @@ cordic::MadeFor made_for_options(const CordicArithmetic& arithmetic) {
 }
 
 void add_cordic_unit(CLI::App& command, CordicChoice& choice) {
-    command.add_option("--wait-states", choice.wait_states, "Clocks that a bus cycle waits")
+    command.add_option("--wait-states", choice.wait_states, "Wait clocks per bus cycle")
         ->check(CLI::Range(0, 255));
-    command.add_flag("--over-bus", choice.over_bus, "Set-points byte by byte over the bus");
+    command.add_flag("--over-bus", choice.over_bus, "Send set-points byte by byte over the bus");
     command.add_flag("--whole-acceleration",
                      choice.whole_acceleration,
-                     "Give the axes Amax, not Amax/2 as in eq. 4.2 of the thesis");
+                     "Give the axes Amax instead of Amax/2 (eq. 4.2 of the thesis)");
 }
 
 void add_cordic_choice(CLI::App& command, CordicChoice& choice) {
     add_cordic_arithmetic(command, choice.arithmetic);
     add_cordic_unit(command, choice);
-    command.add_option("--microprogram", choice.microprogram, "A microprogram of one's own")
-        ->type_name("FILE");
+    command.add_option("--microprogram", choice.microprogram, "Custom microprogram")->type_name("FILE");
 }
 
 void add_cordic_clock(CLI::App& command, double& clock_hz) {
@@ -285,11 +284,10 @@ Error goes_round(const cordic::Processor& processor,
     const cordic::CodeLine at = cordic::line_at(program.code_lines, address);
     return Error(Diagnostic{
         {source.file, at.line, at.column, -1},
-        fmt::format("the program never ends: at the instruction at {:#06x} it is again as it was before, "
-                    "after {} clocks",
+        fmt::format("the program never ends: at the instruction at {:#06x} its state repeats after {} clocks",
                     address,
                     processor.state().clocks.total),
-        "--clocks executes so many of it"});
+        "set the number of clocks to execute with --clocks"});
 }
 
 void execute_to_end(cordic::Processor& processor,
@@ -305,9 +303,9 @@ void execute_to_end(cordic::Processor& processor,
 }
 
 void add_cordic_clocks(CLI::App& command, std::optional<std::int64_t>& most_clocks) {
-    command.add_option("--clocks", most_clocks, "Stop after so many")
+    command.add_option("--clocks", most_clocks, "Stop after this many clocks")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000'000}))
-        ->default_str(fmt::format("the end; of .asm and .bin {}", cordic::usual_most_clocks));
+        ->default_str(fmt::format("the end of the program; for .asm and .bin {}", cordic::usual_most_clocks));
 }
 
 Error not_at_its_end(const cordic::Processor& processor,
@@ -316,9 +314,9 @@ Error not_at_its_end(const cordic::Processor& processor,
                      const CordicChoice& choice) {
     const cordic::ProcessorState& state = processor.state();
     if (state.stop == cordic::Stop::none) {
-        return Error(fmt::format("the program is not at its end after {} clocks", state.clocks.total),
+        return Error(fmt::format("the program did not end within {} clocks", state.clocks.total),
                      source.file,
-                     "--clocks allows more");
+                     "raise --clocks");
     }
     if (is_of_microprogram(state.stop) && !choice.microprogram.empty()) {
         const cordic::Microprogram& program_of_words = processor.microprogram();

@@ -48,7 +48,7 @@ struct CordicChoice {
 /// `kinds` says what FILE may be.
 void add_cordic_source(CLI::App& command,
                        CordicSource& source,
-                       const char* kinds = "G-code, assembler text (.asm) or image (.bin)");
+                       const char* kinds = "G-code, assembly source (.asm) or image (.bin)");
 /// Of --format.
 [[nodiscard]] CLI::Validator number_format_text();
 void add_cordic_arithmetic(CLI::App& command, CordicArithmetic& arithmetic);

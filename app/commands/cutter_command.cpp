@@ -43,16 +43,17 @@ struct CutterOptions {
 void print_cutter_summary(const plan::Plan& plan, const project::Project& project) {
     const plan::Evaluation& chosen = *plan.program_path(project);
     const plan::CutStudy& study = *plan.cut;
-    fmt::print("error of the cutter: at most {} mm, {} mm on average; axis at most {} deg off\n",
+    fmt::print("cutter error: at most {} mm, {} mm on average; tool axis at most {} deg off\n",
                fixed(chosen.closest.max, 4),
                fixed(chosen.closest.mean, 4),
                fixed(to_degrees(chosen.closest.axis_max), 2));
-    fmt::print("left on the surface: {}\n", plan::left_text(project, plan));
-    fmt::print("tracks: {}; a scallop of {} mm asks for {}\n",
+    fmt::print("scallop height: {}\n", plan::left_text(project, plan));
+    fmt::print("tracks: {}; a scallop height of {} mm allows {}\n",
                chosen.track_gap ? "at most " + fixed(*chosen.track_gap, 3) + " mm apart"
-                                : "as far apart as the scallop allows",
+                                : "spaced as far apart as the scallop height allows",
                project.tool.scallop_mm,
-               std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm" : std::string("no gap"));
+               std::isfinite(study.step_over) ? fixed(study.step_over, 3) + " mm"
+                                              : std::string("any spacing"));
     fmt::print("deepest cut below the surface: {} mm ({}); estimated time {}\n",
                fixed(study.deepest, 4),
                plan::checked_text(project),
@@ -71,7 +72,7 @@ void print_bites(const plan::CutStudy& study) {
     for (std::size_t n = 0; n < std::min(named, study.bites.size()); ++n) {
         const plan::BlockBite& bite = study.bites[n];
         fmt::print(stderr,
-                   "warning: line {}: the {} is {} mm deep in the part at {} {} {}\n",
+                   "warning: line {}: the {} is {} mm inside the part at {} {} {}\n",
                    bite.line,
                    bite.by_holder ? "holder" : "cutter",
                    fixed(bite.bite.depth, 4),
@@ -80,8 +81,9 @@ void print_bites(const plan::CutStudy& study) {
                    fixed(bite.bite.position.z(), 3));
     }
     if (study.bites.size() > named) {
-        fmt::print(
-            stderr, "warning: {}, all in cut.json\n", counted(study.bites.size() - named, "more such line"));
+        fmt::print(stderr,
+                   "warning: {}, all listed in cut.json\n",
+                   counted(study.bites.size() - named, "more such line"));
     }
     if (!study.local_gouges.empty()) {
         const plan::LocalGouge& first = study.local_gouges.front();
@@ -102,7 +104,7 @@ int cut(const CutterOptions& options) {
     }
     project.tool.scallop_mm = options.scallop.value_or(project.tool.scallop_mm);
     if (project.tool.cutter == toolpath::CutterKind::point) {
-        throw Error("the project's tool is a point, which leaves nothing and fits everywhere",
+        throw Error("the project's tool is a point, which leaves no scallops and fits everywhere",
                     {},
                     "name a tool file with --tool");
     }
@@ -144,15 +146,15 @@ int cut(const CutterOptions& options) {
 
 void add_cutter_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<CutterOptions>();
-    CLI::App& command =
-        *app.add_subcommand("cutter", "Cut a project with a tool that has a body: error, scallops, gouges");
+    CLI::App& command = *app.add_subcommand(
+        "cutter", "Simulate a project with the body of its tool: error, scallops, gouges");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--tool", options->tool, "Tool file to cut with, instead of the project's tool")
+    command.add_option("--tool", options->tool, "Tool file to use instead of the project's tool")
         ->type_name("FILE");
     command.add_option("--out", options->out, "Folder for program, cut.json and surface.csv")
         ->required()
         ->type_name("DIR");
-    command.add_option("--scallop", options->scallop, "Scallop height to find the step-over for, mm")
+    command.add_option("--scallop", options->scallop, "Scallop height for which to find the step-over, mm")
         ->type_name("MM")
         ->check(above_zero());
     add_gouges_option(command, options->allow_gouges);

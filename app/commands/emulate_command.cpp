@@ -61,7 +61,8 @@ int emulate_grbl(const EmulateOptions& options) {
         surface = [z = *options.surface](double, double) { return z; };
     }
     if (options.wire.reset_when_opened && options.wire.tcp < 0) {
-        throw UsageError("who opens a pseudo-terminal is not known", {}, "--reset-when-opened needs --tcp");
+        throw UsageError(
+            "a pseudo-terminal does not report when it is opened", {}, "use --reset-when-opened with --tcp");
     }
     return serve(options.wire, std::string(firmware->version), [&] {
         auto grbl = std::make_unique<emulators::GrblEmulator>(
@@ -86,7 +87,7 @@ int emulate_linuxcnc(const EmulateOptions& options) {
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder())));
     for (const kinematics::MachineAxis& axis : wanted.model->axes()) {
         if (std::string_view("XYZABC").find(axis.letter) == std::string_view::npos) {
-            throw Error(fmt::format("linuxcncrsh knows no axis {}", axis.letter), options.machine);
+            throw Error(fmt::format("linuxcncrsh does not support axis {}", axis.letter), options.machine);
         }
     }
     wanted.homed = options.homed;
@@ -98,14 +99,14 @@ void tell_samples(const emulators::StreamEmulator& stream) {
     const emulators::StreamTruth& truth = stream.truth();
     fmt::print("{}\n", counted(truth.samples, "sample"));
     for (std::size_t n = 0; n < stream.position().size(); ++n) {
-        fmt::print("{} {:.4f}, at most {:.2f} a second\n",
+        fmt::print("{} {:.4f}, at most {:.2f} per second\n",
                    stream.axes()[n],
                    stream.position()[n],
                    truth.greatest_speed[n]);
     }
     if (truth.bad_lines > 0) {
         fmt::print("{}; the first: {}\n",
-                   counted(truth.bad_lines, "line was no sample", "lines were no samples"),
+                   counted(truth.bad_lines, "line was not a sample", "lines were not samples"),
                    truth.first_fault);
     }
 }
@@ -140,37 +141,41 @@ CLI::App& add_emulated(CLI::App& group,
 
 void add_emulate_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<EmulateOptions>();
-    CLI::App& group = *app.add_subcommand("emulate", "Be a controller, to try things out without a machine");
+    CLI::App& group =
+        *app.add_subcommand("emulate", "Emulate a controller, to try things out without a machine");
     group.require_subcommand(1);
     CLI::App& grbl = add_emulated(
         group, "grbl", "Grbl 1.1, grblHAL or FluidNC on a pseudo-terminal or a TCP port", options);
-    grbl.add_option("--firmware", options->firmware, "Which firmware answers")
+    grbl.add_option("--firmware", options->firmware, "Firmware to emulate")
         ->check(CLI::IsMember({"grbl", "grblhal", "fluidnc"}))
         ->capture_default_str();
-    grbl.add_option("--axes", options->axes, "XYZ, and up to three of A B C U V W behind")
+    grbl.add_option("--axes", options->axes, "Axes: XYZ, followed by up to three of A B C U V W")
         ->type_name("LETTERS")
         ->capture_default_str();
-    grbl.add_option("--eeprom", options->eeprom, "File that keeps settings and offsets")->type_name("FILE");
-    grbl.add_flag("--line-numbers", options->line_numbers, "Report the number of the line in motion");
-    grbl.add_flag("--echo", options->echo, "Repeat each line as it was read");
-    grbl.add_flag("--mist", options->mist, "Built with M7");
-    grbl.add_flag("--no-switches", options->no_switches, "Its limit switches never switch");
+    grbl.add_option("--eeprom", options->eeprom, "File that stores settings and offsets")->type_name("FILE");
+    grbl.add_flag("--line-numbers", options->line_numbers, "Report the line number of the current motion");
+    grbl.add_flag("--echo", options->echo, "Echo each line as it was read");
+    grbl.add_flag("--mist", options->mist, "Support M7 (mist coolant)");
+    grbl.add_flag("--no-switches", options->no_switches, "Never trigger the limit switches");
     grbl.add_flag("--reset-when-opened",
                   options->wire.reset_when_opened,
-                  "Reset whenever a program connects, as boards do that are wired to DTR; with --tcp");
-    grbl.add_option("--surface", options->surface, "A probe touches at this height, machine coordinates, mm")
+                  "Reset whenever a program connects, like boards wired to DTR (with --tcp)");
+    grbl.add_option("--surface", options->surface, "Height at which a probe touches, machine coordinates, mm")
         ->type_name("Z");
     grbl.callback([&chosen, options] { chosen = [options] { return emulate_grbl(*options); }; });
-    CLI::App& linuxcnc = add_emulated(group, "linuxcnc", "LinuxCNC behind its linuxcncrsh", options);
+    CLI::App& linuxcnc =
+        add_emulated(group, "linuxcnc", "LinuxCNC, accessed through its linuxcncrsh", options);
     linuxcnc.add_option("--machine", options->machine, "Shipped machine or machine file")
         ->capture_default_str();
-    linuxcnc.add_flag("--homed", options->homed, "Begin switched on and homed");
+    linuxcnc.add_flag("--homed", options->homed, "Start switched on and homed");
     linuxcnc.callback([&chosen, options] { chosen = [options] { return emulate_linuxcnc(*options); }; });
-    CLI::App& stream = add_emulated(group, "stream", "A machine that takes a coordinate stream", options);
+    CLI::App& stream = add_emulated(group, "stream", "A machine that accepts a coordinate stream", options);
     stream.callback([&chosen, options] { chosen = [options] { return emulate_stream(*options); }; });
     CLI::App& pmac = add_emulated(group, "pmac", "A Delta Tau PMAC-Lite with its motors", options);
-    pmac.add_flag("--arm", options->arm, "The drives of the Motoman L-3 instead of ones without offsets");
-    pmac.add_option("--channels", options->channels, "4, or 8 with a second row of outputs")
+    pmac.add_flag(
+        "--arm", options->arm, "Emulate the drives of the Motoman L-3 instead of drives without offsets");
+    pmac.add_option(
+            "--channels", options->channels, "Number of channels: 4, or 8 with a second row of outputs")
         ->check(CLI::IsMember({4, 8}))
         ->capture_default_str();
     pmac.callback([&chosen, options] { chosen = [options] { return emulate_pmac(*options); }; });

@@ -33,15 +33,15 @@ struct TableChoice {
 void tell_records(const emulators::TableEmulator& table,
                   const kinematics::MachineModel& model,
                   const std::string& pattern) {
-    fmt::print("{} obeyed, {}, at",
+    fmt::print("{} executed, {}, at",
                counted(table.records(), "record"),
-               counted(table.bad_lines(), "line that was none", "lines that were none"));
+               counted(table.bad_lines(), "invalid line", "invalid lines"));
     for (int n = 0; n < model.axis_count(); ++n) {
         fmt::print(" {} {:.4f}", model.axis(n).letter, table.position()[static_cast<std::size_t>(n)]);
     }
     fmt::print("\n");
     if (table.bad_lines() > 0) {
-        fmt::print("a record of this table is \"{}\"\n", pattern);
+        fmt::print("this table expects records as \"{}\"\n", pattern);
     }
 }
 
@@ -51,7 +51,7 @@ int emulate_table(const TableChoice& choice) {
     const drivers::RecordFormat format = record_of(choice.record).value();
     if (links::read_fault_spec(choice.wire.faults).lost_ok > 0.0 && format.answer != "ok") {
         throw UsageError(
-            "the fault lost-ok loses an answer 'ok', which this table does not give", {}, "give --answer ok");
+            "the fault lost-ok drops an answer 'ok', which this table does not send", {}, "give --answer ok");
     }
     return serve(
         choice.wire,
@@ -66,18 +66,17 @@ int emulate_table(const TableChoice& choice) {
 
 void add_emulate_table(CLI::App& group, Command& chosen) {
     const auto choice = std::make_shared<TableChoice>();
-    CLI::App& command = *group.add_subcommand("table", "A table that takes records");
+    CLI::App& command = *group.add_subcommand("table", "A table that accepts records");
     add_emulation_options(command, choice->wire);
-    command.add_option("--machine", choice->machine, "Shipped machine or machine file: its axes")
+    command.add_option("--machine", choice->machine, "Shipped machine or machine file, for its axes")
         ->capture_default_str();
     add_record_options(command, choice->record);
     command.add_option(
-        "--silent-from", choice->table.silent_from, "Answers nothing from this record on; 0: never");
-    command.add_flag("--takes-time",
-                     choice->table.takes_time,
-                     "Moves at the speed that {s} says, and answers when it is there");
-    command.add_option("--refuse", choice->table.refuses, "Answers this record by 'error'; 0: none");
-    command.add_option("--double", choice->table.doubles, "Answers this record twice; 0: none");
+        "--silent-from", choice->table.silent_from, "Stop answering from this record on (0: never)");
+    command.add_flag(
+        "--takes-time", choice->table.takes_time, "Move at the speed given by {s}, and answer on arrival");
+    command.add_option("--refuse", choice->table.refuses, "Answer this record with 'error' (0: none)");
+    command.add_option("--double", choice->table.doubles, "Answer this record twice (0: none)");
     command.callback([&chosen, choice] { chosen = [choice] { return emulate_table(*choice); }; });
 }
 

@@ -44,13 +44,14 @@ int export_design(const ExportOptions& options) {
 
 void add_export_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<ExportOptions>();
-    CLI::App& command = *app.add_subcommand("export", "Write the surface of a project for another program");
+    CLI::App& command = *app.add_subcommand("export", "Export the surface of a project");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--out", options->out, "FILE.step, .glb, .stl, .obj or .ply")
+    command.add_option("--out", options->out, "Output file: FILE.step, .glb, .stl, .obj or .ply")
         ->required()
         ->type_name("FILE");
     command
-        .add_option("--tolerance", options->tolerance, "Largest distance of a triangle from the surface, mm")
+        .add_option(
+            "--tolerance", options->tolerance, "Largest deviation of the triangles from the surface, mm")
         ->check(CLI::Range(1e-6, 1e3))
         ->capture_default_str();
     command.callback([&chosen, options] { chosen = [options] { return export_design(*options); }; });

@@ -112,7 +112,7 @@ int check_klartext(const GcodeOptions& options, std::string_view text) {
         steps = gcode::read_written_klartext(text, options.file, {});
     } catch (const Error& error) {
         errors.push_back(error.diagnostic());
-        errors.back().hint = "of Klartext Millwright reads the blocks that its posts write";
+        errors.back().hint = "Millwright reads only the Klartext blocks that its posts write";
     }
     const auto moves = std::ranges::count_if(steps, [](const gcode::WrittenStep& step) {
         return step.kind == gcode::StepKind::rapid || step.kind == gcode::StepKind::feed ||
@@ -264,18 +264,16 @@ int convert_gcode(const GcodeOptions& options) {
         return block.kind == program::BlockKind::spindle_on;
     });
     if (!spindle_turns && run.found.first_rpm > 0.0) {
-        fmt::print(
-            stderr,
-            "warning: {}: the program sets a spindle speed, {:g} 1/min, and never switches the spindle on "
-            "(M3): the speed is left out\n",
-            options.file,
-            run.found.first_rpm);
+        fmt::print(stderr,
+                   "warning: {}: the program sets a spindle speed, {:g} 1/min, but never starts the spindle "
+                   "(M3): the speed is left out\n",
+                   options.file,
+                   run.found.first_rpm);
     }
     if (!options.origin.empty()) {
         fmt::print(stderr,
-                   "warning: {}: the positions count from the machine's zero, as --origin places the work "
-                   "there: run the "
-                   "program with a work offset (G54) of zero\n",
+                   "warning: {}: the positions are machine coordinates, because --origin places the work "
+                   "there: run the program with a work offset (G54) of zero\n",
                    options.file);
     }
     const PostedText result = posted_from(options.file,
@@ -422,37 +420,40 @@ int pulses(const GcodeOptions& options) {
 
 void add_gcode_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<GcodeOptions>();
-    CLI::App& group = *app.add_subcommand("gcode", "Read a G-code program");
+    CLI::App& group = *app.add_subcommand("gcode", "Check, analyse or convert a G-code program");
     group.require_subcommand(1);
-    CLI::App& checking = add_reader_options(group, "check", "Say what is wrong in it", options);
-    checking.add_flag("--json", options->json, "Print the answer as JSON");
+    CLI::App& checking = add_reader_options(group, "check", "Check for errors", options);
+    checking.add_flag("--json", options->json, "Print the result as JSON");
     checking.callback([&chosen, options] { chosen = [options] { return check(*options); }; });
     CLI::App& printing = add_reader_options(
-        group, "canon", "Print what the machine does, as LinuxCNC's rs274 prints it", options);
-    CLI::App& timing = add_reader_options(group, "time", "Say how long a machine takes for it", options);
+        group, "canon", "Print the machine's actions, in the format of LinuxCNC's rs274", options);
+    CLI::App& timing = add_reader_options(group, "time", "Estimate machining time", options);
     add_motion_options(timing, options);
     CLI::App& stepping =
         add_reader_options(group, "pulses", "Report the step pulses of a machine and their jitter", options);
     add_motion_options(stepping, options);
     add_pulse_options(stepping, options->pulses);
-    CLI::App& converting = add_reader_options(
-        group, "convert", "Write it for another control; read back before it is released", options);
+    CLI::App& converting =
+        add_reader_options(group,
+                           "convert",
+                           "Convert for another control; the result is read back before it is released",
+                           options);
     converting.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
     add_origin_option(converting, options->origin);
-    converting.add_option("--out", options->out, "File; without it standard output")->type_name("FILE");
+    converting.add_option("--out", options->out, "Output file (default: standard output)")->type_name("FILE");
     constexpr double shortest_chord = 1e-3;
     constexpr double longest_chord = 1e3;
     converting
         .add_option("--chord-length",
                     options->chord_length,
-                    "Cut arcs into equal parts no longer than so many mm, as the thesis of 2006")
+                    "Divide arcs into equal chords no longer than this, mm, as in the thesis of 2006")
         ->check(CLI::Range(shortest_chord, longest_chord));
     options->post.tip_tolerance = 0.01;
     converting
         .add_option("--tip-tolerance",
                     options->post.tip_tolerance,
-                    "For posts that keep the tool's tip: cut feeds until it stays so near to the way of "
-                    "straight axes, mm; 0: do not")
+                    "For posts that keep the tool tip: divide feed moves until the tip is this close to the "
+                    "path of linear axis moves, mm (0: do not divide)")
         ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();
     add_post_options(converting, options->post).required();

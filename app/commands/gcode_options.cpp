@@ -23,7 +23,7 @@ std::string fault_of_folder(const std::string& text) {
     if (std::filesystem::is_directory(text, missing)) {
         return {};
     }
-    return std::filesystem::exists(text, missing) ? "\"" + text + "\" is a file, and a folder is needed"
+    return std::filesystem::exists(text, missing) ? "\"" + text + "\" is a file, but must be a folder"
                                                   : "there is no folder \"" + text + "\"";
 }
 
@@ -69,16 +69,14 @@ void add_motion_options(CLI::App& command, const std::shared_ptr<GcodeOptions>& 
     command.add_option("--machine", options->machine, "Shipped machine or machine file")->required();
     add_origin_option(command, options->origin);
     command
-        .add_option("--path-tolerance",
-                    options->path_tolerance,
-                    "Tolerance of corners where the program says none, mm")
+        .add_option(
+            "--path-tolerance", options->path_tolerance, "Corner tolerance where the program sets none, mm")
         ->check(CLI::Range(0.0, most_mm));
-    command.add_option("--junction-deviation", options->junction_deviation, "Corners as Grbl takes them, mm")
+    command.add_option("--junction-deviation", options->junction_deviation, "Junction deviation of Grbl, mm")
         ->check(CLI::Range(0.0, most_mm));
-    command
-        .add_option("--look-ahead", options->look_ahead, "Moves that the controller knows at a time; 0: all")
+    command.add_option("--look-ahead", options->look_ahead, "Look-ahead of the controller, moves (0: all)")
         ->check(CLI::Range(0, most_blocks));
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
 }
 
 CLI::App& add_reader_options(CLI::App& group,
@@ -87,10 +85,10 @@ CLI::App& add_reader_options(CLI::App& group,
                              const std::shared_ptr<GcodeOptions>& options) {
     CLI::App& command = *group.add_subcommand(name, text);
     command.add_option("FILE", options->file, "G-code file")->required();
-    command.add_option("--dialect", options->dialect, "Whose rules hold")
+    command.add_option("--dialect", options->dialect, "G-code dialect")
         ->check(CLI::IsMember({"linuxcnc", "grbl"}))
         ->capture_default_str();
-    command.add_option("--axes", options->axes, "Axes of a Grbl")
+    command.add_option("--axes", options->axes, "Axes of a Grbl controller")
         ->type_name("LETTERS")
         ->capture_default_str();
     command.add_option("--tools", options->tools, "LinuxCNC tool table file")->type_name("FILE");
@@ -98,12 +96,12 @@ CLI::App& add_reader_options(CLI::App& group,
     command
         .add_option("--subroutines",
                     options->subroutines,
-                    "Folder of subroutine files, searched after the program's own")
+                    "Folder of subroutine files, searched after the program's own folder")
         ->type_name("FOLDER")
         ->check(CLI::Validator(fault_of_folder, ""))
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
+    command.add_flag("--block-delete", options->block_delete, "Skip lines that begin with / (block delete)");
     return command;
 }
 

@@ -37,9 +37,9 @@ struct AxisSteps {
 };
 
 [[noreturn]] void refuse_steps(std::string_view word) {
-    throw Error(fmt::format("--steps {} is no axis of the machine with its steps", word),
+    throw Error(fmt::format("--steps {} does not name an axis of the machine and its steps", word),
                 {},
-                "as --steps X=250: steps a mm, of a rotary axis a degree");
+                "write --steps X=250: steps per mm, for a rotary axis per degree");
 }
 
 void take_steps(std::string_view word, std::vector<AxisSteps>& axes) {
@@ -82,8 +82,8 @@ void print_step_table(const std::vector<AxisSteps>& axes, const std::vector<moti
                "pulses",
                "reversals",
                "planned Hz",
-               "given Hz",
-               "most us",
+               "output Hz",
+               "max us",
                "rms us",
                "late");
     for (std::size_t n = 0; n < axes.size(); ++n) {
@@ -140,12 +140,12 @@ void print_sentences(const std::vector<AxisSteps>& axes,
                 stderr,
                 "millwright: {}\n",
                 to_text(Diagnostic{{file, source_line(program, found[n].overrun_block), 0, -1},
-                                   fmt::format("from here on the timer does not keep up with {}: {:.6g} "
-                                               "pulses a second are due, it gives {:.6g}",
+                                   fmt::format("from here on the timer cannot keep up with {}: {:.6g} pulses "
+                                               "per second are needed, {:.6g} are possible",
                                                letter,
                                                found[n].max_frequency,
                                                options.timer_hz / static_cast<double>(options.min_interval)),
-                                   "a faster --timer, a shorter --min-interval, fewer --steps"}));
+                                   "use a faster --timer, a shorter --min-interval or fewer --steps"}));
         }
     }
 }
@@ -156,14 +156,16 @@ void add_pulse_options(CLI::App& command, PulseOptions& options) {
     command.add_option(
         "--steps",
         options.steps,
-        "Steps of an axis, as X=250: a mm (by default 250) or, of a rotary axis, a degree (100)");
-    command.add_option("--timer", options.timer_hz, "Frequency of the timer that gives the pulses, Hz")
+        "Steps of an axis, such as X=250: per mm (default 250), for a rotary axis per degree (default 100)");
+    command.add_option("--timer", options.timer_hz, "Frequency of the pulse timer, Hz")
         ->check(CLI::Range(1.0, 1e10))
         ->capture_default_str();
-    command.add_option("--min-interval", options.min_interval, "Ticks between two pulses of an axis")
+    command.add_option("--min-interval", options.min_interval, "Minimum ticks between two pulses of an axis")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
         ->capture_default_str();
-    command.add_option("--jitter-limit", options.jitter_limit_us, "Count pulses that are off by more, us")
+    command
+        .add_option(
+            "--jitter-limit", options.jitter_limit_us, "Count pulses that are off by more than this, us")
         ->check(CLI::Range(0.0, 1e6));
 }
 

@@ -68,7 +68,7 @@ std::optional<project::FitDegrees> degrees_from(const std::string& text) {
 
 std::string fault_of_degrees(const std::string& text) {
     return degrees_from(text) ? std::string()
-                              : fmt::format("'{}' is no degree from 1 to {}, nor two as 5x3",
+                              : fmt::format("'{}' is not a degree from 1 to {}, or two such as 5x3",
                                             text,
                                             exchange::max_fit_degree);
 }
@@ -146,7 +146,7 @@ void print_model(const ordered_json& model) {
                    size(2));
     }
     for (const ordered_json& reason : model["left_out"]) {
-        fmt::print(stderr, "note: left out: {}\n", reason.get<std::string>());
+        fmt::print(stderr, "note: skipped: {}\n", reason.get<std::string>());
     }
     fmt::print("unit of the file: {}\n", model["unit"].get<std::string>());
 }
@@ -191,7 +191,7 @@ ordered_json points_json(const exchange::MeasuredPoints& read, const ImportOptio
 }
 
 std::string rows_text(int rows, int columns) {
-    return rows == 0 ? "no rows: a cloud"
+    return rows == 0 ? "no rows (point cloud)"
                      : fmt::format("{} of {}", counted(rows, "row"), counted(columns, "point"));
 }
 
@@ -320,11 +320,12 @@ int import_file(const ImportOptions& options) {
         throw Error("this type of file cannot be imported", options.file, project::importable_kinds);
     }
     if (options.mm_per_unit && exchange::is_cad_file(options.file)) {
-        throw UsageError(
-            "--unit is of a mesh or of points", options.file, "a STEP or IGES file tells its unit itself");
+        throw UsageError("--unit applies only to a mesh or to points",
+                         options.file,
+                         "leave it out: a STEP or IGES file states its unit");
     }
     if (options.cloud && !exchange::is_measured_point_file(options.file)) {
-        throw UsageError("--cloud is of a file of points", options.file);
+        throw UsageError("--cloud applies only to a file of points", options.file);
     }
     if (options.out.empty()) {
         return tell_of(options);
@@ -334,7 +335,7 @@ int import_file(const ImportOptions& options) {
         project::import_surface(options.file, choice_of(options), work.progress());
     work.finish();
     if (!options.deviation.empty() && !imported.fit && !imported.points) {
-        throw Error("--deviation is of a fitted patch", options.file, "give --degree");
+        throw Error("--deviation needs a fitted patch", options.file, "give --degree");
     }
     project::Project made;
     made.name = std::filesystem::path(options.file).stem().string();
@@ -351,47 +352,45 @@ int import_file(const ImportOptions& options) {
 
 void add_import_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<ImportOptions>();
-    CLI::App& command = *app.add_subcommand(
-        "import", "Make a project from a surface of another program, or list the faces of its file");
+    CLI::App& command =
+        *app.add_subcommand("import", "Import a surface from another program, or list the faces of its file");
     command
         .add_option(
             "FILE", options->file, "STEP, IGES, STL, OBJ or PLY file, or points: CSV, XYZ, ASC, PTS or TXT")
         ->required();
     CLI::Option& out =
-        *command
-             .add_option("--out", options->out, "Project file to write; without it the file is only told of")
+        *command.add_option("--out", options->out, "Project file to write; without it, only list the faces")
              ->type_name("PROJECT");
-    command.add_option("--face", options->face, "Number of the face, of a STEP or IGES file with several")
+    command.add_option("--face", options->face, "Face number, for a STEP or IGES file with several faces")
         ->check(CLI::Range(1, exchange::most_cad_faces));
     command
         .add_option("--degree",
                     options->degrees,
-                    "Fit one patch of this degree; without it a face is taken as it is, a mesh with 5, and "
-                    "rows of points "
-                    "are interpolated")
+                    "Fit one patch of this degree (default: a face is used as it is, a mesh is fitted with "
+                    "5, rows of points are interpolated)")
         ->check(CLI::Validator(fault_of_degrees, "P or PxQ"))
         ->needs(&out);
     std::vector<std::string> names;
     for (const auto& [name, direction] : directions) {
         names.push_back(name);
     }
-    command
-        .add_option(
-            "--along", options->along, "The side of a mesh or of points; without it the side that shows")
+    command.add_option("--along", options->along, "Side of a mesh or of points (default: the visible side)")
         ->check(CLI::IsMember(names))
         ->needs(&out);
     const std::map<std::string, double> units{{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"inch", 25.4}};
     command
         .add_option("--unit",
                     options->mm_per_unit,
-                    "Unit of a mesh or of points, whose file does not tell (default mm)")
+                    "Unit of a mesh or of points, whose file does not state it (default: mm)")
         ->transform(one_of(units))
         ->type_name(listed(units));
-    command.add_option("--deviation", options->deviation, "Distance of each point from the surface, as CSV")
+    command
+        .add_option(
+            "--deviation", options->deviation, "CSV file for the distance of each point from the surface")
         ->needs(&out)
         ->type_name("FILE");
-    command.add_flag("--cloud", options->cloud, "Fit points as a cloud, whether they are in rows or not");
-    command.add_flag("--json", options->json, "Print JSON");
+    command.add_flag("--cloud", options->cloud, "Fit points as a cloud, even if they are in rows");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return import_file(*options); }; });
 }
 

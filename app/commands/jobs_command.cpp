@@ -54,13 +54,12 @@ nlohmann::ordered_json job_json(const jobs::JobStory& story) {
 /// No command plays what the window played.
 void say_how_it_is_played_again(const LogStart& start) {
     if (start.options.empty()) {
-        fmt::print(
-            "    Look at the table and the part. It is played again from its beginning: open {} in the "
-            "workbench.\n",
-            printable(start.project));
+        fmt::print("    Inspect the table and the part. Playback can only restart from the beginning: open "
+                   "{} in the workbench.\n",
+                   printable(start.project));
         return;
     }
-    fmt::print("    Look at the table and the part. It is played again from its beginning:\n"
+    fmt::print("    Inspect the table and the part. Playback can only restart from the beginning:\n"
                "    millwright plot play {}{} {}\n",
                shell_word(start.project),
                start.address.empty() ? "" : " --port " + shell_word(start.address),
@@ -76,11 +75,11 @@ void say_how_it_goes_on(const jobs::JobStory& story) {
     const LogStart& start = story.start;
     const bool from_here = from_line && (start.driver == "stream" || start.driver == "records");
     fmt::print(
-        "    Look at the machine and the part. {}\n"
+        "    Inspect the machine and the part. {}\n"
         "    millwright {} {} --driver {}{}{}{}{}\n",
         from_line
-            ? "To go on before the first line that is not certain:"
-            : with_full_stop("It runs again from its beginning alone: " + printable(way.why_the_beginning)),
+            ? "To resume before the first unconfirmed line:"
+            : with_full_stop("It can only restart from the beginning: " + printable(way.why_the_beginning)),
         start.project.ends_with(".json") ? "run" : "send",
         shell_word(start.project),
         shell_word(start.driver),
@@ -91,12 +90,11 @@ void say_how_it_goes_on(const jobs::JobStory& story) {
                   : std::string(),
         from_here ? " --at X,Y,Z" : "");
     if (from_here) {
-        fmt::print("    with the place of X, Y and Z where the table stands: it does not tell it.\n");
+        fmt::print("    For X,Y,Z give the current position of the table, which it does not report.\n");
     }
     if (from_line && !from_here && !story.position_doubt.empty()) {
-        fmt::print(
-            "    --trust-position belongs to it if you have brought the machine to where its controller "
-            "says.\n");
+        fmt::print("    Add --trust-position if you have moved the machine to the position that its "
+                   "controller reports.\n");
     }
 }
 
@@ -118,7 +116,7 @@ void expect_folder(const std::filesystem::path& folder) {
     std::error_code missing;
     const auto status = std::filesystem::status(folder, missing);
     if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) {
-        throw Error("is no folder", folder, "name the folder of the job logs");
+        throw Error("is not a folder", folder, "name the folder of the job logs");
     }
 }
 
@@ -150,9 +148,9 @@ int list_jobs(const JobsOptions& options) {
 
 void add_jobs_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<JobsOptions>();
-    CLI::App& command = *app.add_subcommand("jobs", "What became of the jobs of a folder, newest first");
-    command.add_option("DIR", options->folder, "Folder of the job logs")->capture_default_str();
-    command.add_flag("--json", options->json, "As JSON");
+    CLI::App& command = *app.add_subcommand("jobs", "List past jobs, newest first");
+    command.add_option("DIR", options->folder, "Folder with the job logs")->capture_default_str();
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return list_jobs(*options); }; });
 }
 

@@ -81,7 +81,7 @@ void print_joined_surface(const project::JoinedSurface& joined, double gap_mm) {
                    fixed(to_degrees(joined.after[n].angle), 3));
     }
     for (const auto& [seam, gap] : joined.open) {
-        fmt::print("left open: {}, gap {} mm, where --gap is {}\n",
+        fmt::print("left open: {}, gap {} mm (--gap is {})\n",
                    project::seam_text(seam),
                    fixed(gap, 4),
                    fixed(gap_mm, 4));
@@ -110,23 +110,24 @@ int join(const JoinOptions& options) {
 
 void add_join_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<JoinOptions>();
-    CLI::App& command = *app.add_subcommand("join", "Join patches that share sides to one surface");
+    CLI::App& command = *app.add_subcommand("join", "Join patches with common sides into one surface");
     command
-        .add_option("PROJECT", options->projects, "Project files; the first one keeps machine, tool and grid")
+        .add_option(
+            "PROJECT", options->projects, "Project files; machine, tool and grid come from the first one")
         ->required()
         ->expected(1, 100);
     command.add_option("--out", options->out, "Project file to write")->required()->type_name("PROJECT");
     const std::map<std::string, Continuity> kinds{{"C0", Continuity::position}, {"C1", Continuity::tangent}};
-    command.add_option("--continuity", options->continuity, "C0: no gap; C1 (default): no edge either")
+    command.add_option("--continuity", options->continuity, "C0: no gap; C1 (default): no gap and no edge")
         ->transform(one_of(kinds))
         ->type_name(listed(kinds));
     command
         .add_option("--gap",
                     options->gap_mm,
-                    "How far the ends of two sides may be apart that belong together, mm; by default a "
-                    "twentieth of the smallest patch")
+                    "Largest distance between the ends of two sides that belong together, mm (default: a "
+                    "twentieth of the smallest patch)")
         ->check(CLI::Range(0.0, 1e5));
-    command.add_flag("--json", options->json, "Print JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return join(*options); }; });
 }
 

@@ -39,12 +39,13 @@ int write_machine_bodies(const MachineBodiesOptions& options) {
 } // namespace
 
 void add_machine_command(CLI::App& app, Command& chosen) {
-    CLI::App& group = *app.add_subcommand("machine", "Machine files");
+    CLI::App& group = *app.add_subcommand("machine", "Work with machine files");
     group.require_subcommand(1);
     const auto options = std::make_shared<MachineBodiesOptions>();
-    CLI::App& command = *group.add_subcommand("bodies", "Make the bodies of a machine from its file, as glb");
+    CLI::App& command =
+        *group.add_subcommand("bodies", "Generate the bodies of a machine from its file, as glb");
     command.add_option("MACHINE", options->machine, "Shipped machine or machine file")->required();
-    command.add_option("--out", options->out, "File to write")->required()->type_name("FILE.glb");
+    command.add_option("--out", options->out, "Output file")->required()->type_name("FILE.glb");
     command.callback([&chosen, options] { chosen = [options] { return write_machine_bodies(*options); }; });
 }
 

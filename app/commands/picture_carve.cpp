@@ -37,7 +37,7 @@ int carve(const PictureCarveOptions& options) {
 
 void add_picture_carve(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PictureCarveOptions>();
-    CLI::App& command = *group.add_subcommand("carve", "V-carve what is dark in it");
+    CLI::App& command = *group.add_subcommand("carve", "V-carve the dark areas");
     add_picture_options(command, options->picture);
     add_tracing_options(command, options->tracing);
     add_carving_options(command, options->carving);

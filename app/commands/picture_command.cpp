@@ -12,7 +12,7 @@
 namespace millwright::app {
 
 void add_picture_command(CLI::App& app, Command& chosen) {
-    CLI::App& group = *app.add_subcommand("picture", "Make something to cut of a picture");
+    CLI::App& group = *app.add_subcommand("picture", "Turn a picture into toolpaths");
     group.require_subcommand(1);
     add_picture_carve(group, chosen);
     add_picture_engrave(group, chosen);

@@ -60,14 +60,13 @@ void tell_saturation(const plot::CutPath& path, const plot::HalftoneSettings& se
     const bool reached =
         std::ranges::any_of(path, [&](const plot::CutPoint& point) { return point.at.z() <= deepest; });
     if (darkest < 1.0 && reached) {
-        fmt::print(
-            stderr,
-            "note: the holes of {} are at most {:.3g} mm wide: what is darker than {:.0f} % looks alike; "
-            "a wider tool or a --pitch of {:.3g} mm shows all\n",
-            plot::to_text(settings.tip),
-            2.0 * plot::radius(settings.tip),
-            100.0 * darkest,
-            std::floor(1000.0 * plot::radius(settings.tip) * std::sqrt(pi)) / 1000.0);
+        fmt::print(stderr,
+                   "note: the holes of {} are at most {:.3g} mm wide: areas darker than {:.0f} % look the "
+                   "same; a wider tool or a --pitch of {:.3g} mm shows all\n",
+                   plot::to_text(settings.tip),
+                   2.0 * plot::radius(settings.tip),
+                   100.0 * darkest,
+                   std::floor(1000.0 * plot::radius(settings.tip) * std::sqrt(pi)) / 1000.0);
     }
 }
 
@@ -100,8 +99,8 @@ int engrave(const PictureEngraveOptions& options) {
                     options.picture.file,
                     invert_hint(options.picture,
                                 helps,
-                                {.invert = "--invert engraves what is bright",
-                                 .plain = "without --invert what is dark is engraved"}));
+                                {.invert = "use --invert to engrave what is bright",
+                                 .plain = "leave out --invert to engrave what is dark"}));
     }
     if (options.mode == "halftone") {
         tell_saturation(path, halftone_settings(options, tip));
@@ -120,24 +119,27 @@ int engrave(const PictureEngraveOptions& options) {
 
 void add_picture_engrave(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PictureEngraveOptions>();
-    CLI::App& command = *group.add_subcommand("engrave", "Engrave it as dots where it is dark");
+    CLI::App& command = *group.add_subcommand("engrave", "Engrave dots where the picture is dark");
     add_picture_options(command, options->picture);
     command.add_option("--out", options->cutting.out, "G-code file")->required();
-    command.add_option("--mode", options->mode, "halftone: dots as large as it is dark; dither: as many")
+    command
+        .add_option("--mode",
+                    options->mode,
+                    "halftone: larger dots where it is darker; dither: more dots where it is darker")
         ->check(CLI::IsMember({"halftone", "dither"}))
         ->capture_default_str();
-    command.add_option("--pitch", options->pitch, "Between dots, mm")
+    command.add_option("--pitch", options->pitch, "Distance between dots, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--angle", options->angle_deg, "Of a halftone's rows to x, degrees")
+    command.add_option("--angle", options->angle_deg, "Angle of the halftone rows to X, degrees")
         ->capture_default_str();
-    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point")
+    command.add_option("--tool", options->tool, "Tool: ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point")
         ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
-    command.add_option("--depth", options->depth, "Of dithered dots, mm")
+    command.add_option("--depth", options->depth, "Depth of dithered dots, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_flag("--join", options->join, "Dithered neighbours in a row become one cut");
+    command.add_flag("--join", options->join, "Join neighbouring dithered dots in a row into one cut");
     add_cutting_options(command, options->cutting);
     command.callback([&chosen, options] { chosen = [options] { return engrave(*options); }; });
 }

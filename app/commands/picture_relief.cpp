@@ -66,8 +66,8 @@ void expect_cut(const plot::HeightField& field, const PictureReliefOptions& opti
                 options.picture.file,
                 invert_hint(options.picture,
                             helps,
-                            {.invert = "--invert cuts what is dark",
-                             .plain = "without --invert what is bright is cut"}));
+                            {.invert = "use --invert to cut what is dark",
+                             .plain = "leave out --invert to cut what is bright"}));
 }
 
 int relief(const PictureReliefOptions& options) {
@@ -97,33 +97,36 @@ int relief(const PictureReliefOptions& options) {
 void add_picture_relief(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PictureReliefOptions>();
     options->picture.reading.ground = plot::relief_top;
-    CLI::App& command = *group.add_subcommand("relief", "Cut it as deep as its pixels are bright");
+    CLI::App& command = *group.add_subcommand("relief", "Cut a relief: the brighter the picture, the deeper");
     add_picture_options(command, options->picture);
-    command.add_option("--depth", options->depth, "Of white, mm")->check(above_zero())->required();
-    command.add_option("--tool", options->tool, "ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point")
+    command.add_option("--depth", options->depth, "Depth of white, mm")->check(above_zero())->required();
+    command.add_option("--tool", options->tool, "Tool: ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point")
         ->check(parsed_by([](const std::string& text) { (void)plot::parse_tool_tip(text); }))
         ->capture_default_str();
     command.add_option("--out", options->cutting.out, "G-code file")->required();
-    command.add_option("--step-over", options->step_over, "Between rows, mm")->check(above_zero());
-    command.add_option("--merge", options->merge, "Join moves that stay so near above the path, mm")
+    command.add_option("--step-over", options->step_over, "Step-over between rows, mm")->check(above_zero());
+    command.add_option("--merge", options->merge, "Join moves that stay at most this far above the path, mm")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--depth-per-pass", options->depth_per_pass, "Rough in passes so deep, mm")
+    command.add_option("--depth-per-pass", options->depth_per_pass, "Depth per roughing pass, mm")
         ->check(above_zero());
-    command.add_option("--allowance", options->allowance, "Roughing leaves so much, mm")
+    command.add_option("--allowance", options->allowance, "Stock left by roughing, mm")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--rough-step-over", options->rough_step_over, "Between rows of roughing, mm")
+    command.add_option("--rough-step-over", options->rough_step_over, "Step-over between roughing rows, mm")
         ->check(above_zero());
-    command.add_option("--frame", options->frame, "Cut it out of a plate so thick, mm")->check(above_zero());
-    command.add_option("--frame-margin", options->frame_margin, "Between picture and frame, mm")
+    command.add_option("--frame", options->frame, "Cut the relief out of a plate of this thickness, mm")
+        ->check(above_zero());
+    command.add_option("--frame-margin", options->frame_margin, "Distance between picture and frame, mm")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--tabs", options->tabs.count, "That hold the frame")
+    command.add_option("--tabs", options->tabs.count, "Number of tabs that hold the frame")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_option("--tab-width", options->tabs.width, "mm")->check(above_zero())->capture_default_str();
-    command.add_option("--tab-height", options->tabs.height, "mm")
+    command.add_option("--tab-width", options->tabs.width, "Tab width, mm")
+        ->check(above_zero())
+        ->capture_default_str();
+    command.add_option("--tab-height", options->tabs.height, "Tab height, mm")
         ->check(above_zero())
         ->capture_default_str();
     add_cutting_options(command, options->cutting);

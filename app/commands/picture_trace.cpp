@@ -43,9 +43,9 @@ bool is_drawing(const std::filesystem::path& out) {
     std::ranges::transform(
         ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (ending != ".svg" && std::ranges::find(of_programs, ending) == of_programs.end()) {
-        throw Error(fmt::format("outlines are not written as {}", ending),
+        throw Error(fmt::format("outlines cannot be written as {}", ending),
                     out,
-                    "a name that ends in .svg makes a drawing, one in .ngc a program");
+                    "use a name ending in .svg for a drawing, or in .ngc for a program");
     }
     return ending == ".svg";
 }
@@ -54,10 +54,10 @@ bool is_drawing(const std::filesystem::path& out) {
 void expect_outlines_alone(const PictureTraceOptions& options) {
     for (const CLI::Option* const option : options.of_programs) {
         if (option->count() > 0) {
-            throw Error(
-                fmt::format("{} is of a program, an SVG file has the outlines alone", option->get_name()),
-                options.cutting.cutting.out,
-                "a name that ends in .ngc makes a program");
+            throw Error(fmt::format("{} applies only to a program; an SVG file contains only outlines",
+                                    option->get_name()),
+                        options.cutting.cutting.out,
+                        "use a name ending in .ngc for a program");
         }
     }
 }
@@ -97,13 +97,14 @@ int trace(const PictureTraceOptions& options) {
 
 void add_picture_trace(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PictureTraceOptions>();
-    CLI::App& command = *group.add_subcommand("trace", "Outline what is dark in it");
+    CLI::App& command = *group.add_subcommand("trace", "Trace the outlines of dark areas");
     add_picture_options(command, options->picture);
     command.add_option("--out", options->cutting.cutting.out, "SVG file (.svg) or G-code file")->required();
     add_tracing_options(command, options->tracing);
     const std::size_t of_both = command.get_options().size();
     command
-        .add_option("--arc-tolerance", options->chord_tolerance, "Of a program: as near to the curves, mm")
+        .add_option(
+            "--arc-tolerance", options->chord_tolerance, "G-code: largest deviation from the curves, mm")
         ->check(above_zero())
         ->capture_default_str();
     add_stroke_options(command, options->cutting);

@@ -103,7 +103,7 @@ void print_links(const plan::Plan& plan) {
         return turns ? figure(to_degrees(of.axis_max), 2) : std::string("-");
     };
     fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-               "link of the chain, to the curve",
+               "stage of the chain, error to the curve",
                "max mm",
                "mean mm",
                "axis deg",
@@ -119,7 +119,7 @@ void print_links(const plan::Plan& plan) {
                    figure(link.of_best.max, 4),
                    figure(link.of_best.mean, 4),
                    axis(link.of_best),
-                   link.refused.empty() ? std::string() : "  not taken: " + link.refused);
+                   link.refused.empty() ? std::string() : "  not used: " + link.refused);
     }
 }
 
@@ -138,7 +138,7 @@ void print_plan_summary(const plan::Plan& plan, const project::Project& project)
         } else if (plan.failure(method)) {
             fmt::print("{:<10} failed\n", id);
         } else if (plan::is_left_out(project, method)) {
-            fmt::print("{:<10} left out\n", id);
+            fmt::print("{:<10} skipped\n", id);
         }
     }
     if (plan::has_own_path(project)) {
@@ -217,7 +217,7 @@ void print_sequencing(const plan::Plan& plan, const project::Project& project) {
 
 void print_cut(const project::Project& project, const plan::Plan& plan) {
     const plan::CutStudy& cut = *plan.cut;
-    fmt::print("left on the surface: {}; deepest cut below it: {} mm ({})\n",
+    fmt::print("scallop height: {}; deepest cut below the surface: {} mm ({})\n",
                plan::left_text(project, plan),
                fixed(cut.deepest, 4),
                plan::checked_text(project));
@@ -226,7 +226,8 @@ void print_cut(const project::Project& project, const plan::Plan& plan) {
     }
     if (!cut.local_gouges.empty()) {
         fmt::print(stderr,
-                   "warning: the surface is bent more than the tool at {}; `millwright cutter` names them\n",
+                   "warning: the surface is too tightly curved for the cutter at {}; `millwright cutter` "
+                   "lists them\n",
                    counted(cut.local_gouges.size(), "node"));
     }
 }
@@ -285,27 +286,29 @@ int plan(const PlanOptions& options) {
 void add_plan_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<PlanOptions>();
     CLI::App& command =
-        *app.add_subcommand("plan", "Make the program of a project, with a report and a picture");
+        *app.add_subcommand("plan", "Generate the program of a project, with a report and a picture");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "Folder for program, report.json and preview.png")
         ->required()
         ->type_name("DIR");
-    command.add_option("--tool", options->tool, "Tool file to cut with, instead of the project's tool")
+    command.add_option("--tool", options->tool, "Tool file to use instead of the project's tool")
         ->type_name("FILE");
     std::vector<std::string> goals;
     for (const auto& goal : project::sequencing_goals()) {
         goals.emplace_back(goal.id);
     }
-    command.add_option("--sequencing", options->sequencing, "How the rotary axes are chosen along the path")
+    command
+        .add_option(
+            "--sequencing", options->sequencing, "How to choose the rotary axis positions along the path")
         ->check(CLI::IsMember(goals));
     command
         .add_option("--largest-step",
                     options->largest_step_deg,
-                    "Add points where a rotary axis turns by more degrees in a move; 0 adds none")
+                    "Add points where a rotary axis turns by more than this in one move, degrees (0: none)")
         ->check(CLI::Range(0.0, 180.0));
     command.add_flag("--any-memory",
                      options->any_memory,
-                     "Make an elliptic grid even where it takes more than half of the memory that is free");
+                     "Generate an elliptic grid even if it takes more than half of the free memory");
     add_gouges_option(command, options->allow_gouges);
     add_post_options(command, options->post);
     command.callback([&chosen, options] { chosen = [options] { return plan(*options); }; });

@@ -113,7 +113,7 @@ plot::PlotterUnit unit_of(const std::string& text) {
         return *unit;
     }
     throw Error(fmt::format(
-        "a plotter unit of '{}'; it has to be nominal, table, mm above 0, or two of them as X,Y", text));
+        "'{}' is not a plotter unit: use nominal, table, mm above 0, or two of them as X,Y", text));
 }
 
 Plot read_plot(const PlotOptions& options) {
@@ -180,8 +180,8 @@ nlohmann::ordered_json plot_json(const Plot& plot) {
 /// A file that draws nothing is no plot, or not the one that was meant.
 void expect_strokes(const Plot& plot, const std::string& file) {
     if (plot.strokes.empty()) {
-        throw Error(plot.commands > 0 ? "there is nothing to draw in it"
-                                      : "there is no command of HPGL in it, nor does it begin as G-code",
+        throw Error(plot.commands > 0 ? "it contains nothing to draw"
+                                      : "it contains no HPGL command, and does not begin as G-code",
                     file);
     }
 }
@@ -238,15 +238,15 @@ int info(const PlotOptions& options) {
                    box->lower.y(),
                    box->upper.y());
     }
-    fmt::print("{}, {} by the thesis\n", way_for_people(time), plot::time_for_people(time.seconds));
+    fmt::print("{}, {} by the thesis's formula\n", way_for_people(time), plot::time_for_people(time.seconds));
     return 0;
 }
 
 std::vector<Vec3> plot_points(const PlotOptions& options) {
     if (takes_points(*options.command, options.file)) {
-        throw Error("these are points of a table already",
+        throw Error("these are already points of a table",
                     options.file,
-                    fmt::format("'millwright plot play {}' sends them", options.file));
+                    fmt::format("send them with 'millwright plot play {}'", options.file));
     }
     if (is_program(options)) {
         const bool flat = options.command->count("--pen-up") + options.command->count("--pen-down") > 0;
@@ -302,7 +302,7 @@ int toolpath(const PlotOptions& options) {
 
 int carve(const PlotOptions& options) {
     if (takes_points(*options.command, options.file)) {
-        throw Error("these are points of a table: they surround nothing", options.file);
+        throw Error("these are points of a table: they enclose nothing", options.file);
     }
     PlotOptions fine = options;
     if (!fine.reading.arc_tolerance) {
@@ -326,21 +326,23 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
                     options->unit,
                     "Plotter unit: nominal (0.025 mm), table (0.02488 mm), mm, or mm of each axis as X,Y")
         ->capture_default_str();
-    command.add_option("--arc-tolerance", options->reading.arc_tolerance, "Finer arcs: within so many mm")
+    command
+        .add_option("--arc-tolerance", options->reading.arc_tolerance, "Arc tolerance, mm, for finer arcs")
         ->check(above_zero());
-    command.add_option("--fill", options->reading.fill, "What is filled: hatched, outline or none")
+    command.add_option("--fill", options->reading.fill, "Filled areas: hatched, outline or none")
         ->transform(one_of(by_id(project::fill_modes())))
         ->type_name(listed(by_id(project::fill_modes())))
         ->default_str(options->reading.fill == plot::FillMode::outline ? "outline" : "hatched");
-    command.add_flag("--solid", options->solid, "Dashed lines are drawn solid");
+    command.add_flag("--solid", options->solid, "Draw dashed lines solid");
     command
-        .add_option("--line-ends",
-                    options->reading.line_ends,
-                    "In numbers: automatic (as the file shows), join (wrapped anywhere) or separate")
+        .add_option(
+            "--line-ends",
+            options->reading.line_ends,
+            "Line breaks in numbers: automatic (as the file shows), join (wrapped anywhere) or separate")
         ->transform(one_of(by_id(project::line_ends())))
         ->type_name(listed(by_id(project::line_ends())))
         ->default_str("automatic");
-    command.add_flag("--strict", options->strict, "The first thing that is wrong ends the reading");
+    command.add_flag("--strict", options->strict, "Stop reading at the first error");
     add_program_options(command, options->program);
     return command;
 }
@@ -360,63 +362,66 @@ void add_safe_height(CLI::App& command, const std::shared_ptr<PlotOptions>& opti
     command
         .add_option("--safe-height",
                     options->cutting.cutting.safe_height,
-                    "Of a G-code program: feeds across are in the air from there on, mm")
+                    "G-code programs: Z from which feed moves across count as travel, mm")
         ->check(finite_number());
 }
 
 void add_decode(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
     CLI::App& command =
-        add_reader(group, "decode", "Write its points for a table, equally far apart in time", options);
+        add_reader(group, "decode", "Write its points for a table, at equal time intervals", options);
     add_safe_height(command, options);
     plot::DecodeSettings& decoding = options->decode;
-    command.add_option("--velocity", decoding.velocity, "Along the path, mm/s")
+    command.add_option("--velocity", decoding.velocity, "Velocity along the path, mm/s")
         ->check(above_zero())
         ->required();
-    command.add_option("--period", decoding.period, "Between two points, s")->check(above_zero())->required();
+    command.add_option("--period", decoding.period, "Time between two points, s")
+        ->check(above_zero())
+        ->required();
     command.add_option("--out", options->out, "Point file")->required();
     add_drawing_origin(command, options->cutting.cutting.origin);
-    command.add_option("--mode", decoding.mode, "Equal steps a segment, or along whole paths")
+    command.add_option("--mode", decoding.mode, "Equal steps per segment, or along whole paths")
         ->transform(one_of(modes))
         ->type_name(listed(modes))
         ->default_str("segments");
-    command.add_option("--rounding", decoding.rounding, "Of the number of steps of a segment")
+    command.add_option("--rounding", decoding.rounding, "Rounding of the number of steps per segment")
         ->transform(one_of(roundings))
         ->type_name(listed(roundings))
         ->default_str("nearest");
-    command.add_option("--fastest", options->fastest, "What no rounding exceeds, mm/s")->check(above_zero());
-    command.add_option("--travel-velocity", decoding.travel_velocity, "With the pen up, mm/s")
+    command.add_option("--fastest", options->fastest, "Velocity that rounding must not exceed, mm/s")
         ->check(above_zero());
-    command.add_option("--plunge-velocity", decoding.plunge_velocity, "Up and down, mm/s")
+    command.add_option("--travel-velocity", decoding.travel_velocity, "Velocity with the pen up, mm/s")
         ->check(above_zero());
-    command.add_option("--acceleration", decoding.acceleration, "Mode path: at the most, mm/s^2")
+    command.add_option("--plunge-velocity", decoding.plunge_velocity, "Velocity up and down, mm/s")
         ->check(above_zero());
-    command.add_option("--jerk", decoding.jerk, "Mode path: at the most, mm/s^3")->check(above_zero());
+    command.add_option("--acceleration", decoding.acceleration, "Mode path: maximum acceleration, mm/s^2")
+        ->check(above_zero());
+    command.add_option("--jerk", decoding.jerk, "Mode path: maximum jerk, mm/s^3")->check(above_zero());
     command.add_option("--pen-up", decoding.pen_up_z, "Z with the pen up, mm")->capture_default_str();
     command.add_option("--pen-down", decoding.pen_down_z, "Z with the pen down, mm")->capture_default_str();
-    command.add_option("--decimals", options->decimals, "Of the point file")
+    command.add_option("--decimals", options->decimals, "Decimals in the point file")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
     on_call(command, options, chosen, decode);
 }
 
 void add_info(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
-    CLI::App& command = add_reader(group, "info", "Say what is in it and how long it takes", options);
+    CLI::App& command = add_reader(group, "info", "Show its contents and how long it takes", options);
     add_safe_height(command, options);
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     on_call(command, options, chosen, info);
 }
 
 void add_view(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
     CLI::App& command =
-        add_reader(group, "view", "Draw it as a picture, by the colours of its pens", options);
+        add_reader(group, "view", "Draw it as a picture, in the colours of its pens", options);
     add_safe_height(command, options);
     command.add_option("--out", options->out, "SVG file")->required();
-    command.add_flag("--no-air", options->no_air, "Without the travel with the pen up");
+    command.add_flag("--no-air", options->no_air, "Leave out the travel with the pen up");
     on_call(command, options, chosen, view);
 }
 
 void add_toolpath(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Command& chosen) {
-    CLI::App& command = add_reader(group, "toolpath", "Make it a G-code program that cuts it", options);
+    CLI::App& command = add_reader(group, "toolpath", "Convert to a G-code program that cuts it", options);
     command.add_option("--out", options->cutting.cutting.out, "G-code file")->required();
     add_stroke_options(command, options->cutting);
     on_call(command, options, chosen, toolpath);
@@ -427,7 +432,8 @@ void add_carve(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PlotOptions>();
     options->reading.fill = plot::FillMode::outline;
     options->solid = true;
-    CLI::App& command = add_reader(group, "carve", "V-carve what its closed strokes surround", options);
+    CLI::App& command =
+        add_reader(group, "carve", "V-carve the areas that its closed strokes enclose", options);
     add_carving_options(command, options->carving);
     on_call(command, options, chosen, carve);
 }
@@ -436,7 +442,8 @@ void add_carve(CLI::App& group, Command& chosen) {
 
 void add_plot_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<PlotOptions>();
-    CLI::App& group = *app.add_subcommand("plot", "Read an HPGL plot, or a G-code program as one");
+    CLI::App& group =
+        *app.add_subcommand("plot", "Draw, cut or play an HPGL plot, or a G-code program as one");
     group.require_subcommand(1);
     add_carve(group, chosen);
     add_decode(group, options, chosen);

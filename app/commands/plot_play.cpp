@@ -75,14 +75,13 @@ plot::PointFile points_to_play(const std::string& text, const std::filesystem::p
 
 void print_jitter(const Jitter& jitter) {
     constexpr double us = 1e6;
-    fmt::print(
-        "late by us: least {:.1f}, mean {:.1f}, median {:.1f}, 95 % {:.1f}, 99 % {:.1f}, most {:.1f}\n",
-        jitter.least * us,
-        jitter.mean * us,
-        jitter.median * us,
-        jitter.p95 * us,
-        jitter.p99 * us,
-        jitter.most * us);
+    fmt::print("late by us: min {:.1f}, mean {:.1f}, median {:.1f}, 95 % {:.1f}, 99 % {:.1f}, max {:.1f}\n",
+               jitter.least * us,
+               jitter.mean * us,
+               jitter.median * us,
+               jitter.p95 * us,
+               jitter.p99 * us,
+               jitter.most * us);
     for (std::size_t n = 0; n < jitter.histogram.size(); ++n) {
         const double part = static_cast<double>(jitter.histogram[n]) /
                             static_cast<double>(std::max<std::int64_t>(jitter.count, 1));
@@ -134,12 +133,12 @@ jobs::Job job_to_play(const PlotPlayOptions& options) {
 }
 
 void say_where_it_starts(const Vec3& first) {
-    fmt::print(stderr,
-               "millwright: the records say how far to go: the table has to stand at X {:.3f} Y {:.3f} Z "
-               "{:.3f}\n",
-               first.x(),
-               first.y(),
-               first.z());
+    fmt::print(
+        stderr,
+        "millwright: the records contain relative moves: the table must be at X {:.3f} Y {:.3f} Z {:.3f}\n",
+        first.x(),
+        first.y(),
+        first.z());
 }
 
 void print_played(const PlayStatus& end, std::size_t points, const jobs::JobOutcome& outcome) {
@@ -174,7 +173,7 @@ int play(const PlotPlayOptions& options) {
         dispatcher.run(job, Progress(nullptr, interrupt.token()), [&](const jobs::JobReport&) {
             const PlayStatus now = table.played();
             printer.show({static_cast<double>(now.points) / static_cast<double>(points.size()),
-                          fmt::format("X {:.2f} Y {:.2f} Z {:.2f}, late by {:.0f} us at the most",
+                          fmt::format("X {:.2f} Y {:.2f} Z {:.2f}, at most {:.0f} us late",
                                       now.position.x(),
                                       now.position.y(),
                                       now.position.z(),
@@ -189,8 +188,8 @@ int play(const PlotPlayOptions& options) {
     }
     if (!options.port.empty() && format.answer.empty()) {
         fmt::print(stderr,
-                   "millwright: no answer was asked for (--answer), so nobody knows whether the table takes "
-                   "records as \"{}\"\n",
+                   "millwright: no answers were requested (--answer): it is unknown whether the table "
+                   "accepts records as \"{}\"\n",
                    format.pattern);
     }
     if (outcome.end != jobs::JobEnd::done) {
@@ -205,23 +204,27 @@ void add_plot_play(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PlotPlayOptions>();
     CLI::App& command = *group.add_subcommand("play", "Send a point file to a table, one point per period");
     command.add_option("FILE", options->file, "Point file")->required();
-    command.add_option("--period", options->period, "Between two points, s")->check(above_zero())->required();
+    command.add_option("--period", options->period, "Time between two points, s")
+        ->check(above_zero())
+        ->required();
     command
         .add_option("--port",
                     options->port,
-                    "Serial port as /dev/ttyUSB0,9600, or tcp:HOST:PORT; without it nothing is sent")
+                    "Serial port such as /dev/ttyUSB0,9600, or tcp:HOST:PORT (default: nothing is sent)")
         ->type_name("PORT");
-    command.add_option("--machine", options->machine, "Whose limits hold: shipped machine or machine file")
+    command
+        .add_option(
+            "--machine", options->machine, "Machine whose limits apply: shipped machine or machine file")
         ->capture_default_str();
-    command.add_option("--speed", options->speed, "Times real time")
+    command.add_option("--speed", options->speed, "Playback speed, times real time")
         ->check(above_zero())
         ->capture_default_str();
     add_drawing_origin(command, options->origin);
     add_record_options(command, options->record);
-    command.add_option("--log", options->log, "Folder of the job logs")
+    command.add_option("--log", options->log, "Folder for the job logs")
         ->type_name("DIR")
         ->capture_default_str();
-    command.add_flag("--json", options->json, "Print the answer as JSON");
+    command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, &command, options] {
         options->options = options_to_go_on(command);
         chosen = [options] { return play(*options); };

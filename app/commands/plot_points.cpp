@@ -34,7 +34,7 @@ std::vector<Vec3> points_of(const std::string& file) {
         throw Error(read.diagnostics.front());
     }
     if (read.points.empty()) {
-        throw Error("there is no point in it", file);
+        throw Error("it contains no points", file);
     }
     return std::move(read.points);
 }
@@ -88,7 +88,7 @@ int points_view(const std::string& file, plot::AirInSvg air, const std::string& 
     const std::vector<Vec3> points = points_of(file);
     const plot::Strokes strokes = plot::strokes_of_points(points);
     if (strokes.empty()) {
-        throw Error("the points cut nothing that could be drawn", file);
+        throw Error("the points contain no cuts to draw", file);
     }
     write_file(out, plot::svg_text(strokes, air));
     fmt::print("{}, {}\n", counted(points.size(), "point"), counted(strokes.size(), "stroke"));

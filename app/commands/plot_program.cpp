@@ -61,7 +61,7 @@ bool given(const CLI::App& command, const char* option) {
 void expect_none_of(std::span<const char* const> options, const CLI::App& command, const char* whose) {
     for (const char* option : options) {
         if (given(command, option)) {
-            throw UsageError(fmt::format("{} is for {}", option, whose));
+            throw UsageError(fmt::format("{} applies only to {}", option, whose));
         }
     }
 }
@@ -119,7 +119,7 @@ std::size_t tool_count(const CutProgram& program) {
 
 std::string strokes_of_levels(const CutProgram& program) {
     const std::string heights =
-        program.uneven ? "heights that change" : count_and_noun(program.levels.size(), "level");
+        program.uneven ? "varying heights" : count_and_noun(program.levels.size(), "level");
     return fmt::format("{} at {}, {}",
                        count_and_noun(program.strokes.size(), "stroke"),
                        heights,
@@ -149,8 +149,8 @@ std::array<double, 2> heights_of(const CutProgram& program) {
 
 std::string air_of(const CutProgram& program) {
     return program.safe_height
-               ? fmt::format("feeds across from z {:.3f} mm up are travel", *program.safe_height)
-               : "every feed across is a cut";
+               ? fmt::format("feed moves across from z {:.3f} mm up are travel", *program.safe_height)
+               : "every feed move across is a cut";
 }
 
 nlohmann::ordered_json or_null(const std::optional<double>& value) {
@@ -213,7 +213,7 @@ levels_of(const CutProgram& program, const StrokeCutting& cutting, const CLI::Ap
         if (level.depth < 0.0) {
             throw Error(fmt::format("it cuts at z {:.3f} mm, above the top of the work", *cut.z),
                         {},
-                        "give --depth, or nothing that shapes it: then it is cut as it stands");
+                        "give --depth, or leave out options that shape strokes to cut it unchanged");
         }
         levels.push_back(level);
     }
@@ -239,8 +239,8 @@ double safe_height_of(const CutProgram& program, const std::string& file) {
     const double height = travel_height(program.path);
     if (height > usual) {
         fmt::print(stderr,
-                   "millwright: {}: the tool travels at {:.3f} mm, as high as the program does; "
-                   "--safe-height sets another height\n",
+                   "millwright: {}: the tool travels at {:.3f} mm, as high as in the program; set another "
+                   "height with --safe-height\n",
                    file,
                    height);
     }
@@ -250,8 +250,8 @@ double safe_height_of(const CutProgram& program, const std::string& file) {
 void expect_even(const CutProgram& program, const char* option) {
     if (program.uneven) {
         Diagnostic found = *program.uneven;
-        found.message += fmt::format(": {} is for strokes of one height each", option);
-        found.hint = "without options that shape strokes it is cut as it stands, with its heights";
+        found.message += fmt::format(": {} applies only to strokes of constant height", option);
+        found.hint = "leave out options that shape strokes to cut it unchanged, with its heights";
         throw Error(found);
     }
 }
@@ -261,15 +261,15 @@ void take_diameter_of_comments(const std::string& file, StrokeCutting& cutting) 
     const auto tools = gcode::tools_in_comments(read_file(file));
     if (const auto tool = gcode::only_tool(tools)) {
         cutting.plan.tool_diameter = tool->diameter;
-        fmt::print(
-            stderr,
-            "millwright: {}:{}: a comment says the tool is {} mm wide, which is taken (--tool-diameter)\n",
-            file,
-            tool->line,
-            shortest(tool->diameter));
+        fmt::print(stderr,
+                   "millwright: {}:{}: the tool diameter is {} mm according to a comment (--tool-diameter "
+                   "sets another)\n",
+                   file,
+                   tool->line,
+                   shortest(tool->diameter));
     } else if (!tools.empty()) {
         throw Error(Diagnostic{{file, tools.back().line, 0, -1},
-                               "comments name tools of several diameters, and one cutter is used here",
+                               "comments name tools of several diameters, but only one cutter is used here",
                                "give its diameter (--tool-diameter), or one program for each tool"});
     }
 }
@@ -282,11 +282,11 @@ void add_program_options(CLI::App& command, ProgramReading& reading) {
     command
         .add_option("--chord-length",
                     reading.chord_length,
-                    "Of a G-code program: arcs in equal parts no longer than so many mm")
+                    "G-code programs: divide arcs into equal chords no longer than this, mm")
         ->check(CLI::Range(shortest_chord, longest_chord));
-    command.add_option("--tools", reading.tools, "Of a G-code program: LinuxCNC tool table file")
+    command.add_option("--tools", reading.tools, "G-code programs: LinuxCNC tool table file")
         ->type_name("FILE");
-    command.add_option("--parameters", reading.parameters, "Of a G-code program: LinuxCNC parameter file")
+    command.add_option("--parameters", reading.parameters, "G-code programs: LinuxCNC parameter file")
         ->type_name("FILE");
     add_origin_option(command, reading.origin, "--work-origin");
 }
@@ -295,7 +295,7 @@ bool takes_points(const CLI::App& command, const std::string& file) {
     if (!is_point_file(file)) {
         return false;
     }
-    const auto points_have = "other files; these are the points of a table";
+    const auto points_have = "plots and programs; this file contains points of a table";
     expect_none_of(plots_alone, command, points_have);
     expect_none_of(programs_alone, command, points_have);
     expect_none_of(shaping_strokes, command, points_have);
@@ -307,7 +307,7 @@ bool takes_program(const CLI::App& command, const std::string& file) {
     if (is_gcode_file(file)) {
         expect_none_of(plots_alone, command, "HPGL plots; this is a G-code program");
         if (given(command, "--chord-length") && given(command, "--arc-tolerance")) {
-            throw UsageError("--chord-length and --arc-tolerance are two ways to cut an arc: give one");
+            throw UsageError("--chord-length and --arc-tolerance are two ways to divide an arc: give one");
         }
         return true;
     }
@@ -339,7 +339,7 @@ int program_info(const std::string& file, const ProgramReading& reading, bool js
                high);
     fmt::print("{}\n{}\n", air_of(program), way_for_people(time));
     constexpr double m = 1e-3;
-    fmt::print("{:.3f} m at a feed in {}, {:.3f} m at rapid; {} with rapids of {:.0f} mm/s\n",
+    fmt::print("{:.3f} m at feed rate in {}, {:.3f} m at rapid; {} with rapids of {:.0f} mm/s\n",
                m * lengths.cut,
                plot::time_for_people(program.feed_time),
                m * lengths.travel,
@@ -367,7 +367,7 @@ std::vector<Vec3> program_points(const std::string& file,
     if (std::ranges::find(program.path, plot::CutMove::tool_change, &plot::CutPoint::move) !=
         program.path.end()) {
         fmt::print(stderr,
-                   "millwright: {}: {} tools: points have no tool change, and go on without one\n",
+                   "millwright: {}: {} tools: points have no tool change, and continue without one\n",
                    file,
                    tool_count(program));
     }
@@ -391,11 +391,10 @@ int program_toolpath(const std::string& file,
     if (!given(command, "--spindle") && program.spindle_rpm > 0.0) {
         cutting.cutting.spindle_rpm = program.spindle_rpm;
     } else if (!given(command, "--spindle")) {
-        fmt::print(
-            stderr,
-            "millwright: {}: the program says nothing of its spindle: {:.0f} 1/min are taken (--spindle)\n",
-            file,
-            cutting.cutting.spindle_rpm);
+        fmt::print(stderr,
+                   "millwright: {}: the program sets no spindle speed: {:.0f} 1/min is used (--spindle)\n",
+                   file,
+                   cutting.cutting.spindle_rpm);
     }
     if (!given(command, "--tool-diameter")) {
         take_diameter_of_comments(file, cutting);

@@ -56,7 +56,7 @@ std::unique_ptr<pmac::PmacDriver> connected_card(const PmacOptions& options, Ste
     try {
         return connected_pmac(emulated_port, options.arm, clock);
     } catch (const Error& error) {
-        throw Error(error.what(), {}, "--port or MILLWRIGHT_PMAC_PORT names a card's port");
+        throw Error(error.what(), {}, "name the card's port with --port or MILLWRIGHT_PMAC_PORT");
     }
 }
 
@@ -94,7 +94,7 @@ public:
             lines.push_back(line.text);
         }
         if (lines.empty()) {
-            throw Error("there is no command in it", path);
+            throw Error("it contains no command", path);
         }
         const drivers::CommandAnswer answer = answer_to(driver_->load(lines));
         print(answer, pmac::with_places(answer.text, file, path + ":"));
@@ -106,7 +106,7 @@ public:
     /// Throws Error for a buffer without CLOSE, of which nothing was sent.
     void expect_closed() const {
         if (const auto kept = driver_->kept_lines(); !kept.empty()) {
-            throw Error(fmt::format("'{}' has no CLOSE: nothing of it was sent", kept.front()));
+            throw Error(fmt::format("'{}' has no CLOSE: none of it was sent", kept.front()));
         }
     }
 
@@ -162,7 +162,7 @@ private:
             clock_.wait(glance);
             waited += glance;
             if (waited >= patience && waited < patience + glance) {
-                fmt::print(stderr, "motors move; Ctrl+C stops them\n");
+                fmt::print(stderr, "motors are moving; Ctrl+C stops them\n");
             }
         }
         if (const drivers::DriverStatus now = driver_->status();
@@ -179,7 +179,7 @@ private:
 
 int talk(const PmacOptions& options) {
     if (options.commands.empty() && options.file.empty()) {
-        throw Error("there is nothing to send", {}, "a command as '#1P', or --load FILE");
+        throw Error("there is nothing to send", {}, "give a command such as '#1P', or --load FILE");
     }
     for (const std::string& command : options.commands) {
         look_through(command);
@@ -199,22 +199,23 @@ int talk(const PmacOptions& options) {
 
 void add_pmac_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<PmacOptions>();
-    CLI::App& command = *app.add_subcommand("pmac", "Talk to a PMAC motor controller");
-    command.add_option("COMMAND", options->commands, "On-line commands, as '#1P'; several one after another");
+    CLI::App& command = *app.add_subcommand("pmac", "Send commands to a PMAC motor controller");
+    command.add_option("COMMAND", options->commands, "On-line commands such as '#1P', sent in this order");
     command
         .add_option("--port",
                     options->port,
-                    "Serial port, or tcp:HOST:PORT. Without it: the environment's MILLWRIGHT_PMAC_PORT, else "
-                    "an emulated card on this computer")
+                    "Serial port, or tcp:HOST:PORT (default: MILLWRIGHT_PMAC_PORT of the environment, else "
+                    "an emulated card on this computer)")
         ->envname("MILLWRIGHT_PMAC_PORT")
         ->type_name("PORT");
     command
         .add_option(
-            "--load", options->file, "File of commands to send before, such as assets/samples/pmac-arm.ini")
+            "--load", options->file, "File of commands to send first, such as assets/samples/pmac-arm.ini")
         ->type_name("FILE");
-    command.add_flag("--power", options->power, "Commands may give motors power; somebody has looked");
     command.add_flag(
-        "--keep-power", options->keep_power, "Motors that have it then keep it: somebody watches");
+        "--power", options->power, "Allow commands that enable motors (operator has checked the machine)");
+    command.add_flag(
+        "--keep-power", options->keep_power, "Leave enabled motors enabled afterwards (operator supervises)");
     add_arm_option(command, options->arm);
     command.callback([&chosen, options] { chosen = [options] { return talk(*options); }; });
 }

@@ -14,7 +14,7 @@ int show_ports() {
         fmt::print("{}{}{}\n", port.path.string(), port.label.empty() ? "" : "  ", port.label);
     }
     if (ports.empty()) {
-        fmt::print(stderr, "millwright: no serial ports\n");
+        fmt::print(stderr, "millwright: no serial ports found\n");
     }
     return 0;
 }

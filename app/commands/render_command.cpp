@@ -60,11 +60,11 @@ std::string take_color(const std::string& text, render::LayerColors& colors) {
     const auto infos = render::layer_color_infos();
     const auto info = std::ranges::find(infos, text.substr(0, equals), &render::LayerColorInfo::id);
     if (equals == std::string::npos || info == infos.end()) {
-        return fmt::format("'{}' does not name a colour as ID=#rrggbb; there are {}", text, listed_colors());
+        return fmt::format("'{}' does not set a colour as ID=#rrggbb; the IDs are {}", text, listed_colors());
     }
     const auto color = render::color_from(text.substr(equals + 1));
     if (!color) {
-        return fmt::format("'{}' is not a colour as #rrggbb", text.substr(equals + 1));
+        return fmt::format("'{}' is not a colour of the form #rrggbb", text.substr(equals + 1));
     }
     colors.set(info->which, color);
     return {};
@@ -85,10 +85,11 @@ std::optional<render::PixelSize> size_from(const std::string& text) {
 }
 
 std::string fault_of_size(const std::string& text) {
-    return size_from(text)
-               ? std::string()
-               : fmt::format(
-                     "'{}' is not WIDTHxHEIGHT with {} to {} pixels each", text, smallest_side, largest_side);
+    return size_from(text) ? std::string()
+                           : fmt::format("'{}' must be WIDTHxHEIGHT with {} to {} pixels each",
+                                         text,
+                                         smallest_side,
+                                         largest_side);
 }
 
 std::vector<std::string> view_names() {
@@ -111,8 +112,8 @@ viewport::MachineSolids solids_of(const OpenedProject& opened, const plan::Plan&
             throw;
         }
         fmt::print(stderr,
-                   "warning: {}: there is no such file: the machine is drawn with its simple bodies "
-                   "(millwright machine bodies {} --out {} makes it)\n",
+                   "warning: {}: there is no such file: the machine is drawn with simple bodies (create the "
+                   "file with millwright machine bodies {} --out {})\n",
                    printable(bodies.string()),
                    printable(file.string()),
                    printable(bodies.string()));
@@ -140,9 +141,9 @@ int render_project(const RenderOptions& options) {
 
 void add_render_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App& command = *app.add_subcommand("render", "Draw a view of a project into a picture");
+    CLI::App& command = *app.add_subcommand("render", "Draw a view of a project as a picture");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--view", options->view, "What is drawn")
+    command.add_option("--view", options->view, "View to draw")
         ->required()
         ->check(CLI::IsMember(view_names()));
     command.add_option("--size", options->size, "Size of the picture in pixels")
@@ -152,7 +153,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
         .add_option_function<std::string>(
             "--side",
             [options](const std::string& name) { options->look.side = render_sides.at(name); },
-            "From where it is seen (default: iso); oblique is the thesis's view")
+            "Viewing direction (default: iso); oblique is the thesis's view")
         ->check(CLI::IsMember(render_sides).description(""))
         ->type_name(listed(render_sides));
     command
@@ -163,7 +164,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
                     (void)take_color(one, options->look.colors);
                 }
             },
-            "A colour in place of the theme's, as background=#ffffff; may be repeated")
+            "Theme colour to replace, such as background=#ffffff (repeatable)")
         ->allow_extra_args(false)
         ->check(CLI::Validator(
             [](const std::string& text) {

@@ -30,7 +30,7 @@ struct ReshapeOptions {
 
 int reshape(const ReshapeOptions& options) {
     if (options.degree.empty() && !options.split_u && !options.split_v && options.turn.empty()) {
-        throw UsageError("nothing is asked for", {}, "give --degree, --split-u, --split-v or --turn");
+        throw UsageError("nothing to change", {}, "give --degree, --split-u, --split-v or --turn");
     }
     project::Project project = open_project(options.project).project;
     project::SurfaceInput& surface = project.surface;
@@ -49,7 +49,7 @@ int reshape(const ReshapeOptions& options) {
         surface = project::with_turn(surface, {options.turn[0], options.turn[1], options.turn[2]});
     }
     if (had_region && project.grid.elliptic.region.everywhere()) {
-        fmt::print("note: the region of adaptation lies on the other part: the grid adapts everywhere\n");
+        fmt::print("note: the region of adaptation is on the other part: the grid adapts everywhere\n");
     }
     project::write_project(project, options.out);
     for (std::size_t n = 0; n < surface.patches.size(); ++n) {
@@ -67,22 +67,23 @@ int reshape(const ReshapeOptions& options) {
 
 void add_reshape_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<ReshapeOptions>();
-    CLI::App& command = *app.add_subcommand(
-        "reshape",
-        "The same surface by other control points (a higher degree, two patches), or on another side");
+    CLI::App& command = *app.add_subcommand("reshape",
+                                            "Change the control points of a surface (higher degree, two "
+                                            "patches), or turn the part onto another side");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "Project file to write")->required()->type_name("PROJECT");
-    command.add_option("--patch", options->patch, "Which patch, counted from 0 (default: the machined one)");
-    command.add_option("--degree", options->degree, "Of its net along u and v, not below what it has")
+    command.add_option(
+        "--patch", options->patch, "Patch number, counted from 0 (default: the machined patch)");
+    command.add_option("--degree", options->degree, "Degree along u and v, not below the current one")
         ->delimiter(',')
         ->expected(2)
         ->allow_extra_args(false)
         ->type_name("U,V");
-    CLI::Option& u = *command.add_option("--split-u", options->split_u, "Two patches that meet at this u");
-    command.add_option("--split-v", options->split_v, "Two patches that meet at this v")->excludes(&u);
+    CLI::Option& u = *command.add_option("--split-u", options->split_u, "Split into two patches at this u");
+    command.add_option("--split-v", options->split_v, "Split into two patches at this v")->excludes(&u);
     command
         .add_option(
-            "--turn", options->turn, "Lays the part on another side: about X, then Y, then Z, degrees")
+            "--turn", options->turn, "Turn the part onto another side: about X, then Y, then Z, degrees")
         ->delimiter(',')
         ->expected(3)
         ->allow_extra_args(false)

@@ -60,13 +60,12 @@ void check_model(const SendOptions& options) {
         throw UsageError("the " + options.machine.driver + " driver needs a machine", {}, "give --machine");
     }
     if (!moved && (!options.model.empty() || !options.at.empty())) {
-        throw UsageError(
-            "a machine and where it stands are for the drivers virtual, cordic, stream and records");
+        throw UsageError("--machine and --at apply only to the drivers virtual, cordic, stream and records");
     }
     if (!options.origin.empty() && !moved) {
-        throw UsageError("an origin is for the drivers virtual, cordic, stream and records",
+        throw UsageError("--origin applies only to the drivers virtual, cordic, stream and records",
                          {},
-                         "other controllers have work offsets of their own, as G54");
+                         "use the work offsets of the controller, such as G54");
     }
 }
 
@@ -74,7 +73,7 @@ void check_model(const SendOptions& options) {
 void check_place(const SendOptions& options) {
     const std::string& driver = options.machine.driver;
     if (options.series.from_line > 1 && options.at.empty() && (driver == "stream" || driver == "records")) {
-        throw Error("to begin at a line it has to be known where the machine stands, which it does not tell",
+        throw Error("starting at a line requires the position of the machine, which it does not report",
                     {},
                     "read X, Y and Z at the machine and give them with --at X,Y,Z");
     }
@@ -111,7 +110,7 @@ void say_what_is_by_hand(const jobs::Job& job) {
         const program::Block& block = job.program->blocks[n];
         if (block.kind == program::BlockKind::spindle_on) {
             fmt::print(stderr,
-                       "millwright: {}:{}: the spindle shall turn at {:.0f} 1/min: switch it on by hand\n",
+                       "millwright: {}:{}: the spindle must turn at {:.0f} 1/min: switch it on manually\n",
                        job.project,
                        job.listing->line_of_block[n],
                        block.spindle_rpm);
@@ -123,7 +122,8 @@ void say_what_is_by_hand(const jobs::Job& job) {
 /// `job` from the line that was asked for, with the time.
 jobs::Job ready(jobs::Job job, const SendOptions& options, int from_line) {
     if (from_line > 1 && options.machine.driver == "pmac") {
-        throw Error("a motion program begins with its first line: what a line does depends on those above");
+        throw Error(
+            "a motion program must start at its first line: what a line does depends on the lines above");
     }
     check_from_line(options.machine, from_line);
     if (options.machine.driver == "grbl") {
@@ -171,7 +171,8 @@ int send_motion(const SendOptions& options) {
     SeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         if (options.machine.driver == "cordic" && plot::is_path_file(read_file(file))) {
-            throw Error(Diagnostic{{file, 1, 1, -1}, "the CORDIC processor takes G-code, no path file", {}});
+            throw Error(
+                Diagnostic{{file, 1, 1, -1}, "the CORDIC processor accepts G-code, not a path file", {}});
         }
         jobs::Job job =
             ready(jobs::file_job(
@@ -210,10 +211,9 @@ int send(SendOptions options) {
 void add_send_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<SendOptions>();
     CLI::App& command = *app.add_subcommand("send", "Send files to a machine");
-    add_series_options(command,
-                       options->series,
-                       "G-code files; where a machine is named also path files; of a PMAC motion programs");
-    command.add_option("--driver", options->machine.driver, "Kind of controller, or machine to run on")
+    add_series_options(
+        command, options->series, "G-code files; with --machine also path files; for a PMAC motion programs");
+    command.add_option("--driver", options->machine.driver, "Controller type, or machine to run on")
         ->required()
         ->check(CLI::IsMember({"grbl", "linuxcnc", "pmac", "stream", "records", "cordic", "virtual"}));
     command
@@ -221,7 +221,7 @@ void add_send_command(CLI::App& app, Command& chosen) {
                     options->model,
                     "Shipped machine or machine file, for virtual, cordic, stream and records")
         ->type_name("NAME");
-    command.add_option("--at", options->at, "Where that machine stands: X,Y,Z, mm")
+    command.add_option("--at", options->at, "Current position of that machine: X,Y,Z, mm")
         ->delimiter(',')
         ->expected(3)
         ->allow_extra_args(false);

@@ -56,13 +56,12 @@ void refuse_reset_by_opening(drivers::Driver& driver, jobs::PositionMemory& memo
     }
     // Whoever stops a machine says that it moves: every later job asks first.
     constexpr bool lost = true;
-    driver.doubt_position("opening the port to stop it reset the controller, perhaps in motion", lost);
+    driver.doubt_position("opening the port to stop it reset the controller, possibly in motion", lost);
     memory.keep(driver.status());
-    throw Error(
-        "opening the port reset the controller: if the machine was moving, its motion was cut dead and its "
-        "position is lost",
-        {},
-        "look at the machine, then home it or set its zero anew");
+    throw Error("opening the port reset the controller: if the machine was moving, it stopped abruptly and "
+                "its position is lost",
+                {},
+                "inspect the machine, then home it or set its zero again");
 }
 
 int stop_machine(const StopOptions& options) {
@@ -75,7 +74,7 @@ int stop_machine(const StopOptions& options) {
     refuse_reset_by_opening(*driver, memory);
     if (const drivers::DriverStatus found = driver->status();
         !drivers::is_at_work(found.state) && !options.emergency) {
-        fmt::print("The machine stands ({}).\n", sentence(found));
+        fmt::print("The machine is not moving ({}).\n", sentence(found));
         return 0;
     }
     if (options.emergency) {
@@ -86,7 +85,7 @@ int stop_machine(const StopOptions& options) {
     const drivers::DriverStatus now = at_rest(*driver, clock, interrupt.token());
     memory.keep(now);
     if (now.link_lost) {
-        throw Error(now.message, {}, "use the switch at the machine");
+        throw Error(now.message, {}, "stop it with the switch at the machine");
     }
     fmt::print("The machine was stopped ({}).\n", sentence(now));
     if (!now.position_doubt.empty()) {
@@ -99,8 +98,8 @@ int stop_machine(const StopOptions& options) {
 
 void add_stop_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<StopOptions>();
-    CLI::App& command = *app.add_subcommand("stop", "Stop a machine that moves for nobody here");
-    command.add_option("--driver", options->driver, "Kind of controller")
+    CLI::App& command = *app.add_subcommand("stop", "Stop a machine that no running Millwright controls");
+    command.add_option("--driver", options->driver, "Controller type")
         ->required()
         ->check(CLI::IsMember({"grbl", "linuxcnc"}));
     command.add_option("--port", options->machine.address, "Serial port, or tcp:HOST:PORT")
@@ -109,10 +108,10 @@ void add_stop_command(CLI::App& app, Command& chosen) {
     command.add_option("--axes", options->machine.axes, "Axes of the machine, for linuxcnc")
         ->type_name("LETTERS")
         ->capture_default_str();
-    command.add_option("--log", options->log, "Folder of the job logs")
+    command.add_option("--log", options->log, "Folder for the job logs")
         ->type_name("DIR")
         ->capture_default_str();
-    command.add_flag("--emergency", options->emergency, "At once, whatever that does to the position");
+    command.add_flag("--emergency", options->emergency, "Stop immediately, even if the position is lost");
     command.callback([&chosen, options] {
         options->machine.kind = machine::driver_kind(options->driver);
         chosen = [options] { return stop_machine(*options); };

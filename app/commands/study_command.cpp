@@ -66,7 +66,7 @@ void expect_known(const std::vector<Value>& named,
         if (std::ranges::find(known, value) == known.end()) {
             throw UsageError(fmt::format("{} {} is not in the study", option, value),
                              {},
-                             fmt::format("it has {}", fmt::join(known, ", ")));
+                             fmt::format("choose from {}", fmt::join(known, ", ")));
         }
     }
 }
@@ -154,7 +154,7 @@ public:
         }
     }
     void say_set_aside(const std::filesystem::path& folder) {
-        printer_.say(fmt::format("what an earlier study left is now in {}", folder.string()));
+        printer_.say(fmt::format("the results of an earlier study are now in {}", folder.string()));
     }
     /// A study goes on without what it keeps for the case that it is stopped.
     void say_not_kept(const Error& error) {
@@ -182,7 +182,7 @@ std::string write_unfinished(UnfinishedStudy& unfinished,
         teller.say_set_aside(*aside);
     }
     const std::string where = unfinished.folder().string();
-    teller.say_of_several(fmt::format("the cases that are done are in {}", where));
+    teller.say_of_several(fmt::format("the finished cases are in {}", where));
     (void)unfinished.keep(cases, found.rows, study_pictures(joined(found.rows)));
     return fmt::format("they are in {}", where);
 }
@@ -224,7 +224,7 @@ int gathered(const StudyOptions& options,
         kept = write_unfinished(unfinished, cases, found, teller);
     }
     if (std::ranges::any_of(rows, &StudyRow::no_gain)) {
-        fmt::print("no gain: nothing better was found than what the method starts from, which is kept\n");
+        fmt::print("no gain: the method found nothing better than its start, which is kept\n");
     }
     if (!whole && found.stopped) {
         fmt::print(stderr, "stopped after {} of {} cases: {}\n", done, cases.size(), kept);
@@ -239,9 +239,9 @@ int gathered(const StudyOptions& options,
 
 std::string left_by_rank_0(const UnfinishedStudy& unfinished) {
     return unfinished.kept()
-               ? fmt::format("the cases that were done are in {}, whose missing.txt names the others",
+               ? fmt::format("the finished cases are in {}, whose missing.txt names the others",
                              unfinished.folder().string())
-               : fmt::format("no case was written to {} that rank 1 can see", unfinished.folder().string());
+               : fmt::format("no case that rank 1 can see was written to {}", unfinished.folder().string());
 }
 
 /// Another rank.
@@ -284,17 +284,17 @@ void add_study_command(CLI::App& app, Command& chosen) {
     add_study_run_time_command(group, chosen);
     const auto options = std::make_shared<StudyOptions>();
     CLI::App& command =
-        *group.add_subcommand("kinematic-error", "The error of each way to make the grid, side by side");
+        *group.add_subcommand("kinematic-error", "Compare the errors of all methods to generate the grid");
     command
         .add_option("--out",
                     options->out,
-                    "Folder for kinematic-error.csv, .json, .md and a picture a surface and machine")
+                    "Folder for kinematic-error.csv, .json, .md and one picture per surface and machine")
         ->required()
         ->type_name("DIR");
     command.add_flag("--quick", options->quick, "12 points on 8 tracks instead of 15 to 60 on 20");
-    command.add_option("--surface", options->surfaces, "Only these: dome, sine, two-bell, saddle");
-    command.add_option("--machine", options->machines, "Only these");
-    command.add_option("--points", options->points, "Only these numbers of points a track");
+    command.add_option("--surface", options->surfaces, "Only these surfaces: dome, sine, two-bell, saddle");
+    command.add_option("--machine", options->machines, "Only these machines");
+    command.add_option("--points", options->points, "Only these numbers of points per track");
     command.callback([&chosen, options] { chosen = [options] { return kinematic_error(*options); }; });
 }
 

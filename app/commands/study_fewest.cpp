@@ -63,7 +63,7 @@ int fewest_points(const StudyFewestOptions& options) {
                "uniform",
                "fewest",
                "ratio",
-               "largest mm",
+               "max mm",
                "axis deg");
     for (const studies::FewestPointsRow& row : rows) {
         print_fewest_points(row);
@@ -78,11 +78,11 @@ int fewest_points(const StudyFewestOptions& options) {
 
 void add_study_fewest_command(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<StudyFewestOptions>();
-    CLI::App& command = *group.add_subcommand("fewest-points",
-                                              "The fewest points of tracks for an error, beside equal steps");
-    command.add_option("--surface", options->of.surface, "Preset of the surface")->capture_default_str();
+    CLI::App& command = *group.add_subcommand(
+        "fewest-points", "Find the fewest points per track for an error, compared with equal steps");
+    command.add_option("--surface", options->of.surface, "Surface preset")->capture_default_str();
     command.add_option("--machine", options->of.machine, "Shipped machine")->capture_default_str();
-    command.add_option("--tracks", options->of.tracks, "Over v = 0.02 ... 0.98")
+    command.add_option("--tracks", options->of.tracks, "Number of tracks, over v = 0.02 ... 0.98")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command.add_option("--tolerance", options->tolerances, "Largest distance from the surface curve, mm")

@@ -77,8 +77,8 @@ std::string in_milliseconds(double seconds) {
 
 /// Table 7-1: one row of ours per size, with the thesis's time for as many iterations.
 void print_sizes(const RunTimeStudy& study, int iterations) {
-    fmt::print("\nTable 7-1: {} on {}. Thesis: Convex SPP-1600, one thread, weight W4, scaled to as many "
-               "iterations\n",
+    fmt::print("\nTable 7-1: {} on {}. Thesis: Convex SPP-1600, one thread, weight W4, scaled to the same "
+               "number of iterations\n",
                counted(iterations, "iteration"),
                counted(study.runs.front().threads, "thread"));
     fmt::print("{:>7} {:>13} {:>11} {:>14} {:>18} {:>14} {:>8}\n",
@@ -111,14 +111,14 @@ void print_sizes(const RunTimeStudy& study, int iterations) {
 
 std::string verdict(const RunTime& run, int first) {
     if (!run.same_nodes) {
-        return "other nodes!";
+        return "different nodes!";
     }
-    return run.threads == first ? "" : run.speed_up < pays_from ? "does not pay" : "";
+    return run.threads == first ? "" : run.speed_up < pays_from ? "no benefit" : "";
 }
 
 void print_threads(const RunTimeStudy& study) {
     const int first = study.runs.front().threads;
-    fmt::print("\nTable 7-2: what threads bring\n");
+    fmt::print("\nTable 7-2: effect of threads\n");
     fmt::print(
         "{:>7} {:>8} {:>13} {:>11} {:>9}\n", "nodes", "threads", "processor ms", "wall ms", "speed-up");
     for (const RunTime& run : study.runs) {
@@ -238,9 +238,9 @@ int run_time(const RunTimeOptions& options) {
     print_threads(study);
     print_profiles(study);
     if (const std::string busy = disturbance(study); !busy.empty()) {
-        fmt::print(
-            "\nThe machine was busy: {}. Speed-ups say little; run this again when nothing else runs.\n",
-            busy);
+        fmt::print("\nThe computer was busy: {}. The speed-ups are unreliable; repeat this when nothing else "
+                   "is running.\n",
+                   busy);
     }
     if (!options.out.empty()) {
         write_outputs(options.out,
@@ -257,9 +257,9 @@ void add_study_run_time_command(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<RunTimeOptions>();
     options->settings.threads.clear();
     constexpr int most_nodes_per_side = 1000, most_threads_timed = 1024, most_runs = 1000;
-    CLI::App& command = *group.add_subcommand(
-        "run-time",
-        "How long the adaptation takes, by nodes and threads, beside the thesis's tables 7-1 and 7-2");
+    CLI::App& command = *group.add_subcommand("run-time",
+                                              "Measure the run time of the adaptation, by nodes and threads, "
+                                              "and compare it with the thesis's tables 7-1 and 7-2");
     command.add_option("--side", options->settings.sides, "Nodes per side")
         ->delimiter(',')
         ->check(CLI::Range(3, most_nodes_per_side))
@@ -268,14 +268,13 @@ void add_study_run_time_command(CLI::App& group, Command& chosen) {
         .add_option(
             "--threads",
             options->settings.threads,
-            "Numbers of threads; the first is what the others are compared with (default: 1 to one per core)")
+            "Numbers of threads; the first is the reference for the others (default: 1 to one per core)")
         ->delimiter(',')
         ->check(CLI::Range(1, most_threads_timed));
-    command.add_option("--iterations", options->settings.iterations, "Iterations of a run")
+    command.add_option("--iterations", options->settings.iterations, "Iterations per run")
         ->check(CLI::Range(1, most_runs))
         ->capture_default_str();
-    command
-        .add_option("--repeats", options->settings.repeats, "Runs of each case, of which the fastest counts")
+    command.add_option("--repeats", options->settings.repeats, "Runs per case; the fastest counts")
         ->check(CLI::Range(1, most_runs))
         ->capture_default_str();
     command.add_option("--out", options->out, "Folder for run-time.csv and run-time-profile.csv")

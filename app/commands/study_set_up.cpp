@@ -79,7 +79,7 @@ void print_out_of_reach(const SetUpStudy& study,
     const auto holes =
         std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
     if (holes > 0) {
-        fmt::print("out of reach: {} of {} of the map\n", holes, counted(study.map.costs.size(), "place"));
+        fmt::print("out of reach: {} of {} of the map\n", holes, counted(study.map.costs.size(), "position"));
     }
 }
 
@@ -109,7 +109,7 @@ int set_up(const StudySetUpOptions& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     if (options.settings.across == options.settings.up) {
-        throw Error("--across and --up are the same", {}, "a map is over two of a, b, c, turn");
+        throw Error("--across and --up are the same", {}, "choose two of a, b, c, turn");
     }
     plan::SetUpStudySettings settings = options.settings;
     settings.turn_reach = from_degrees(options.turn_reach_deg);
@@ -139,12 +139,12 @@ int set_up(const StudySetUpOptions& options) {
     print_set_up("start", study.search.start);
     print_set_up("best", study.search.best);
     if (settings.goal == SetUpGoal::error) {
-        fmt::print("mean: from the surface curve between the nodes of a move, by which places are compared; "
-                   "axis: the largest on the finished part\n");
+        fmt::print("mean: distance from the surface curve between the nodes of a move, used to compare "
+                   "positions; axis: the largest angle on the finished part\n");
     }
     const bool gains = study.search.best.cost < study.search.start.cost;
     if (!gains) {
-        fmt::print("no gain: no better place than the start was found\n");
+        fmt::print("no gain: no position better than the start was found\n");
     }
     print_out_of_reach(study, workpiece, settings);
     const std::string edge = plan::edge_sentence(study.search,
@@ -167,33 +167,36 @@ void add_study_set_up_command(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<StudySetUpOptions>();
     plan::SetUpStudySettings& settings = options->settings;
     CLI::App& command =
-        *group.add_subcommand("set-up", "Where on the table the part of a project is cut best");
+        *group.add_subcommand("set-up", "Find the best position on the table for the part of a project");
     command.add_option("PROJECT", options->project, "Project file")->required();
     command.add_option("--out", options->out, "Folder for set-up.csv and set-up.png")
         ->required()
         ->type_name("DIR");
-    command.add_option("--goal", settings.goal, "What is made small: error or travel")
+    command.add_option("--goal", settings.goal, "Goal to minimise: error or travel")
         ->transform(one_of(goals))
         ->type_name(listed(goals))
         ->default_str("error");
-    command.add_option("--across", settings.across, "Of the map's columns: a, b, c or turn")
+    command.add_option("--across", settings.across, "Columns of the map: a, b, c or turn")
         ->transform(one_of(parameters))
         ->type_name(listed(parameters))
         ->default_str("a");
-    command.add_option("--up", settings.up, "Of the map's rows: a, b, c or turn")
+    command.add_option("--up", settings.up, "Rows of the map: a, b, c or turn")
         ->transform(one_of(parameters))
         ->type_name(listed(parameters))
         ->default_str("b");
-    command.add_option("--places", settings.places, "Of the map, each way")->check(CLI::Range(2, 500));
-    command.add_option("--nodes", settings.nodes, "Of the grid that is measured, each way")
+    command.add_option("--places", settings.places, "Samples of the map per direction")
+        ->check(CLI::Range(2, 500));
+    command.add_option("--nodes", settings.nodes, "Nodes of the measured grid per direction")
         ->check(CLI::Range(2, 200));
-    command.add_option("--reach", settings.reach, "How far a and b may go from the middle, mm")
+    command.add_option("--reach", settings.reach, "Search range of a and b to either side of the middle, mm")
         ->check(CLI::Range(0.01, 1e4));
-    command.add_option("--height-reach", settings.height_reach, "The same of c, mm")
+    command
+        .add_option(
+            "--height-reach", settings.height_reach, "Search range of c to either side of the middle, mm")
         ->check(CLI::Range(0.01, 1e4));
-    command.add_option("--turn-reach", options->turn_reach_deg, "How far the part may be turned, degrees")
+    command.add_option("--turn-reach", options->turn_reach_deg, "Search range of the rotation, degrees")
         ->check(CLI::Range(0.0, 180.0));
-    command.add_option("--accept", options->accepted, "Write the project with the part in the best place")
+    command.add_option("--accept", options->accepted, "Write the project with the part in the best position")
         ->type_name("FILE");
     command.callback([&chosen, options] { chosen = [options] { return set_up(*options); }; });
 }

@@ -58,10 +58,11 @@ std::vector<Vec3> mid_points(const PictureOptions& options,
         return toolpath::listing_mid_points(patch, *constants, grid, faults);
     }
     if (options.with_faults) {
-        throw UsageError(fmt::format("the listing's faults are of its own machine, and the project has '{}'",
-                                     machine.name()),
-                         {},
-                         "name its constants: --constants listing");
+        throw UsageError(
+            fmt::format("the listing's faults apply only to its own machine, but the project has '{}'",
+                        machine.name()),
+            {},
+            "use its constants: --constants listing");
     }
     return toolpath::machine_mid_points(patch, machine, grid);
 }
@@ -106,12 +107,13 @@ int convert_grid(const ConvertOptions& options) {
 void add_files(CLI::App& thesis, Command& chosen) {
     const auto options = std::make_shared<PictureOptions>();
     CLI::App& command = *thesis.add_subcommand(
-        "files", "Surface.dat and Toolpath.dat of a project, as the listing makes them");
+        "files", "Write Surface.dat and Toolpath.dat of a project, as the listing does");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--out", options->out, "Folder for both")->required()->type_name("DIR");
+    command.add_option("--out", options->out, "Folder for both files")->required()->type_name("DIR");
     command
-        .add_option(
-            "--nodes", options->nodes, "Points along u and along v, or one number for both (project's)")
+        .add_option("--nodes",
+                    options->nodes,
+                    "Points along u and along v, or one number for both (default: the project's)")
         ->delimiter(',')
         ->expected(1, 2)
         ->allow_extra_args(false)
@@ -137,28 +139,27 @@ void add_files(CLI::App& thesis, Command& chosen) {
         .add_option_function<std::string>(
             "--constants",
             [options, constants](const std::string& name) { options->constants = constants.at(name); },
-            "Machine and place of the part: the project's (default), or one of the thesis's three sets")
+            "Machine and position of the part: the project's (default), or one of the thesis's three sets")
         ->check(CLI::IsMember(constants).description(""))
         ->type_name(listed(constants));
     command.add_flag("--listing-faults",
                      options->with_faults,
-                     "With the listing's wrong parenthesis and integer absolute value");
+                     "Reproduce the listing's wrong parenthesis and integer absolute value");
     command.callback([&chosen, options] { chosen = [options] { return write_pictures(*options); }; });
 }
 
 void add_convert(CLI::App& thesis, Command& chosen) {
     const auto options = std::make_shared<ConvertOptions>();
     CLI::App& command = *thesis.add_subcommand(
-        "convert",
-        "Read a grid or residuals of the thesis's solver, check them, write them in the other form");
+        "convert", "Check a grid or residuals of the thesis's solver and convert them to the other form");
     command.add_option("FILE", options->file, "Blocks, or pairs with --size")->required();
-    command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
+    command.add_option("--out", options->out, "Output file")->required()->type_name("FILE");
     command.add_option("--to", options->to, "One node per line, or blocks")
         ->transform(one_of(grid_forms))
         ->type_name(listed(grid_forms))
         ->default_str("blocks");
     CLI::Option& size =
-        *command.add_option("--size", options->size, "FILE has pairs, of so many rows and columns")
+        *command.add_option("--size", options->size, "FILE has pairs, with this number of rows and columns")
              ->delimiter(',')
              ->expected(2)
              ->allow_extra_args(false)

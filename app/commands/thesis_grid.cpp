@@ -79,7 +79,7 @@ grid::Grid start_grid(const GridOptions& options, const project::GridInput& inpu
     if (counted) {
         wanted.most = Vec2(input.nu - 1, input.nv - 1);
     } else {
-        wanted.hint = "--units nodes reads node numbers, from 0 to n - 1";
+        wanted.hint = "use --units nodes for node numbers from 0 to n - 1";
     }
     grid::NodeArray nodes = grid::parse_nodes(read_file(options.start), options.start, wanted);
     nodes = counted ? grid::to_parameters(nodes) : std::move(nodes);
@@ -129,7 +129,7 @@ void print_ending(const grid::ImproverState& state,
                    solves ? fmt::format(", tolerance {}", shortest(input.elliptic.tolerance))
                           : std::string());
     }
-    fmt::print("Smallest cell area {:.6f}, where a cell of the uniform grid has 1\n",
+    fmt::print("Smallest cell area {:.6f} (1 in the uniform grid)\n",
                grid::min_cell_area(grid::to_solver_coordinates(state.reached)));
     const auto mean_of = [&](const grid::Grid& grid) {
         return mean_text(grid::summary(grid::measure(error, grid, input.direction, grid::fine)));
@@ -147,10 +147,14 @@ void print_ending(const grid::ImproverState& state,
 void expect_files_of(const GridOptions& options, GridMethod method) {
     const bool elliptic = method == GridMethod::elliptic;
     if (!options.residuals.empty() && !elliptic) {
-        throw UsageError("--residuals is of --method elliptic", {}, "the other methods solve no equations");
+        throw UsageError("--residuals applies only to --method elliptic",
+                         {},
+                         "leave it out: the other methods solve no equations");
     }
     if (!options.norms.empty() && !elliptic && method != GridMethod::harmonic) {
-        throw UsageError("--norms is of --method elliptic and harmonic", {}, "the others iterate on no norm");
+        throw UsageError("--norms applies only to --method elliptic and harmonic",
+                         {},
+                         "leave it out: the other methods do not iterate on a norm");
     }
 }
 
@@ -203,9 +207,9 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
     const auto options = std::make_shared<GridOptions>();
     CLI::App& command = *thesis.add_subcommand(
         "grid",
-        "The grid that the program of a project uses, or that a method ends with, for the thesis's solver");
+        "Write the grid of a project's program, or the final grid of a method, for the thesis's solver");
     command.add_option("PROJECT", options->project, "Project file")->required();
-    command.add_option("--out", options->out, "File to write")->required()->type_name("FILE");
+    command.add_option("--out", options->out, "Output file")->required()->type_name("FILE");
     command.add_option("--form", options->form, "One node per line, or blocks of u and of v")
         ->transform(one_of(grid_forms))
         ->type_name(listed(grid_forms))
@@ -223,25 +227,26 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
              .add_option_function<std::string>(
                  "--method",
                  [options, methods](const std::string& name) { options->method = methods.at(name); },
-                 "The grid that this method ends with, whether or not it improves the path")
+                 "Write the final grid of this method, even if it does not improve the path")
              ->check(CLI::IsMember(methods).description(""))
              ->type_name(listed(methods));
     CLI::Option& start =
-        *command.add_option("--start", options->start, "Grid to start from, as the thesis's file source")
+        *command.add_option("--start", options->start, "Start grid, such as the thesis's file source")
              ->type_name("FILE")
              ->needs(&method);
     command
         .add_option_function<std::string>(
             "--start-form",
             [options](const std::string& name) { options->start_form = grid_forms.at(name); },
-            "Form of that file (default: the one in which it has the nodes of the project)")
+            "Form of that file (default: the form that has the nodes of the project)")
         ->check(CLI::IsMember(grid_forms).description(""))
         ->type_name(listed(grid_forms))
         ->needs(&start);
-    command.add_option("--residuals", options->residuals, "Write R_X and R_Y of the last grid, as orx.dat")
+    command
+        .add_option("--residuals", options->residuals, "Write R_X and R_Y of the last grid, as in orx.dat")
         ->type_name("FILE")
         ->needs(&method);
-    command.add_option("--norms", options->norms, "Write the norm of every iteration as CSV")
+    command.add_option("--norms", options->norms, "Write the norm of each iteration as CSV")
         ->type_name("FILE")
         ->needs(&method);
     command.callback([&chosen, options] { chosen = [options] { return write_grid(*options); }; });

@@ -416,13 +416,13 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
 void Dispatcher::check_position(const Job& job, const drivers::DriverStatus& status) const {
     if (job.from_line > 1 && !status.position_known && driver_.capabilities().told_place) {
         throw Error(fmt::format("the machine does not report its position, and none was entered: line {} "
-                                "could start anywhere",
+                                "could start at the wrong position",
                                 job.from_line),
                     {},
                     "read the position at the machine and enter it");
     }
     if (job.from_line > 1 && !status.position_doubt.empty()) {
-        throw Error(fmt::format("{} Line {} could start anywhere",
+        throw Error(fmt::format("{} Line {} could start at the wrong position",
                                 drivers::doubt_sentence(status.position_doubt),
                                 job.from_line),
                     {},

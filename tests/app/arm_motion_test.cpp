@@ -66,7 +66,7 @@ TEST(Arm, SimulatesAnyArmFromWhereItIsToldToBegin) {
     EXPECT_THAT(run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "1,2,3"}).err,
                 HasSubstr("UR5 has 6 joints, 3 positions were given"));
     EXPECT_THAT(run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "400,0,0,0,0,0"}).err,
-                HasSubstr("--start is outside of the limits of joint 1"));
+                HasSubstr("--start is outside the limits of joint 1"));
     // Outwards from the stretched arm: the answer names the point, and how far it is off.
     write_content(file, "X-50 ;");
     const Ended far = run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "0,-1,2,0,-90,0"});
@@ -90,7 +90,7 @@ TEST(Arm, StreamsAMotionFileThroughTheDualPortedRam) {
     write_content(file, "G1 X0 Y100 Z-50 F2 ;\n");
     const Ended with_feed = run({"arm", "stream", file, "--step", "10"});
     EXPECT_EQ(with_feed.out, ended.out);
-    EXPECT_THAT(with_feed.err, testing::ContainsRegex("note: F is not used: each move takes [0-9]+ ms"));
+    EXPECT_THAT(with_feed.err, testing::ContainsRegex("note: F is ignored: each move takes [0-9]+ ms"));
     write_content(file, "X3000 ;");
     EXPECT_EQ(run({"arm", "stream", file}).exit_code, 1);
 }
@@ -147,15 +147,15 @@ TEST(Arm, RefusesProgramsThatItCannotRead) {
     const ScratchFolder scratch;
     write_content((scratch / "five.ngc").string(), "G21 G90 F600\nG1 X1 A10\nM2\n");
     EXPECT_THAT(run({"arm", "reach", "assets/samples/plot/hatched-sign.plt"}).err,
-                HasSubstr("hatched-sign.plt: a plot is no program yet"));
+                HasSubstr("hatched-sign.plt: a plot is not a program"));
     EXPECT_THAT(run({"arm", "reach", (scratch / "nofile.plt").string()}).err,
-                AllOf(HasSubstr("nofile.plt: cannot read: No such file"), Not(HasSubstr("no program yet"))));
+                AllOf(HasSubstr("nofile.plt: cannot read: No such file"), Not(HasSubstr("not a program"))));
     const Ended rotary = run({"arm", "reach", (scratch / "five.ngc").string()});
     EXPECT_EQ(rotary.exit_code, 1);
     EXPECT_THAT(rotary.err, HasSubstr("five.ngc:2"));
     EXPECT_THAT(rotary.err, HasSubstr("--machine"));
     write_content((scratch / "still.ngc").string(), "M2\n");
-    EXPECT_THAT(run({"arm", "reach", (scratch / "still.ngc").string()}).err, HasSubstr("moves nothing"));
+    EXPECT_THAT(run({"arm", "reach", (scratch / "still.ngc").string()}).err, HasSubstr("contains no motion"));
     EXPECT_THAT(run({"arm", "reach", (scratch / "five.ngc").string(), "--frame", "1,2,nan,0,0,0"}).err,
                 HasSubstr("not finite"));
 }

@@ -185,7 +185,7 @@ TEST(Arm, RefusesWhatIsNoFrame) {
     EXPECT_THAT(skewed.err, HasSubstr("columns 1 and 3 of the rotation matrix"));
     const Ended rolled = error_of({"800", "0", "650", "--frame=1,0,0,0,1,0,0,0,1", "--roll", "5"});
     EXPECT_EQ(rolled.exit_code, 2);
-    EXPECT_THAT(rolled.err, HasSubstr("--frame tells the roll"));
+    EXPECT_THAT(rolled.err, HasSubstr("--frame already sets the roll"));
     EXPECT_EQ(error_of({"800", "0", "650", "0", "0", "1", "--frame=1,0,0,0,1,0,0,0,1"}).exit_code, 2);
     EXPECT_EQ(error_of({"800", "0", "650"}).exit_code, 2);
     EXPECT_EQ(error_of({"800", "0", "650", "--frame=1,0,0"}).exit_code, 2);

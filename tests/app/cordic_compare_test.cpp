@@ -44,7 +44,7 @@ TEST_F(CordicCompare, SaysWhatIsWrongWithAProgramOrALine) {
     EXPECT_THAT(fault({"cordic", "compare", "--mcs51", written("bad.ihx", ":00\n")}),
                 HasSubstr("bad.ihx:1:1: "));
     EXPECT_THAT(fault({"cordic", "compare", "--mcs51", file, "--line", "1,2,3"}),
-                HasSubstr("\"1,2,3\" is no line"));
+                HasSubstr("\"1,2,3\" is not a line"));
     EXPECT_THAT(fault({"cordic", "compare", "--line", "1,2,3,4"}), HasSubstr("--mcs51"));
 }
 

@@ -68,10 +68,10 @@ TEST_F(CordicMotion, IsMadeSlowerByAnOptionNeverFaster) {
     EXPECT_NEAR(motion_of({text, "--acceleration", "30"}).acceleration, 15.0, of_single_precision);
     const Motion held = motion_of({text, "--acceleration", "1000"});
     EXPECT_NEAR(held.acceleration, 50.0, of_single_precision);
-    EXPECT_THAT(held.warnings, HasSubstr("the program's own Amax, which holds: 50 mm/s2"));
+    EXPECT_THAT(held.warnings, HasSubstr("the program's own Amax, which applies: 50 mm/s2"));
     const Ended meaningless = run({"cordic", "run", text, "--acceleration", "30"});
     EXPECT_EQ(meaningless.exit_code, 1);
-    EXPECT_THAT(meaningless.err, HasSubstr("--acceleration is for G-code and for a motion"));
+    EXPECT_THAT(meaningless.err, HasSubstr("--acceleration applies only to G-code and to a motion"));
 }
 
 TEST_F(CordicMotion, OfPulsesThatTheTimerCannotGiveIsRefusedWithTheLine) {
@@ -90,13 +90,13 @@ TEST_F(CordicMotion, OfPulsesThatTheTimerCannotGiveIsRefusedWithTheLine) {
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_EQ(late.out, "");
     EXPECT_THAT(late.err,
-                HasSubstr("fast.asm:7: the timer cannot give the pulses of X: 100000 a second are due, "
-                          "it gives 50000"));
+                HasSubstr("fast.asm:7: the timer cannot generate the pulses of X: 100000 per second are "
+                          "needed, 50000 are possible"));
     EXPECT_FALSE(std::filesystem::exists(pulses));
     const Ended given = with("900"); // 45,000: every 2.22 ticks, so that some come after 2
     EXPECT_EQ(given.exit_code, 0) << given.err;
     EXPECT_THAT(given.out,
-                HasSubstr("X: 54000 pulses up to 45000 Hz, given with up to 50000 Hz, 0 reversals"));
+                HasSubstr("X: 54000 pulses up to 45000 Hz, output at up to 50000 Hz, 0 reversals"));
 }
 
 TEST_F(CordicMotion, IsThatOfTheImageBehindItsAssemblerText) {

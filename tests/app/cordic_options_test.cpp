@@ -81,7 +81,7 @@ TEST_F(CordicOptions, TakeNoNumbersThatAreNone) {
         }
     }
     EXPECT_THAT(run({"cordic", "run", thesis_arc, "--clock", "nan"}).err,
-                HasSubstr("--clock: \"nan\" is no finite number"));
+                HasSubstr("--clock: \"nan\" is not a finite number"));
 }
 
 TEST_F(CordicOptions, OfAMotionAreRefusedWithoutOne) {
@@ -93,7 +93,7 @@ TEST_F(CordicOptions, OfAMotionAreRefusedWithoutOne) {
     EXPECT_THAT(run({"cordic", "run", thesis_arc, "--period", "0.1"}).err, HasSubstr("--servo"));
     const Ended trapezoid = run({"cordic", "run", thesis_arc, "--profile", "trapezoid", "--jerk", "5"});
     EXPECT_EQ(trapezoid.exit_code, 1);
-    EXPECT_THAT(trapezoid.err, HasSubstr("--jerk is for the profile s-curve"));
+    EXPECT_THAT(trapezoid.err, HasSubstr("--jerk applies only to --profile s-curve"));
 }
 
 TEST_F(CordicOptions, TellWhereAProgramGoesRoundForEver) {
@@ -107,7 +107,7 @@ TEST_F(CordicOptions, TellWhereAProgramGoesRoundForEver) {
         EXPECT_THAT(ended.err, HasSubstr("loop.asm:"));
         const Ended some = run({"cordic", command, file, "--clocks", "5000"});
         EXPECT_EQ(some.exit_code, 1);
-        EXPECT_THAT(some.err, HasSubstr("not at its end after 5000 clocks"));
+        EXPECT_THAT(some.err, HasSubstr("did not end within 5000 clocks"));
     }
     EXPECT_THAT(run({"cordic", "run", file, "--trace", path("loop.vcd")}).err,
                 HasSubstr("the program never ends"));
@@ -117,10 +117,9 @@ TEST_F(CordicOptions, NameTheCauseOfASpeedThatIsBesideTheFeed) {
     const std::string file = written("x8.ngc", "F30\nG1 X3 Y4\nG1 X8\nM2\n");
     const Ended ended = run({"cordic", "run", file, "--matlab-zero", "--format", "f64"});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(
-        ended.err,
-        HasSubstr(
-            "x8.ngc:3: the speed is up to 22 % beside the feed: --matlab-zero turns nothing along an axis"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("x8.ngc:3: the speed deviates from the feed rate by up to 22 %: with --matlab-zero "
+                          "nothing is turned along an axis"));
     EXPECT_THAT(ended.err, Not(HasSubstr("too few bits")));
     const Ended adrift = run({"cordic", "run", thesis_arc, "--iterations", "9", "--whole-arcs"});
     EXPECT_THAT(adrift.err, HasSubstr("its ends are up to 1.3 mm beside theirs"));
@@ -151,7 +150,7 @@ TEST_F(CordicOptions, OfGCodeAreRefusedForProgramsThatAreMadeAlready) {
         EXPECT_THAT(other.err, HasSubstr("the program is in q10.22, not in f64"));
         const Ended chords = run({"cordic", "run", file, "--arc-tolerance", "0.1"});
         EXPECT_EQ(chords.exit_code, 1);
-        EXPECT_THAT(chords.err, HasSubstr("--arc-tolerance is for G-code"));
+        EXPECT_THAT(chords.err, HasSubstr("--arc-tolerance applies only to G-code"));
     }
 }
 
@@ -201,12 +200,12 @@ TEST_F(CordicOptions, FillTheRamForTheProcessorAndReadItBack) {
     for (const std::string& read : {in, file}) {
         const Ended onto = run({"cordic", "run", file, "--ram", in, "--ram-out", read});
         EXPECT_EQ(onto.exit_code, 1);
-        EXPECT_THAT(onto.err, HasSubstr("--ram-out would write over "));
+        EXPECT_THAT(onto.err, HasSubstr("--ram-out would overwrite "));
     }
     EXPECT_EQ(content_of(in).size(), 4U);
     const Ended large = run({"cordic", "run", file, "--ram", written("large.ram", std::string(0x4001, 'x'))});
     EXPECT_EQ(large.exit_code, 1);
-    EXPECT_THAT(large.err, HasSubstr("large.ram: 16385 bytes, the RAM holds 16384"));
+    EXPECT_THAT(large.err, HasSubstr("large.ram: 16385 bytes, but the RAM holds 16384"));
 }
 
 TEST_F(CordicOptions, TellThePlaceWhereAMicroprogramOrTheLogicHasNoAnswer) {
@@ -244,13 +243,13 @@ TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
     const std::string loop =
         written("loop.asm", "MOV PC, GO\nMOV XI, 1\nGO: MOV Vmax, 1\n  MOV Amax, 1\n  G01\n  G01\nHLT\n");
     EXPECT_THAT(warnings({loop}),
-                AllOf(HasSubstr("where the axes are already"), HasSubstr(R"("column":3,"line":6)")));
+                AllOf(HasSubstr("where the axes already are"), HasSubstr(R"("column":3,"line":6)")));
     const std::string slow = written("slow.ngc", "G21 G90\nF1\nG1 X10 Y7\nM2\n");
     EXPECT_THAT(warnings({slow, "--format", "q10.6", "--acceleration", "50"}),
-                HasSubstr("q10.6 has too few bits for it"));
+                HasSubstr("q10.6 has too few bits"));
     const std::string line = written("line.ngc", "G21 G90\nF60\nG1 X10 Y7\nM2\n");
     EXPECT_THAT(warnings({line, "--iterations", "4"}),
-                AllOf(HasSubstr("4 iterations turn its direction by up to 14 degrees beside"),
+                AllOf(HasSubstr("4 iterations leave its direction up to 14 degrees off"),
                       Not(HasSubstr("too few bits"))));
 }
 
@@ -307,9 +306,10 @@ TEST_F(CordicOptions, AreForTheKindOfFileThatTheyAreFor) {
     ASSERT_EQ(run({"cordic", "asm", thesis_arc, "--out", image}).exit_code, 0);
     const Ended again = run({"cordic", "asm", image, "--out", path("again.bin")});
     EXPECT_EQ(again.exit_code, 1);
-    EXPECT_THAT(again.err, HasSubstr("is an image already"));
-    EXPECT_THAT(run({"cordic", "asm", "--help"}).out,
-                AllOf(HasSubstr("G-code or assembler text (.asm)"), HasSubstr("G-code: speed of G0")));
+    EXPECT_THAT(again.err, HasSubstr("is already an image"));
+    EXPECT_THAT(
+        run({"cordic", "asm", "--help"}).out,
+        AllOf(HasSubstr("G-code or assembly source (.asm)"), HasSubstr("G-code: speed of rapid moves")));
 }
 
 TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
@@ -373,7 +373,7 @@ TEST_F(CordicOptions, OfImagesOfVersionOneAreNotGuessed) {
 TEST_F(CordicOptions, SayThatThereIsNothingInAProgramOfNoInstruction) {
     const Ended ended = run({"cordic", "run", written("empty.asm", "; nothing\n")});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("there is no instruction in the program"));
+    EXPECT_THAT(ended.err, HasSubstr("the program contains no instruction"));
 }
 
 TEST_F(CordicOptions, WarnWithThePlaceOfMotionsThatLeadNowhere) {

@@ -53,7 +53,7 @@ TEST(CordicPass, RefusesWhatIsBeyondTheRange) {
     EXPECT_THAT(refusal({"rotate", "1", "0", "98", "--raw"}), HasSubstr("|z| <= 1.70857 rad"));
     EXPECT_THAT(refusal({"rotate", "1", "0", "-1.9", "--system", "hyperbolic"}), HasSubstr("|z| <= 1.83745"));
     EXPECT_THAT(refusal({"vector", "1", "2", "--system", "linear"}), HasSubstr("|y/x| <= 1.76574"));
-    EXPECT_THAT(refusal({"vector", "3", "1", "--z", "1"}), HasSubstr("options of a raw pass (add --raw)"));
+    EXPECT_THAT(refusal({"vector", "3", "1", "--z", "1"}), HasSubstr("apply only to a raw pass (add --raw)"));
     EXPECT_THAT(refusal({"vector", "3", "1", "--system", "linear", "--fold"}), HasSubstr("circular system"));
 }
 

@@ -77,7 +77,8 @@ TEST(Cordic, AccuracyMeasuresOneFormatThatIsAskedFor) {
     EXPECT_THAT(content_of(folder.path() / "bounds.svg"), HasSubstr("q3.20"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "e1-pre.svg")) << "the thesis's are in binary64";
     EXPECT_THAT(of_format({"q1.15"}).err, HasSubstr("vectors of length 1 do not fit into q1.15"));
-    EXPECT_THAT(of_format({"f32", "--rounding", "nearest"}).err, HasSubstr("--rounding is for fixed point"));
+    EXPECT_THAT(of_format({"f32", "--rounding", "nearest"}).err,
+                HasSubstr("--rounding applies only to fixed point"));
 }
 
 TEST(Cordic, AccuracyWritesItsTableAndPictures) {
@@ -155,7 +156,7 @@ TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     write_content(endless, "again: MOV PC, again\n");
     const Ended stopped = run({"cordic", "run", endless.string(), "--clocks", "1000"});
     EXPECT_EQ(stopped.exit_code, 1);
-    EXPECT_THAT(stopped.err, HasSubstr("not at its end after 1000 clocks"));
+    EXPECT_THAT(stopped.err, HasSubstr("did not end within 1000 clocks"));
     EXPECT_EQ(run({"cordic", "disasm", file.string() + ".bin"}).exit_code, 1);
 }
 

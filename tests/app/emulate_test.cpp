@@ -152,7 +152,7 @@ TEST_F(Emulate, AMachineGoesWhereACoordinateStreamSaysAndTellsAtItsEnd) {
     EXPECT_EQ(emulated.exit_code, 0);
     EXPECT_THAT(emulated.out, HasSubstr(" samples\n"));
     EXPECT_THAT(emulated.out, HasSubstr(", at most "));
-    EXPECT_THAT(emulated.out, testing::Not(HasSubstr("were no samples")));
+    EXPECT_THAT(emulated.out, testing::Not(HasSubstr("were not samples")));
 }
 
 } // namespace

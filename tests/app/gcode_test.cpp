@@ -134,7 +134,7 @@ TEST(Gcode, CheckReadsKlartextAndNamesOtherLanguages) {
     write_content(file, "0 BEGIN PGM PART MM\r\n1 CYCL DEF 200 DRILLING\r\n2 END PGM PART MM\r\n");
     const Ended foreign = run({"gcode", "check", file, "--json"});
     EXPECT_EQ(foreign.exit_code, 1);
-    EXPECT_THAT(foreign.out, HasSubstr("of Klartext Millwright reads the blocks that its posts write"));
+    EXPECT_THAT(foreign.out, HasSubstr("Millwright reads only the Klartext blocks that its posts write"));
     write_content(file, "N10 R1=5\nN20 G1 X=R1 F100\nN30 M30\n");
     const Ended other = run({"gcode", "check", file});
     EXPECT_EQ(other.exit_code, 1);
@@ -300,13 +300,14 @@ TEST(Gcode, PulsesSayWhereTheTimerDoesNotKeepUp) {
     const Ended slow = pulses({"--timer", "10000"});
     EXPECT_EQ(slow.exit_code, 1);
     EXPECT_THAT(slow.err,
-                HasSubstr("fast.ngc:3: from here on the timer does not keep up with X: 12500 pulses a second "
-                          "are due, it gives 5000"));
+                HasSubstr("fast.ngc:3: from here on the timer cannot keep up with X: 12500 pulses per second "
+                          "are needed, 5000 are possible"));
     for (const char* steps : {"A=100", "X=0", "X=", "X", "XY=1", "X=1e9", "X=nan", "X=5mm"}) {
         const Ended ended = pulses({"--steps", steps});
         EXPECT_EQ(ended.exit_code, 1) << steps;
         EXPECT_THAT(ended.err,
-                    HasSubstr(std::string("--steps ") + steps + " is no axis of the machine with its steps"));
+                    HasSubstr(std::string("--steps ") + steps +
+                              " does not name an axis of the machine and its steps"));
     }
 }
 

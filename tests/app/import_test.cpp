@@ -89,7 +89,7 @@ TEST_F(ImportCommand, PointsInRowsAreMetExactly) {
     EXPECT_EQ(planned.exit_code, 0) << planned.err;
     const Ended cloud = run({"import", path("probe.txt"), "--out", path("cloud.json"), "--cloud"});
     ASSERT_EQ(cloud.exit_code, 0) << cloud.err;
-    EXPECT_THAT(cloud.out, HasSubstr("16 points, no rows: a cloud\npatch of degree 3 x 3\n"));
+    EXPECT_THAT(cloud.out, HasSubstr("16 points, no rows (point cloud)\npatch of degree 3 x 3\n"));
     EXPECT_THAT(cloud.out,
                 testing::ContainsRegex("points to surface: at most [0-9.e-]+ mm \\(line [0-9]+\\), "));
     write_content(path("comma.csv"), "1,5;2,5;3\n");
@@ -127,7 +127,7 @@ TEST_F(ImportCommand, UnitOfAStepFileIsTheFilesOwn) {
           std::vector<std::string>{"import", file, "--face", "1", "--unit", "mm", "--out", path("u.json")}}) {
         const Ended ended = run(words);
         EXPECT_EQ(ended.exit_code, 2);
-        EXPECT_THAT(ended.err, HasSubstr("--unit is of a mesh"));
+        EXPECT_THAT(ended.err, HasSubstr("--unit applies only to a mesh"));
     }
     EXPECT_FALSE(std::filesystem::exists(path("u.json")));
 }
@@ -220,7 +220,7 @@ TEST_F(ImportCommand, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"import", exported("d.step"), "--out", path("p.json"), "--face", "7"}),
                 HasSubstr("no usable face 7"));
     EXPECT_THAT(refusal({"import", exported("e.step"), "--out", path("p.json"), "--degree", "40"}),
-                HasSubstr("'40' is no degree"));
+                HasSubstr("'40' is not a degree"));
     EXPECT_THAT(refusal({"export", "assets/projects/dome.json", "--out", path("dome.dwg")}),
                 HasSubstr("dome.dwg: a design is not written"));
 }

@@ -64,7 +64,7 @@ TEST_F(KeptFiles, AProgramThatAPersonHasEditedIsKeptUnderAnotherName) {
     write_content(out / "program.ngc", "by hand");
     const Ended first = plan(project);
     EXPECT_EQ(first.exit_code, 0) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("what was there is now in program-kept-1.ngc"));
+    EXPECT_THAT(first.err, HasSubstr("the changed file is now program-kept-1.ngc"));
     EXPECT_EQ(content_of(out / "program-kept-1.ngc"), "by hand");
     EXPECT_THAT(content_of(out / "program.ngc"), HasSubstr("G93"));
     const Ended second = plan(small_project(scratch.path(), "dome", "\"nu\": 20", "\"nu\": 7"));
@@ -85,11 +85,11 @@ TEST_F(KeptFiles, ACommandThatFailsMakesNoFileItsOwn) {
     EXPECT_EQ(convert(bad).exit_code, 1);
     EXPECT_EQ(content_of(mine), "my notes");
     EXPECT_FALSE(fs::exists(scratch / "p-kept-1.ngc"));
-    EXPECT_THAT(convert(good).err, HasSubstr("what was there is now in p-kept-1.ngc"));
+    EXPECT_THAT(convert(good).err, HasSubstr("the changed file is now p-kept-1.ngc"));
     EXPECT_EQ(content_of(scratch / "p-kept-1.ngc"), "my notes");
     write_content(mine, "edited"); // a program of ours that a person has changed
     EXPECT_EQ(convert(bad).exit_code, 1);
-    EXPECT_THAT(convert(good).err, HasSubstr("what was there is now in p-kept-2.ngc"));
+    EXPECT_THAT(convert(good).err, HasSubstr("the changed file is now p-kept-2.ngc"));
     EXPECT_EQ(content_of(scratch / "p-kept-2.ngc"), "edited");
     EXPECT_EQ(convert(bad).exit_code, 1); // ours stays ours
     EXPECT_EQ(convert(good).err, "");
@@ -161,7 +161,7 @@ TEST_F(KeptFiles, AFileThatAnOptionNamesIsKeptTooUnlessACommandHasWrittenItLast)
         "gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--out", made};
     const Ended first = run(words);
     EXPECT_EQ(first.exit_code, 0) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("what was there is now in made-kept-1.ngc"));
+    EXPECT_THAT(first.err, HasSubstr("the changed file is now made-kept-1.ngc"));
     EXPECT_EQ(content_of(scratch / "made-kept-1.ngc"), "by hand");
     write_content(file, "G21 G90 G17\nG1 X2 Y0 Z0 F100\nM2\n");
     EXPECT_THAT(run(words).err, Not(HasSubstr("kept")));
@@ -235,13 +235,14 @@ TEST_F(KeptFiles, WhatNoLongerFitsAReplacedProgramIsTakenAway) {
     EXPECT_TRUE(fs::exists(out / "program.ngc")) << "the report of both programs is the same";
     const Ended other = cut(small_project(scratch.path(), "two-bell"));
     EXPECT_EQ(other.exit_code, 0) << other.err;
-    EXPECT_THAT(other.err,
-                AllOf(HasSubstr("report.json: was of an earlier command"), HasSubstr("and was removed")));
+    EXPECT_THAT(
+        other.err,
+        AllOf(HasSubstr("report.json: was left by an earlier command"), HasSubstr("and was removed")));
     for (const char* const name : {"report.json", "preview.png", "program.h"}) {
         EXPECT_FALSE(fs::exists(out / name)) << name;
     }
     write_content(out / "cut.json", "by hand"); // no longer as it was written, and kept
-    EXPECT_THAT(plan(dome).err, HasSubstr("what was there is now in cut-kept-1.json"));
+    EXPECT_THAT(plan(dome).err, HasSubstr("the changed file is now cut-kept-1.json"));
     EXPECT_EQ(content_of(out / "cut-kept-1.json"), "by hand");
     EXPECT_FALSE(fs::exists(out / "surface.csv"));
     EXPECT_TRUE(fs::exists(out / "preview.png"));
@@ -259,7 +260,7 @@ TEST_F(KeptFiles, WhatIsLeftOfARefusedProgramIsTakenAwayByTheNextOne) {
     write_content(out / "notes.txt", "by hand");
     const Ended planned = plan(small_project(scratch.path(), "two-bell"));
     EXPECT_EQ(planned.exit_code, 0) << planned.err;
-    EXPECT_THAT(planned.err, HasSubstr("cut.json: was of an earlier command"));
+    EXPECT_THAT(planned.err, HasSubstr("cut.json: was left by an earlier command"));
     for (const char* const name : {"cut.json", "surface.csv"}) {
         EXPECT_FALSE(fs::exists(out / name)) << name;
     }
@@ -306,9 +307,9 @@ TEST_F(KeptFiles, WhatCannotBeWrittenIsFoundBeforeTheWork) {
     for (const auto& [words, reason] : {
              std::pair(std::vector<std::string>{"--out", scratch / "no/grid.dat"},
                        "no/grid.dat: cannot write"),
-             {{"--out", out}, "--out names a folder, and writes a file (add a file name)"},
+             {{"--out", out}, "--out names a folder, but must name a file (add a file name)"},
              {{"--out", out / "a", "--norms", scratch / "no/n.csv"}, "no/n.csv: cannot write"},
-             {{"--out", out / "a", "--residuals", out}, "--residuals names a folder, and writes a file"},
+             {{"--out", out / "a", "--residuals", out}, "--residuals names a folder, but must name a file"},
          }) {
         std::vector<std::string> all = grid;
         all.insert(all.end(), words.begin(), words.end());
@@ -318,7 +319,7 @@ TEST_F(KeptFiles, WhatCannotBeWrittenIsFoundBeforeTheWork) {
     }
     const Ended plan_in_file = run({"plan", project, "--out", scratch / "file"});
     EXPECT_EQ(plan_in_file.exit_code, 1);
-    EXPECT_THAT(plan_in_file.err, HasSubstr("--out names a file, and needs a folder"));
+    EXPECT_THAT(plan_in_file.err, HasSubstr("--out names a file, but must name a folder"));
     const Ended accepted = run({"study",
                                 "set-up",
                                 project,

@@ -145,7 +145,7 @@ TEST(PlanCommand, CutsWithTheToolOfAFile) {
                              "--allow-gouges"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("tool: bull-nose, diameter 10 mm"));
-    EXPECT_THAT(ended.out, HasSubstr("left on the surface"));
+    EXPECT_THAT(ended.out, HasSubstr("scallop height: "));
     EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("bull-nose"));
     const auto report = nlohmann::json::parse(content_of(scratch / "out/report.json"));
     EXPECT_EQ(report.at("tool").at("cutter"), "bull-nose");
@@ -178,7 +178,7 @@ TEST(PlanCommand, WritesOverNoProjectInItsFolder) {
     const std::string bytes = content_of(project);
     const Ended ended = run({"plan", project, "--out", scratch.path()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("report.json: would be written over, and is read"));
+    EXPECT_THAT(ended.err, HasSubstr("report.json: would be overwritten, but is an input file"));
     EXPECT_EQ(content_of(project), bytes);
     EXPECT_FALSE(fs::exists(scratch / "program.ngc"));
 }

@@ -54,7 +54,7 @@ TEST(PlotCommand, EachPenHasItsSideItsCutterAndItsTool) {
     EXPECT_EQ(low.exit_code, 1); // it was raised to the safe height without a word
     EXPECT_THAT(
         low.err,
-        HasSubstr("--change-position: tools would be changed at Z 4 mm, below the safe height of 5 mm"));
+        HasSubstr("--change-position: the tool change position at Z 4 mm is below the safe height of 5 mm"));
     EXPECT_THAT(cut({"--level", "2:cutter=6"}).err,
                 HasSubstr("tool 1 is 6 mm wide in one level and 3 mm in another"));
     EXPECT_THAT(cut({"--level", "2:order=8,side=inside", "--level", "2:order=9"}).err,
@@ -75,7 +75,8 @@ TEST(PlotCommand, LevelsThatContradictEachOtherAreRefused) {
     };
     const Ended twice = cut({"1:depth=1", "1:depth=2"});
     EXPECT_EQ(twice.exit_code, 1);
-    EXPECT_THAT(twice.err, HasSubstr("the level '1:depth=2': pen 1 has one with the same tool and order"));
+    EXPECT_THAT(twice.err,
+                HasSubstr("level '1:depth=2': pen 1 already has one with the same tool and order"));
     EXPECT_THAT(cut({"1:depth=1,feed=90,depth=2"}).err, HasSubstr("'depth' is given twice"));
     EXPECT_FALSE(std::filesystem::exists(file));
     const Ended both = cut({"1:depth=1,order=1", "1:depth=2,order=2"});

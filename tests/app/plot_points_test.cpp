@@ -49,10 +49,10 @@ TEST(PointFiles, PointsThatWereDecodedAreLookedAtAndCut) {
     EXPECT_EQ(cut.exit_code, 0) << cut.err;
     EXPECT_EQ(run({"gcode", "check", program}).exit_code, 0);
     EXPECT_THAT(run({"plot", "decode", points, "--velocity", "1", "--period", "1", "--out", svg}).err,
-                HasSubstr("these are points of a table already"));
+                HasSubstr("these are already points of a table"));
     const Ended shaped = run({"plot", "toolpath", points, "--depth", "3", "--out", program});
     EXPECT_EQ(shaped.exit_code, 2);
-    EXPECT_THAT(shaped.err, HasSubstr("--depth is for other files"));
+    EXPECT_THAT(shaped.err, HasSubstr("--depth applies only to plots and programs"));
 }
 
 TEST(PointFiles, PointsLieWhereTheirOriginIs) {

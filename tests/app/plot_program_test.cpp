@@ -62,9 +62,9 @@ TEST(ProgramsAsPlots, InfoTellsWaysAndTimesOfTheThesis) {
     EXPECT_EQ(run({"plot", "info", space}).out,
               "24 lines, 2 strokes at 1 level, 1 tool\n"
               "x 10.000 to 90.000 mm, y 10.000 to 90.000 mm, z 0.000 to 0.000 mm\n"
-              "feeds across from z 10.000 mm up are travel\n"
-              "0.469 m (0.418 m drawn, 0.050 m in the air), 2 lifts\n"
-              "0.438 m at a feed in 1:22 min, 0.080 m at rapid; 1:30 min with rapids of 10 mm/s\n");
+              "feed moves across from z 10.000 mm up are travel\n"
+              "0.469 m (0.418 m drawn, 0.050 m travel), 2 lifts\n"
+              "0.438 m at feed rate in 1:22 min, 0.080 m at rapid; 1:30 min with rapids of 10 mm/s\n");
 }
 
 // As rs274 has it: 252.891 mm; lowered by 5 mm that the program does not say it were 257.883.
@@ -74,7 +74,7 @@ TEST(ProgramsAsPlots, InfoCountsNoWayThatTheProgramDoesNotSay) {
     EXPECT_NEAR(told.at("feed_mm"), 252.89, 0.02);
     EXPECT_NEAR(told.at("feed_s"), told.at("feed_mm").get<double>() / 5.0, 1e-3);
     EXPECT_THAT(told.at("diagnostics").at(0).at("message"), HasSubstr("no height is named"));
-    EXPECT_THAT(run({"plot", "info", file}).out, HasSubstr("every feed across is a cut\n"));
+    EXPECT_THAT(run({"plot", "info", file}).out, HasSubstr("every feed move across is a cut\n"));
     EXPECT_THAT(run({"plot", "info", file}).err, HasSubstr("compensation-right.ngc:5: no height"));
 }
 
@@ -175,7 +175,7 @@ TEST(ProgramsAsPlots, ACutAnewTravelsNoLowerThanTheProgram) {
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         const std::set<std::string> heights = travel_heights(path_records(content_of(path)));
         EXPECT_EQ(heights, std::set<std::string>{file == low ? "5" : "20"}) << file;
-        const std::string told = "the tool travels at 20.000 mm, as high as the program does";
+        const std::string told = "the tool travels at 20.000 mm, as high as in the program";
         EXPECT_EQ(ended.err.find(told) != std::string::npos, file != low) << ended.err;
         words.insert(words.end(), {"--safe-height", "4"});
         ASSERT_EQ(run(words).exit_code, 0);
@@ -248,7 +248,8 @@ TEST(ProgramsAsPlots, WhatIsNoPathIsRefusedWithTheLine) {
     std::filesystem::remove(out);
     const Ended ended = run({"plot", "toolpath", ramp, "--out", out, "--order"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("ramp.ngc:3: this cut goes from z 0.000 to -2.000 mm: --order is for"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("ramp.ngc:3: this cut goes from z 0.000 to -2.000 mm: --order applies only to"));
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -278,7 +279,7 @@ TEST(ProgramsAsPlots, OptionsOfTheOtherKindOfFileAreRefused) {
               2);
     const Ended ended = run({"plot", "info", "assets/samples/plot/arcs.plt", "--chord-length", "1"});
     EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_THAT(ended.err, HasSubstr("--chord-length is for G-code programs"));
+    EXPECT_THAT(ended.err, HasSubstr("--chord-length applies only to G-code programs"));
 }
 
 TEST(ProgramsAsPlots, TheToolIsAsWideAsACommentSays) {
@@ -292,8 +293,8 @@ TEST(ProgramsAsPlots, TheToolIsAsWideAsACommentSays) {
         words.insert(words.end(), more.begin(), more.end());
         return run(words).err;
     };
-    EXPECT_THAT(made({}), HasSubstr("cam.nc:1: a comment says the tool is 4 mm wide"));
-    EXPECT_THAT(made({"--tool-diameter", "3"}), Not(HasSubstr("a comment says")));
+    EXPECT_THAT(made({}), HasSubstr("cam.nc:1: the tool diameter is 4 mm according to a comment"));
+    EXPECT_THAT(made({"--tool-diameter", "3"}), Not(HasSubstr("according to a comment")));
     write_content(folder / "cam.nc",
                   "(T1 D=4.)\n(T2 D=6.)\nG21 G90\nT1 M6\nG0 X10 Y10 Z5\nG1 Z-1 F100\nX30\nT2 M6\nX50\nM30\n");
     EXPECT_THAT(made({}), HasSubstr("cam.nc:2: comments name tools of several diameters"));

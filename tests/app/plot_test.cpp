@@ -55,12 +55,12 @@ struct Told {
     std::string clock; ///< "32:52 min"
 };
 
-/// "... points: 8.1 m at a feed, 0.4 m at rapid ... 32:52 min on the machine".
+/// "... points: 8.1 m at feed rate, 0.4 m at rapid ... 32:52 min on the machine".
 Told told_by_toolpath(const std::string& out) {
     double feed = 0.0;
     double rapid = 0.0;
     const std::string figures = out.substr(out.find(" points: ") + 9);
-    EXPECT_EQ(std::sscanf(figures.c_str(), "%lf m at a feed, %lf m at rapid", &feed, &rapid), 2) << out;
+    EXPECT_EQ(std::sscanf(figures.c_str(), "%lf m at feed rate, %lf m at rapid", &feed, &rapid), 2) << out;
     const std::size_t end = out.rfind(" on ");
     const std::size_t begin = out.rfind(", ", end) + 2;
     return {1000.0 * (feed + rapid), out.substr(begin, end - begin)};
@@ -145,7 +145,7 @@ TEST(PlotCommand, SaysOneDistanceEverywhere) {
         const auto answer = nlohmann::json::parse(run({"plot", "info", file, "--json"}).out);
         const double drawn = answer.at("draw_mm"), air = answer.at("air_mm"), lifts = answer.at("lifts");
         EXPECT_NEAR(answer.at("time_s").get<double>(), drawn / 2.0 + air / 10.0 + 6.0 * lifts, 1e-6);
-        const std::string told = fmt::format("{:.3f} m ({:.3f} m drawn, {:.3f} m in the air), {} lifts, ",
+        const std::string told = fmt::format("{:.3f} m ({:.3f} m drawn, {:.3f} m travel), {} lifts, ",
                                              (drawn + air) / 1000.0,
                                              drawn / 1000.0,
                                              air / 1000.0,
@@ -175,7 +175,7 @@ TEST(PlotCommand, OrderBringsTheToolToTheNearestCornerOfAClosedStroke) {
     const std::size_t ordered = ended.out.find("ordered: ");
     ASSERT_NE(ordered, std::string::npos) << ended.out;
     // Along the lower edges to the third shape and back to the origin.
-    EXPECT_THAT(ended.out.substr(ordered), HasSubstr("0.218 m in the air")) << ended.out;
+    EXPECT_THAT(ended.out.substr(ordered), HasSubstr("0.218 m travel")) << ended.out;
 }
 
 // Each was read as a plot, with a diagnostic for each of its words.
@@ -185,8 +185,8 @@ TEST(PlotCommand, FilesThatAreNoPlotsAreTakenForWhatTheyAre) {
     write_content(folder / "other.path",
                   "# millwright path 1: absolute; x mm, y mm, z mm, speed mm/s (0: rapid), move, tool\n");
     const std::vector<std::array<std::string, 3>> others{
-        {(folder / "other.path").string(), "this is a path file, no plot", "millwright send"},
-        {"assets/samples/pictures/boat.png", "this is a picture, no plot", "millwright picture relief"}};
+        {(folder / "other.path").string(), "this is a path file, not a plot", "millwright send"},
+        {"assets/samples/pictures/boat.png", "this is a picture, not a plot", "millwright picture relief"}};
     for (const auto& [file, what, hint] : others) {
         for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
                  {"info", file},
@@ -233,7 +233,7 @@ TEST(PlotCommand, WritesOverNothingThatItReads) {
              {"plot", "toolpath", file, "--out", (folder / "o.ngc").string(), "--path", file}}) {
         const Ended ended = run(command);
         EXPECT_EQ(ended.exit_code, 1);
-        EXPECT_THAT(ended.err, HasSubstr("would write over FILE, which is read"));
+        EXPECT_THAT(ended.err, HasSubstr("would overwrite FILE, which is an input file"));
         EXPECT_EQ(content_of(file), plot);
     }
     const std::string out = (folder / "o.ngc").string();
@@ -374,9 +374,9 @@ TEST(PlotCommand, InfoOfNoPlotFails) {
     for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--json"}}) {
         EXPECT_EQ(info_of("", more).exit_code, 1);
         EXPECT_THAT(info_of("", more).err,
-                    HasSubstr("there is no command of HPGL in it, nor does it begin as G-code"));
-        EXPECT_THAT(info_of(std::string(1000, '\xff'), more).err, HasSubstr("no command of HPGL"));
-        EXPECT_THAT(info_of("IN;SP1;PU;SP;", more).err, HasSubstr("there is nothing to draw in it"));
+                    HasSubstr("it contains no HPGL command, and does not begin as G-code"));
+        EXPECT_THAT(info_of(std::string(1000, '\xff'), more).err, HasSubstr("contains no HPGL command"));
+        EXPECT_THAT(info_of("IN;SP1;PU;SP;", more).err, HasSubstr("it contains nothing to draw"));
     }
     EXPECT_EQ(nlohmann::json::parse(info_of("IN;SP1;", {"--json"}).out).at("extents_mm"), nullptr);
 }
@@ -433,8 +433,9 @@ TEST(PlotCommand, ToolpathHatchesClosedStrokes) {
     };
     // 40 mm of the square and 1.414 mm from the origin to it, where it stays: 20 s, 0.14 s, 6 s for the lift:
     // in whole seconds 27, as a clock tells it.
-    EXPECT_THAT(runs({}),
-                HasSubstr("0.041 m (0.040 m drawn, 0.001 m in the air), 1 lift, 0:27 min by the thesis, "));
+    EXPECT_THAT(
+        runs({}),
+        HasSubstr("0.041 m (0.040 m drawn, 0.001 m travel), 1 lift, 0:27 min by the thesis's formula, "));
     EXPECT_THAT(runs({"--hatch", "1.5"}),
                 HasSubstr(", 8 lifts")); // the square, lines at 1.5, 3, ... 10.5
     EXPECT_THAT(runs({"--hatch", "1.5", "--hatch-cross"}), HasSubstr(", 15 lifts"));
@@ -545,7 +546,7 @@ TEST(PlotCommand, JunkIsNotDecoded) {
                              "--out",
                              (folder / "points.csv").string()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("no command of HPGL"));
+    EXPECT_THAT(ended.err, HasSubstr("contains no HPGL command"));
     EXPECT_FALSE(std::filesystem::exists(folder / "points.csv"));
 }
 

@@ -69,7 +69,7 @@ TEST_F(Pmac, FillsABufferWithSeparateArguments) {
     EXPECT_THAT(filled.out, testing::EndsWith("\n5\n"));
     const Ended open = run({"pmac", "OPEN PLC 5", "CLEAR", "--port", port});
     EXPECT_EQ(open.exit_code, 1);
-    EXPECT_THAT(open.err, HasSubstr("'OPEN PLC 5' has no CLOSE: nothing of it was sent"));
+    EXPECT_THAT(open.err, HasSubstr("'OPEN PLC 5' has no CLOSE: none of it was sent"));
     EXPECT_THAT(run({"pmac", "LIST PLC 5", "--port", port}).out, testing::StartsWith("P20=7\n"));
 }
 
@@ -147,11 +147,11 @@ TEST_F(Pmac, MotorsKeepNoPowerThatNobodyAskedToKeep) {
     };
     const Ended went = run({"pmac", "I100=1", "#1J:200", "--power", "--port", port});
     EXPECT_EQ(went.exit_code, 0) << went.err;
-    EXPECT_THAT(went.err, HasSubstr("The motors have no power any more; --keep-power"));
+    EXPECT_THAT(went.err, HasSubstr("The motors are disabled; --keep-power"));
     EXPECT_FALSE(has_power());
     const Ended kept = run({"pmac", "#1J/", "--power", "--keep-power", "--port", port});
     EXPECT_EQ(kept.exit_code, 0) << kept.err;
-    EXPECT_THAT(kept.err, HasSubstr("The motors have power, and nobody watches over them."));
+    EXPECT_THAT(kept.err, HasSubstr("The motors are enabled and no longer supervised."));
     EXPECT_TRUE(has_power());
     EXPECT_TRUE(has_power()); // questions leave it as it was
     const Ended jogged = run({"pmac", "#1J:200", "--port", port});
@@ -217,7 +217,7 @@ TEST_F(Pmac, AMotionProgramNeedsPowerThatAPersonGave) {
     const Ended ended =
         run({"send", file, "--driver", "pmac", "--port", port, "--log", (scratch / "logs").string()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("no power"));
+    EXPECT_THAT(ended.err, HasSubstr("could not be enabled"));
     EXPECT_THAT(run({"pmac", "#1P", "--port", port}).out, testing::ContainsRegex("^-?0(\\.[0-9])?\n"));
 }
 
@@ -273,10 +273,10 @@ TEST_F(Pmac, ChecksThatJogsAndProgramsGoTheSameWay) {
     EXPECT_EQ(same.exit_code, 0) << same.err;
     EXPECT_THAT(
         same.out,
-        testing::ContainsRegex("X1 of a jog were \\+(119|12[01]) counts, of a program \\+(119|12[01])"));
+        testing::ContainsRegex("X1 gave \\+(119|12[01]) counts in a jog, \\+(119|12[01]) in a program"));
     const Ended other = run({"arm", "direction", "2", "--power", "--port", port});
     EXPECT_EQ(other.exit_code, 1);
-    EXPECT_THAT(other.out, HasSubstr("NOT the same way"));
+    EXPECT_THAT(other.out, HasSubstr("NOT the same direction"));
     EXPECT_THAT(other.out, HasSubstr("defined by -222 counts"));
 }
 
@@ -290,7 +290,7 @@ TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     ASSERT_EQ(found.exit_code, 0) << found.err;
     // The amplifier of motor 1 adds 996 bits, as the thesis found; to the bit the core's tests find it, in
     // computed time.
-    EXPECT_THAT(found.out, testing::ContainsRegex("-(9[89][0-9]|100[0-9]) is the middle \\(it was 0\\)"));
+    EXPECT_THAT(found.out, testing::ContainsRegex("the middle is -(9[89][0-9]|100[0-9]) \\(it was 0\\)"));
     EXPECT_THAT(run({"pmac", "I129", "--port", port}).out, testing::ContainsRegex("^-(9[89]|100)"));
     const std::string csv = (scratch / "step.csv").string(), png = (scratch / "step.png").string();
     Ended step;

@@ -38,7 +38,7 @@ TEST_F(Posts, ConvertWritesAProgramForAnotherControl) {
     EXPECT_EQ(klartext.exit_code, 0) << klartext.err;
     EXPECT_THAT(klartext.out, StartsWith("0 BEGIN PGM PART MM\n"));
     EXPECT_THAT(klartext.out, HasSubstr("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n"));
-    EXPECT_THAT(klartext.err, HasSubstr("mm from where straight axes would take it"));
+    EXPECT_THAT(klartext.err, HasSubstr("mm from the path of linear axis moves"));
     // The rapids before all axes are named go by the retract, and the first one of the tip in one piece.
     EXPECT_THAT(klartext.out, testing::Not(HasSubstr("Z+50.0000 R0 FMAX\n")));
     const Ended file = convert("ac-table", "fanuc-tcp", {"--out", out});
@@ -62,7 +62,7 @@ TEST_F(Posts, ConvertSaysWhatTheControlHasToHave) {
     EXPECT_THAT(plain.out, testing::Not(HasSubstr("machine positions")));
     write_content(file, "G21 G90\nS1500\nG0 X1 Y1 Z5\nG1 Z-1 F100\nM2\n");
     const Ended still = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "linuxcnc-xyz"});
-    EXPECT_THAT(still.err, HasSubstr("sets a spindle speed, 1500 1/min, and never switches the spindle on"));
+    EXPECT_THAT(still.err, HasSubstr("sets a spindle speed, 1500 1/min, but never starts the spindle"));
 }
 
 TEST_F(Posts, ConvertCutsFeedsUntilTheTipStaysOnTheProgramsWay) {
@@ -324,7 +324,7 @@ TEST_F(Posts, ConvertFindsSubroutinesInTheFoldersThatAreGiven) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("\nZ5.000\n"));
     EXPECT_THAT(convert("router-xyz", "grbl", {"--subroutines", part}).err,
-                HasSubstr("is a file, and a folder is needed"));
+                HasSubstr("is a file, but must be a folder"));
     EXPECT_THAT(convert("router-xyz", "grbl", {"--subroutines", scratch / "no"}).err,
                 HasSubstr("there is no folder"));
 }

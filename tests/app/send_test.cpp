@@ -70,7 +70,7 @@ TEST_F(Send, LetsGrblReadAProgramBeforeItRuns) {
     const Ended refused = with({"--check"});
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("line 2: error 20"));
-    EXPECT_THAT(with({"--check", "--trace-box"}).err, HasSubstr("--trace-box runs no program"));
+    EXPECT_THAT(with({"--check", "--trace-box"}).err, HasSubstr("--trace-box does not run a program"));
     EXPECT_EQ(with({"--check-only", "--continue"}).exit_code, 2);
     (void)emulator.stop();
 }
@@ -137,7 +137,7 @@ TEST_F(Send, ObeysKeysWhileItRuns) {
     sender.type("r"); // M0 is over when somebody says so
     const Ended ended = sender.end();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("(r goes on)"));
+    EXPECT_THAT(ended.err, HasSubstr("(r to resume)"));
     EXPECT_EQ(last_record(logs).at("end"), "done");
 }
 
@@ -326,7 +326,7 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
                     std::to_string(std::max(next, 2900)),
                     "--clearance",
                     "5"});
-        if (rest.err.find("the machine takes no job: the machine was moving") == std::string::npos) {
+        if (rest.err.find("the machine cannot accept a job: the machine was moving") == std::string::npos) {
             break;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -355,7 +355,7 @@ TEST_F(Send, AnotherCommandStopsWhatAKilledOneLeftMoving) {
     const Ended stopped = run(stop);
     EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
     EXPECT_THAT(stopped.out, HasSubstr("The machine was stopped (idle"));
-    EXPECT_THAT(run(stop).out, HasSubstr("The machine stands"));
+    EXPECT_THAT(run(stop).out, HasSubstr("The machine is not moving"));
     fs::remove_all(logs);
     write_content(file, zigzag(3));
     EXPECT_EQ(run(words()).exit_code, 0);
@@ -373,7 +373,7 @@ TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
     const Ended short_job = run(words());
     EXPECT_EQ(short_job.exit_code, 1);
     EXPECT_THAT(short_job.err, HasSubstr("may be lost (the controller was reset)"));
-    EXPECT_THAT(short_job.err, HasSubstr("Every job needs that, or --trust-position"));
+    EXPECT_THAT(short_job.err, HasSubstr("Every job requires this, or --trust-position"));
     EXPECT_THAT(short_job.err, HasSubstr("Stored work offsets may be wrong"));
 
     auto at_a_line = words();
@@ -382,7 +382,7 @@ TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
     const Ended refused = run(at_a_line);
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("(the controller was reset)"));
-    EXPECT_THAT(refused.err, HasSubstr("could start anywhere"));
+    EXPECT_THAT(refused.err, HasSubstr("could start at the wrong position"));
     at_a_line.emplace_back("--trust-position");
     EXPECT_EQ(run(at_a_line).exit_code, 0);
     at_a_line.pop_back();
@@ -397,11 +397,11 @@ TEST_F(Send, UnlocksNothingForAJobThatIsRefused) {
     at_a_line.insert(at_a_line.end(), {"--from-line", "6", "--clearance", "5", "--unlock"});
     Ended ended = run(at_a_line);
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("could start anywhere"));
+    EXPECT_THAT(ended.err, HasSubstr("could start at the wrong position"));
     ended = run(words());
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("--unlock goes on from where it")); // it is locked still
-    EXPECT_THAT(ended.err, testing::Not(HasSubstr("needs that"))) << "the position comes after the lock";
+    EXPECT_THAT(ended.err, HasSubstr("--unlock to continue from the current position")); // it is locked still
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("requires this"))) << "the position comes after the lock";
     EXPECT_THAT(ended.err, testing::Not(HasSubstr("reset to unlock")));
 }
 
@@ -440,7 +440,7 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
         for (const auto* why : {"program stop at line 3: M0",
                                 "optional stop at line 5: M1",
                                 "change to tool 4 at line 7: M6"}) {
-            sender.wait_for_error_text(std::string("holding: ") + why + " (r goes on)");
+            sender.wait_for_error_text(std::string("holding: ") + why + " (r to resume)");
             sender.type("r");
         }
         const Ended ended = sender.end();
@@ -484,7 +484,7 @@ TEST_F(Send, AsksForAMachineWhereItPlans) {
                 HasSubstr("the stream driver needs a port"));
     EXPECT_THAT(
         run({"send", file, "--driver", "grbl", "--port", port, "--machine", "router-xyz"}).err,
-        HasSubstr("a machine and where it stands are for the drivers virtual, cordic, stream and records"));
+        HasSubstr("--machine and --at apply only to the drivers virtual, cordic, stream and records"));
 }
 
 TEST_F(Send, ListsJobsAndPorts) {
@@ -492,7 +492,7 @@ TEST_F(Send, ListsJobsAndPorts) {
     for (const std::string& none : {std::string("/dev/zero"), program_file().string()}) {
         const Ended refused = run({"jobs", none});
         EXPECT_EQ(refused.exit_code, 1) << none;
-        EXPECT_THAT(refused.err, HasSubstr(none + ": is no folder"));
+        EXPECT_THAT(refused.err, HasSubstr(none + ": is not a folder"));
         EXPECT_EQ(refused.out, "");
     }
     write_content(logs + ".jsonl", "nonsense\n");

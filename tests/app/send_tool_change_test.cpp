@@ -57,7 +57,7 @@ TEST_F(SendToolChange, StopsForAnotherToolWhereGrblCannot) {
     stops.insert(stops.end(), {"--keys", "--tool-change", "stop", "--spin-up", "0.5"});
     Program sender(stops);
     sender.wait_for_error_text(
-        "holding: change to tool 3 at line 5: M6 (drill) (r goes on, with the zero of Z that is in force)");
+        "holding: change to tool 3 at line 5: M6 (drill) (r to resume, with the current Z zero)");
     sender.type("r");
     const Ended ended = sender.end();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -84,7 +84,7 @@ TEST_F(SendToolChange, LeavesToolChangesOutOfChecksAndTraces) {
         all.insert(all.end(), {"--tool-change", "stop", look});
         const Ended ended = run(all);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
-        EXPECT_THAT(ended.out, HasSubstr("the tool changes (M6) are left out here"));
+        EXPECT_THAT(ended.out, HasSubstr("tool changes (M6) are skipped here"));
     }
     (void)emulator.stop();
 }

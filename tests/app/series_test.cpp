@@ -94,18 +94,19 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     Emulator emulator(port, {"--speed", "50"});
     Ended ended = send({"--continue", "--yes"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("did not come to its end: Fault: "));
+    EXPECT_THAT(ended.err, HasSubstr("did not finish: Fault: "));
     EXPECT_THAT(run({"jobs", logs}).out,
                 AnyOf(HasSubstr("send " + a + " --driver grbl --port " + port + " --from-line "),
                       HasSubstr("from the beginning")));
     ended = send({"--continue"}, "20\n"); // it was switched on anew: nobody knows where the tool is
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("Line 20 could start anywhere"));
+    EXPECT_THAT(ended.err, HasSubstr("Line 20 could start at the wrong position"));
     EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
     // Line 5 cannot be begun; from line 20, then the other.
     ended = send({"--continue", "--trust-position"}, "5\n20\ny\n");
     EXPECT_THAT(ended.out, HasSubstr("a limit switch was triggered")) << "what ended it is still known";
-    EXPECT_THAT(ended.out, AnyOf(HasSubstr(" comes next."), HasSubstr("from the beginning")));
+    EXPECT_THAT(ended.out,
+                AnyOf(HasSubstr("Resumes at line "), HasSubstr("only restart from the beginning")));
     EXPECT_THAT(ended.out, HasSubstr(logs + "/a-0001.jsonl"));
     EXPECT_THAT(ended.out, HasSubstr("approach to this line needs 6 lines"));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -153,7 +154,7 @@ TEST_F(Series, AProgramThatCannotBeHadAgainIsLeftOutIfAPersonSaysSo) {
     EXPECT_THAT(ended.err, HasSubstr("b.ngc"));
     ended = send({"--continue"}, "s\ny\n");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr(b + " cannot go on: "));
+    EXPECT_THAT(ended.out, HasSubstr(b + " cannot continue: "));
     EXPECT_FALSE(fs::exists(logs + "/b-0001.jsonl"));
     EXPECT_TRUE(fs::exists(logs + "/c-0001.jsonl"));
 }

@@ -94,7 +94,7 @@ TEST_F(Streams, NobodyIsAskedWhereTheQuestionCannotBeRead) {
     twice.insert(twice.begin() + 1, file);
     const Ended ended = Program(twice, "y\n", {"sh", "-c", "\"$0\" \"$@\" >/dev/full"}).end();
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("nobody can be asked"));
+    EXPECT_THAT(ended.err, HasSubstr("cannot ask for input"));
     EXPECT_FALSE(fs::exists(fs::path(logs) / "way-0002.jsonl")) << "nobody said that it may begin";
 }
 
@@ -154,7 +154,7 @@ TEST_F(Streams, AJobIsNotSuspended) {
     Program sender(words());
     sender.wait_for_error_text("Block ");
     sender.send(SIGTSTP);
-    sender.wait_for_error_text("not suspended while it watches over a machine");
+    sender.wait_for_error_text("not suspended while it supervises a machine");
     sender.send(SIGINT);
     EXPECT_EQ(sender.end().exit_code, 1);
     EXPECT_EQ(end_of_log(logs).at("end"), "cancelled");

@@ -87,7 +87,7 @@ TEST_F(StudyOnRanks, CasesOfALostRankAreNamedAndAnEarlierStudyStays) {
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(
         ended.err,
-        HasSubstr("rank 1 has not ended; without its cases: dome on rotary-tilt-listing with 20 points, "));
+        HasSubstr("rank 1 has not ended; missing cases: dome on rotary-tilt-listing with 20 points, "));
     EXPECT_THAT(ended.err, AllOf(HasSubstr("0 of 15 cases"), HasSubstr("nothing is written")));
     EXPECT_EQ(content_of(folder_ / "out" / "kinematic-error.csv"), "an earlier study");
 }
@@ -101,10 +101,11 @@ TEST_F(StudyOnRanks, TheOthersNameTheirCasesWhenRank0IsLost) {
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(
         ended.err,
-        AllOf(HasSubstr("rank 1 was stopped, and rank 0 does not answer; without its cases: dome on "
+        AllOf(HasSubstr("rank 1 was stopped and rank 0 does not respond; missing cases: dome on "
                         "rotary-tilt-listing with 20 points (begun), dome on rotary-tilt-listing with "
                         "40 points, "),
-              HasSubstr("no case was written to " + (folder_ / "out" / "unfinished").string())));
+              HasSubstr("no case that rank 1 can see was written to " +
+                        (folder_ / "out" / "unfinished").string())));
 }
 
 TEST_F(StudyOnRanks, CasesThatAreDoneOutliveRank0) {
@@ -123,10 +124,10 @@ TEST_F(StudyOnRanks, CasesThatAreDoneOutliveRank0) {
               "not in these tables: 1 of 2 cases\ndome on rotary-tilt-listing with 12 points\n");
     EXPECT_THAT(content_of(unfinished / "kinematic-error.csv"), HasSubstr("\ndome,ca-head,12,"));
     EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("the cases that were done are in " + unfinished.string() +
+                AllOf(HasSubstr("the finished cases are in " + unfinished.string() +
                                 ", whose missing.txt names the others\n"),
-                      HasSubstr("its last that is done may not be written: dome on ca-head with 12 points"),
-                      Not(HasSubstr("without its cases"))));
+                      HasSubstr("its last finished case may not be written: dome on ca-head with 12 points"),
+                      Not(HasSubstr("missing cases"))));
 }
 
 TEST_F(StudyOnRanks, AFolderThatCannotBeMadeEndsAllOfThem) {
@@ -155,24 +156,24 @@ TEST_F(StudyOnRanks, ASetUpSearchFindsWhatOneProcessFinds) {
 
 TEST_F(StudyOnRanks, PlacesOfALostRankAreNamed) {
     Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
-    program.wait_for_error_text("90000 places on 2 ranks");
+    program.wait_for_error_text("90000 positions on 2 ranks");
     kill_rank(program, 1);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("rank 1 has not ended; without "));
-    EXPECT_THAT(ended.err, HasSubstr(" of its places: from ("));
+    EXPECT_THAT(ended.err, HasSubstr("rank 1 has not ended; "));
+    EXPECT_THAT(ended.err, HasSubstr(" of its positions are missing: from ("));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }
 
 TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLost) {
     Program program(set_up(folder_ / "out", "300"), {}, two_ranks);
-    program.wait_for_error_text("50 %  90000 places on 2 ranks"); // before, the other may not know of them
+    program.wait_for_error_text("50 %  90000 positions on 2 ranks"); // before, the other may not know of them
     kill_rank(program, 0);
     const Ended ended = program.end();
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(ended.err,
-                AllOf(HasSubstr("rank 1 was stopped, and rank 0 does not answer; without "),
-                      HasSubstr(" of its places: from ("),
+                AllOf(HasSubstr("rank 1 was stopped and rank 0 does not respond; "),
+                      HasSubstr(" of its positions are missing: from ("),
                       HasSubstr("; nothing is written\n")));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }
@@ -188,8 +189,9 @@ TEST_F(StudyOnRanks, PlacesAreNamedWhenRank0IsLostOnItsWayDownhill) {
     EXPECT_NE(ended.exit_code, 0);
     EXPECT_THAT(
         ended.err,
-        AllOf(HasSubstr("rank 1 was stopped, and rank 0 does not answer; it had measured all of its "),
-              HasSubstr(" places, which are lost with rank 0, as is what that does alone after them: from ("),
+        AllOf(HasSubstr("rank 1 was stopped and rank 0 does not respond; it had measured all of its "),
+              HasSubstr(" positions, which are lost with rank 0, as is what rank 0 computes alone after "
+                        "them: from ("),
               HasSubstr("; nothing is written\n")));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "set-up.csv"));
 }

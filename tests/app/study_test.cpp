@@ -80,11 +80,11 @@ TEST(StudyCommand, WritesAPictureOfOneNumberOfPointsTooAndSetsAnUnfinishedStudyA
     EXPECT_TRUE(study.at("rows")[2].at("no_gain"));
     EXPECT_THAT(content_of(scratch / "out/kinematic-error.md"), HasSubstr(" (no gain) | "));
     EXPECT_THAT(ended.out, HasSubstr("  no gain\n"));
-    EXPECT_THAT(ended.out, HasSubstr("\nno gain: nothing better was found than"));
+    EXPECT_THAT(ended.out, HasSubstr("\nno gain: the method found nothing better than"));
     EXPECT_THAT(ended.err, AllOf(HasSubstr(" 1 case\n"), Not(HasSubstr("rank"))));
     EXPECT_FALSE(std::filesystem::exists(scratch / "out/unfinished"));
     const std::filesystem::path aside = scratch / "out/unfinished-1";
-    EXPECT_THAT(ended.err, HasSubstr("what an earlier study left is now in " + aside.string()));
+    EXPECT_THAT(ended.err, HasSubstr("the results of an earlier study are now in " + aside.string()));
     for (const char* name : {"kinematic-error.csv", "missing.txt", "notes.txt"}) {
         EXPECT_EQ(content_of(aside / name), "left") << name;
     }

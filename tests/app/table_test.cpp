@@ -46,7 +46,7 @@ TEST(TableCommand, RefusedRecordEndsTheJobAndTheLogSaysHowFar) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.out + ended.err, HasSubstr("the machine answered 'error' to record 50"));
     table.send(SIGINT);
-    EXPECT_THAT(table.end().out, HasSubstr("49 records obeyed, 0 lines that were none"));
+    EXPECT_THAT(table.end().out, HasSubstr("49 records executed, 0 invalid lines"));
 }
 
 std::vector<std::string>
@@ -89,8 +89,7 @@ TEST(TableCommand, JobThatATableInterruptsIsResumedWithNothingLostOrDoubled) {
     const Ended broken = run(send_words(file.string(), port, folder));
     EXPECT_EQ(broken.exit_code, 1);
     EXPECT_THAT(broken.out + broken.err, HasSubstr("the machine answered 'error' to record 12"));
-    EXPECT_THAT(first->stop().out,
-                HasSubstr("11 records obeyed, 0 lines that were none, at X 10.0000 Y 0.0000"));
+    EXPECT_THAT(first->stop().out, HasSubstr("11 records executed, 0 invalid lines, at X 10.0000 Y 0.0000"));
     const Ended listed = run({"jobs", (folder / "jobs").string(), "--json"});
     EXPECT_THAT(listed.out, HasSubstr("\"next_line\": 13"));
 
@@ -108,8 +107,7 @@ TEST(TableCommand, JobThatATableInterruptsIsResumedWithNothingLostOrDoubled) {
     const Ended resumed = run(words);
     EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     // Ten positions are left; the approach stands there already.
-    EXPECT_THAT(second->stop().out,
-                HasSubstr("10 records obeyed, 0 lines that were none, at X 20.0000 Y 0.0000"));
+    EXPECT_THAT(second->stop().out, HasSubstr("10 records executed, 0 invalid lines, at X 20.0000 Y 0.0000"));
 }
 
 // A plot's program comes to its first cut in a few lines; a fault in that cut goes on from there.
@@ -168,7 +166,7 @@ TEST(TableCommand, FilesLieWhereTheirOriginIs) {
                             "--origin",
                             "10,20"});
     EXPECT_EQ(grbl.exit_code, 2);
-    EXPECT_THAT(grbl.err, HasSubstr("other controllers have work offsets of their own"));
+    EXPECT_THAT(grbl.err, HasSubstr("use the work offsets of the controller"));
 }
 
 TEST(TableCommand, PointsWaitForTheirAnswers) {
@@ -200,7 +198,7 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.out, HasSubstr("\"points\": 7"));
     EXPECT_THAT(refused.err, HasSubstr("nothing was sent after point 8"));
-    EXPECT_THAT(refuses.stop().out, HasSubstr("7 records obeyed, 0 lines that were none, at X 1.7143"));
+    EXPECT_THAT(refuses.stop().out, HasSubstr("7 records executed, 0 invalid lines, at X 1.7143"));
     // Of all that there is a log, as of every job, and the command that plays it again.
     const std::string jobs = run({"jobs", (folder / "jobs").string()}).out;
     EXPECT_THAT(jobs, HasSubstr("fault after"));
@@ -230,8 +228,7 @@ TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
     EXPECT_THAT(far.err, HasSubstr("axis X would move to 480.500, outside 0.000 ... 480.000 mm"));
     const Ended good = run(send_words((folder / "good.path").string(), port, folder));
     EXPECT_EQ(good.exit_code, 0) << good.err;
-    EXPECT_THAT(table.stop().out,
-                HasSubstr("4 records obeyed, 0 lines that were none, at X 480.0000 Y 2.0000"));
+    EXPECT_THAT(table.stop().out, HasSubstr("4 records executed, 0 invalid lines, at X 480.0000 Y 2.0000"));
 }
 
 TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
@@ -259,11 +256,10 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     EXPECT_THAT(played.out, HasSubstr("\"points\": 36"));
     EXPECT_THAT(played.out, HasSubstr("\"time_s\": 1.4"));
     EXPECT_THAT(played.out, HasSubstr("\"p99\""));
-    EXPECT_THAT(table.stop().out,
-                HasSubstr("36 records obeyed, 0 lines that were none, at X 10.0000 Y 10.0000"));
+    EXPECT_THAT(table.stop().out, HasSubstr("36 records executed, 0 invalid lines, at X 10.0000 Y 10.0000"));
 
     EXPECT_THAT(played.err,
-                HasSubstr("nobody knows whether the table takes records as \"t {X} {Y} {Z} {a} {s}\""));
+                HasSubstr("it is unknown whether the table accepts records as \"t {X} {Y} {Z} {a} {s}\""));
 
     Emulator other((folder / "other").string(), {"--record", "{X};{Y};{Z}"}, "table");
     const Ended unknown = run({"plot",
@@ -281,8 +277,8 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
     EXPECT_THAT(sent, HasSubstr("36 of 36 blocks were sent."));
     EXPECT_THAT(sent, testing::Not(HasSubstr("executed")));
     const std::string told = other.stop().out;
-    EXPECT_THAT(told, HasSubstr("0 records obeyed, 36 lines that were none"));
-    EXPECT_THAT(told, HasSubstr("a record of this table is \"{X};{Y};{Z}\""));
+    EXPECT_THAT(told, HasSubstr("0 records executed, 36 invalid lines"));
+    EXPECT_THAT(told, HasSubstr("this table expects records as \"{X};{Y};{Z}\""));
 
     const std::string diagonal = (folder / "diagonal.txt").string();
     EXPECT_EQ(run({"plot", "play", diagonal, "--period", "0.04", "--speed", "50", "--log", log}).exit_code,
@@ -314,9 +310,9 @@ TEST(TableCommand, RelativePointsSayWhereTheTableHasToStand) {
                                    "ok",
                                    "--log",
                                    (folder / "jobs").string()};
-    EXPECT_THAT(run(words).err, Not(HasSubstr("has to stand")));
+    EXPECT_THAT(run(words).err, Not(HasSubstr("the table must be")));
     words.emplace_back("--relative");
-    EXPECT_THAT(run(words).err, HasSubstr("the table has to stand at X 0.000 Y 0.000 Z 5.000"));
+    EXPECT_THAT(run(words).err, HasSubstr("the table must be at X 0.000 Y 0.000 Z 5.000"));
 }
 
 TEST(TableCommand, AnAnswerThatComesTwiceEndsTheJobBeforeTheNextRecord) {

@@ -262,7 +262,7 @@ TEST(ThesisCommand, RefusesAStartGridThatIsNone) {
                             "--out",
                             scratch / "o.dat"});
     EXPECT_EQ(none.exit_code, 2);
-    EXPECT_THAT(none.err, HasSubstr("--residuals is of --method elliptic"));
+    EXPECT_THAT(none.err, HasSubstr("--residuals applies only to --method elliptic"));
 }
 
 TEST(ThesisCommand, WritesTheGridOfEveryMethod) {
@@ -309,7 +309,7 @@ TEST(ThesisCommand, WritesTheFilesOfTheProjectsOwnMachineAndDirection) {
         const Ended holed =
             run({"thesis", "files", scratch / "dome.json", "--out", scratch / "out", "--nodes", list});
         EXPECT_EQ(holed.exit_code, 2) << list;
-        EXPECT_THAT(holed.err, HasSubstr("has an empty place")) << list;
+        EXPECT_THAT(holed.err, HasSubstr("has an empty entry")) << list;
     }
     EXPECT_NE(path({"--direction", "along-u"}), own);
     json["machine"]["workpiece_offset"] = {-15.0, 0.0, 100.0};
@@ -335,7 +335,8 @@ TEST(ThesisCommand, WritesOverNoFileThatIsRead) {
     for (const char* option : {"--norms", "--residuals"}) {
         const Ended ended = grid(option, project);
         EXPECT_EQ(ended.exit_code, 1);
-        EXPECT_THAT(ended.err, HasSubstr(std::string(option) + " would write over PROJECT, which is read"));
+        EXPECT_THAT(ended.err,
+                    HasSubstr(std::string(option) + " would overwrite PROJECT, which is an input file"));
     }
     EXPECT_EQ(content_of(project), content_of(dome_project));
     EXPECT_THAT(grid("--norms", folder / "grid.dat").err, HasSubstr("name the same file"));

@@ -55,7 +55,7 @@ TEST(Usage, WhatIsMissingIsNamed) {
     expect_wrong_usage({"render", dome_project, "--out", "x.png"}, "--view is required");
     expect_wrong_usage({"run", dome_project}, "--driver is required");
     expect_wrong_usage({"run", dome_project, "--driver", "stream"}, "needs a port (give --port)");
-    expect_wrong_usage({"emulate", "grbl"}, "name --pty LINK or --tcp PORT");
+    expect_wrong_usage({"emulate", "grbl"}, "give --pty LINK or --tcp PORT");
     expect_wrong_usage({"emulate", "grbl", "--tcp", "0", "--faults", "bend=1"}, "bend");
 }
 
@@ -94,7 +94,7 @@ TEST(Usage, ASpeedIsInItsRange) {
 TEST(Usage, ANumberOfThreadsIsWhole) {
     for (const char* threads : {"", "0", "-2", "1.5", "2x", "many", "1025", "99999999999"}) {
         const std::string says =
-            "--threads: \"" + std::string(threads) + "\" is no whole number from 1 to 1024";
+            "--threads: \"" + std::string(threads) + "\" is not a whole number from 1 to 1024";
         expect_wrong_usage({"plan", dome_project, "--out", "x", "--threads", threads}, says);
         expect_wrong_usage({"--threads", threads, "plan", dome_project, "--out", "x"}, says);
     }
@@ -131,7 +131,7 @@ TEST(Usage, SeriesOfNumbersLeaveTheFileBehindThemAlone) {
     expect_wrong_usage({"send", "absent", "--origin", "1,2,3,4"},
                        "--origin: At Most 3 required but received 4");
     expect_wrong_usage({"send", "absent", "--origin", "1"}, "--origin");
-    expect_wrong_usage({"send", "absent", "--origin", "nan,1"}, "no finite number");
+    expect_wrong_usage({"send", "absent", "--origin", "nan,1"}, "not a finite number");
 }
 
 /// All commands, with those of their groups: "plan", "plot toolpath".
@@ -193,12 +193,12 @@ TEST(Usage, AnOptionThatTheDriverDoesNotHaveIsRefused) {
                                                                                       {"--home"}}) {
         std::vector<std::string> command{"run", dome_project, "--driver", "virtual"};
         command.insert(command.end(), more.begin(), more.end());
-        expect_wrong_usage(command, "the virtual driver has no " + more.front());
+        expect_wrong_usage(command, "the virtual driver does not support " + more.front());
     }
     expect_wrong_usage({"send", "a.ngc", "--driver", "grbl", "--port", "/dev/null", "--speed", "3"},
-                       "the grbl driver has no --speed: that is of virtual, cordic");
+                       "the grbl driver does not support --speed, which is for virtual, cordic");
     expect_wrong_usage({"send", "a.ngc", "--driver", "linuxcnc", "--port", "tcp:localhost:1", "--power"},
-                       "the linuxcnc driver has no --power");
+                       "the linuxcnc driver does not support --power");
 }
 
 // "plann" was read as a file of that name.

@@ -25,9 +25,9 @@ Approach approach_for(const ApproachWish& wish) {
     try {
         const jobs::Job whole = make_job(wish.source);
         if (!wish.begin.hash.empty() && jobs::program_hash(whole.listing->text) != wish.begin.hash) {
-            throw Error("the program is not the one that was broken off: it was changed since",
+            throw Error("the program has changed since the job was interrupted",
                         {},
-                        "run it from its beginning, or choose the line by yourself");
+                        "run it from the beginning, or choose the line yourself");
         }
         jobs::RunFromSettings settings;
         settings.dialect = wish.dialect;

@@ -15,37 +15,37 @@ using widgets::Permission;
 
 Permission drawn(const Workbench& now) {
     if (now.session.workspace != Workspace::arm || !now.arm.loaded()) {
-        return Permission::refused("In the Arm workspace (Shift+F6) only.");
+        return Permission::refused("Available only in the Arm workspace (Shift+F6).");
     }
-    return now.arm_connected() ? Permission::refused("The picture follows the connected controller.")
+    return now.arm_connected() ? Permission::refused("The view follows the connected controller.")
                                : Permission{};
 }
 
 Permission can_go(const Workbench& now) {
     const Permission able = drawn(now);
     return able.allowed && now.arm.chosen() < 0
-               ? Permission::refused("Set a goal that the arm reaches first.")
+               ? Permission::refused("Set a goal that the arm can reach first.")
                : able;
 }
 
 Permission moves(const Workbench& now) {
     return now.arm.moving() || now.arm.works_out_path_motion() ? Permission{}
-                                                               : Permission::refused("Nothing moves.");
+                                                               : Permission::refused("Nothing is moving.");
 }
 
 Permission can_enable(const Workbench& now) {
     if (!now.controller.connected() || !now.controller.can.power) {
-        return Permission::refused("Nothing is connected whose motors get their power from here.");
+        return Permission::refused("No controller is connected whose motors can be enabled here.");
     }
     if (const Permission in_sight = seen(now); !in_sight.allowed) {
         return in_sight;
     }
     if (now.controller.status.powered) {
-        return Permission::refused("The motors have power.");
+        return Permission::refused("The motors already have power.");
     }
     const DriverState state = now.controller.status.state;
     if (state == DriverState::alarm) {
-        return Permission::refused("There is an alarm: look at the arm, then unlock it first.");
+        return Permission::refused("Alarm: inspect the arm, then unlock it.");
     }
     return state == DriverState::idle || state == DriverState::stopped
                ? Permission{}
@@ -67,26 +67,21 @@ void add_arm_actions(Actions& actions) {
     add(actions,
         {"arm.home",
          menu,
-         "Draw at home",
-         "Upper arm upright, forearm level. Only the picture.",
+         "Go to home pose (display only)",
+         "Shows the arm with the upper arm vertical and the forearm level.",
          "",
          icons::home},
         drawn,
         [](Hands& hands) { hands.workshop.arm().go_home(); });
     add(actions,
-        {"arm.open",
-         menu,
-         "Open an arm",
-         "The file of an arm that does not ship with the program.",
-         "",
-         icons::folder},
+        {"arm.open", menu, "Open an arm", "Loads an arm description from a file.", "", icons::folder},
         drawn,
         [](Hands& hands) { hands.session.question = FileQuestion::open_arm; });
     add(actions,
         {"arm.go_joints",
          menu,
-         "Go to the goal by joints",
-         "All joints at once, as fast as they can; the tool goes anywhere between.",
+         "Joint move to the goal",
+         "Moves all joints at once, as fast as possible; the tool path in between is not controlled.",
          "",
          icons::play},
         can_go,
@@ -94,28 +89,33 @@ void add_arm_actions(Actions& actions) {
     add(actions,
         {"arm.go_straight",
          menu,
-         "Go to the goal in a line",
-         "The tip along a straight line, the tool turning evenly.",
+         "Linear move to the goal",
+         "Moves the tip along a straight line; the tool orientation changes uniformly.",
          "",
          icons::toolpath},
         can_go,
         move_arm<ArmMove::straight>);
     add(actions,
-        {"arm.stop", menu, "Stop the drawn arm", "It stays where it is.", "", icons::stop},
+        {"arm.stop", menu, "Stop the simulated arm", "The arm stays where it is.", "", icons::stop},
         moves,
         [](Hands& hands) { hands.workshop.arm().stop(); });
     add(
         actions,
-        {"arm.clear_trace", menu, "Clear the trace", "Forgets where the tip has been.", "", icons::remove},
+        {"arm.clear_trace",
+         menu,
+         "Clear the trace",
+         "Clears the recorded path of the tip.",
+         "",
+         icons::remove},
         [](const Workbench& now) {
-            return now.arm.loaded() ? Permission{} : Permission::refused("There is no arm.");
+            return now.arm.loaded() ? Permission{} : Permission::refused("No arm is loaded.");
         },
         [](Hands& hands) { hands.workshop.arm().clear_trace(); });
     add(actions,
         {"arm.enable",
          menu,
-         "Give the motors power",
-         "Closes the loops of the motors where they stand. Look at the arm first.",
+         "Enable motors",
+         "Closes the servo loops of the motors at their present position. Inspect the arm first.",
          "",
          icons::plug},
         can_enable,

@@ -109,7 +109,7 @@ void ArmBench::set_joints(const JointPositions& joints) {
     stop();
     refusal_.clear();
     if (const int outside = arm().joint_outside(joints); outside >= 0) {
-        refusal_ = "Joint " + arm().joint(outside).name + " stands at its limit.";
+        refusal_ = "Joint " + arm().joint(outside).name + " is at its limit.";
     }
     const JointPositions wanted = inside(arm(), joints);
     if (std::string why = arm::leaves_zone(arm(), joints_, wanted); !why.empty()) {
@@ -245,7 +245,7 @@ void ArmBench::drop_goal() {
 
 void ArmBench::go(ArmMove how) {
     if (chosen_ < 0) {
-        throw Error("there is no solution to go to", {}, "set a goal that the arm reaches");
+        throw Error("there is no solution to move to", {}, "set a goal that the arm can reach");
     }
     const motion::ArmStop goal{
         "The goal", solutions_[static_cast<std::size_t>(chosen_)].joints, how == ArmMove::straight, 1.0};
@@ -297,7 +297,7 @@ motion::Trajectory ArmBench::planned(const std::vector<motion::ArmStop>& stops) 
     for (double time = 0.0; arm().zone() != nullptr && time < tour.duration() + glance; time += glance) {
         JointPositions at = tour.at(std::min(time, tour.duration())).position;
         if (const std::string why = arm::leaves_zone(arm(), before, at); !why.empty()) {
-            throw Error(fmt::format("on the way, after {:.1f} s, {}", time, why));
+            throw Error(fmt::format("after {:.1f} s of the motion, {}", time, why));
         }
         before = std::move(at);
     }
@@ -341,7 +341,7 @@ void ArmBench::look_at_path(std::optional<ArmPathWish> wish) {
 
 void ArmBench::want_path_motion(bool of_card) {
     if (!path_wish_) {
-        throw Error("there is no path on the arm", {}, "show one first");
+        throw Error("there is no path on the arm", {}, "show a path first");
     }
     ArmPathWish wish = *path_wish_;
     wish.joints = joints_;

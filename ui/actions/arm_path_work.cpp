@@ -42,7 +42,7 @@ void find(ArmPathAnswer& answer, const Progress& progress) {
     const arm::ArmModel& arm = wish.arm->arm();
     const auto ways = program::arm_ways(wish.program, wish.machine, wish.base_T_part);
     if (ways.empty()) {
-        throw Error("the program moves nothing");
+        throw Error("the program contains no motion");
     }
     const arm::ArmPath path = arm::follow_path_well(arm, ways, wish.joints, settings_of(wish), progress);
     answer.track = track_of(path, ways);

@@ -18,12 +18,12 @@ using widgets::Permission;
 Permission in_workspace(const Workbench& now) {
     return now.session.workspace == Workspace::arm && now.arm.loaded()
                ? Permission{}
-               : Permission::refused("In the Arm workspace (Shift+F6) only.");
+               : Permission::refused("Available only in the Arm workspace (Shift+F6).");
 }
 
 Permission known_position(const drivers::DriverStatus& status) {
     return status.position_known ? Permission{}
-                                 : Permission::refused("The position is not known: home the arm first.");
+                                 : Permission::refused("The position is unknown: home the arm first.");
 }
 
 /// A point is where the arm stands: of a connected one that has to be known.
@@ -39,7 +39,7 @@ Permission can_play_arm(const Workbench& now) {
     }
     const drivers::DriverStatus& status = now.controller.status;
     if (status.state != DriverState::idle && status.state != DriverState::stopped) {
-        return Permission::refused(status.state == DriverState::alarm ? "There is an alarm."
+        return Permission::refused(status.state == DriverState::alarm ? "An alarm is active."
                                                                       : "The arm is moving.");
     }
     if (!status.powered) {
@@ -50,8 +50,9 @@ Permission can_play_arm(const Workbench& now) {
 
 Permission can_play_points(const Workbench& now) {
     const Permission able = can_play_arm(now);
-    return able.allowed && now.project.arm.points.empty() ? Permission::refused("No point was taught yet.")
-                                                          : able;
+    return able.allowed && now.project.arm.points.empty()
+               ? Permission::refused("No point has been taught yet.")
+               : able;
 }
 
 Permission sound_program(const Workbench& now) {
@@ -59,19 +60,19 @@ Permission sound_program(const Workbench& now) {
         return Permission::refused("There is no program yet: write one under Program.");
     }
     return now.arm.program().can_be_read() ? Permission{}
-                                           : Permission::refused("The program has faults: see its lines.");
+                                           : Permission::refused("The program has errors: see its lines.");
 }
 
 Permission can_simulate(const Workbench& now) {
     if (const Permission there = in_workspace(now); !there.allowed) {
         return there;
     }
-    return now.arm.program().busy() ? Permission::refused("It is being simulated.") : sound_program(now);
+    return now.arm.program().busy() ? Permission::refused("The simulation is running.") : sound_program(now);
 }
 
 Permission can_run_arm_program(const Workbench& now) {
     if (!now.arm_connected()) {
-        return Permission::refused("No PMAC is connected: simulate it.");
+        return Permission::refused("No PMAC is connected: simulate the program instead.");
     }
     const Permission able = can_play_arm(now);
     return able.allowed ? sound_program(now) : able;
@@ -84,7 +85,7 @@ Permission takes_lines(const Workbench& now) {
     const DriverState state = now.controller.status.state;
     return state == DriverState::idle || state == DriverState::stopped
                ? Permission{}
-               : Permission::refused(state == DriverState::alarm ? "There is an alarm."
+               : Permission::refused(state == DriverState::alarm ? "An alarm is active."
                                                                  : "The arm is moving.");
 }
 
@@ -92,7 +93,7 @@ Permission can_load_settings(const Workbench& now) {
     const Permission able = takes_lines(now);
     return able.allowed && now.controller.status.powered
                ? Permission::refused(
-                     "The motors have power, and a wrong setting would move them at once: Kill first.")
+                     "The motors have power, and a wrong setting would move them at once: use Kill first.")
                : able;
 }
 
@@ -107,15 +108,15 @@ Permission can_send_path(const Workbench& now) {
         return able;
     }
     if (now.arm.works_out_path_motion()) {
-        return Permission::refused("Its motion is being worked out.");
+        return Permission::refused("The motion is being computed.");
     }
     const auto path = now.arm.path();
     if (!path || !path->track) {
-        return Permission::refused("There is no path on the arm: show one first.");
+        return Permission::refused("No path is shown on the arm: show one first.");
     }
     return path->reach.holes.empty()
                ? Permission{}
-               : Permission::refused("The arm does not reach all of it: " + path->reach.holes.front().why +
+               : Permission::refused("The arm cannot reach the whole path: " + path->reach.holes.front().why +
                                      ".");
 }
 
@@ -124,7 +125,7 @@ Permission sound_motion_file(const Workbench& now) {
         return there;
     }
     if (!now.arm.motion_file().faults().empty()) {
-        return Permission::refused("The motion file has a fault: see its line.");
+        return Permission::refused("The motion file has an error: see its line.");
     }
     return now.arm.motion_file().has_blocks()
                ? Permission{}
@@ -132,8 +133,9 @@ Permission sound_motion_file(const Workbench& now) {
 }
 
 Permission can_simulate_motion(const Workbench& now) {
-    return now.arm_connected() ? Permission::refused("The picture follows the connected controller: play it.")
-                               : sound_motion_file(now);
+    return now.arm_connected()
+               ? Permission::refused("The view follows the connected controller: play the file instead.")
+               : sound_motion_file(now);
 }
 
 Permission can_play_motion(const Workbench& now) {
@@ -209,14 +211,14 @@ template <FileQuestion question> void ask_for_arm_file(Hands& hands) {
 void add_arm_teach_actions(Actions& actions) {
     constexpr std::string_view menu = "Arm";
     add(actions,
-        {"arm.teach", menu, "Teach this point", "Keeps where the arm stands now.", "Ctrl+T", icons::add},
+        {"arm.teach", menu, "Teach this point", "Stores the present pose of the arm.", "Ctrl+T", icons::add},
         can_teach,
         record);
     add(actions,
         {"arm.play_points",
          menu,
          "Play the points",
-         "Through all taught points: the drawn arm, or the connected one.",
+         "Moves the simulated arm, or the connected one, through all taught points.",
          "",
          icons::play},
         can_play_points,
@@ -224,18 +226,19 @@ void add_arm_teach_actions(Actions& actions) {
             hands.workshop.play_on_arm(hands.workshop.arm().tour(hands.now.project.arm.points));
         });
     add(actions,
-        {"arm.open_points", menu, "Open points", "In place of the present ones.", "", icons::folder},
+        {"arm.open_points", menu, "Open points", "Replaces the present points.", "", icons::folder},
         in_workspace,
         ask_for_arm_file<FileQuestion::open_points>);
     add(actions,
-        {"arm.save_points", menu, "Save points", "As a file of their own.", "", icons::save},
+        {"arm.save_points", menu, "Save points", "Saves it to a separate file.", "", icons::save},
         in_workspace,
         ask_for_arm_file<FileQuestion::save_points>);
     add(actions,
         {"arm.simulate",
          menu,
          "Simulate the program",
-         "The text as it stands, on an emulated card; the drawn arm does it, unless one is connected.",
+         "Runs the present text on an emulated card and moves the simulated arm, unless a real one is "
+         "connected.",
          "",
          icons::play},
         can_simulate,
@@ -244,17 +247,22 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.send_program",
          menu,
          "Send the program",
-         "Into the card's PROG 1; nothing moves.",
+         "Loads the program into PROG 1 of the card; nothing moves.",
          "",
          icons::plug},
         can_send_arm_program,
         send);
     add(actions,
-        {"arm.run_program", menu, "Run the program", "Sends it to the card and runs it.", "", icons::play},
+        {"arm.run_program",
+         menu,
+         "Run the program",
+         "Sends the program to the card and runs it.",
+         "",
+         icons::play},
         can_run_arm_program,
         run);
     add(actions,
-        {"arm.open_program", menu, "Open a program", "In place of the present text.", "", icons::folder},
+        {"arm.open_program", menu, "Open a program", "Replaces the present text.", "", icons::folder},
         in_workspace,
         ask_for_arm_file<FileQuestion::open_motion_program>);
     add(actions,
@@ -265,7 +273,8 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.play_file",
          menu,
          "Play a motion file",
-         "Lines and arcs of the tool from where it stands: the drawn arm, or the connected one.",
+         "Runs lines and arcs of the tool from its present position, with the simulated arm or the connected "
+         "one.",
          "",
          icons::file},
         can_play_arm,
@@ -274,7 +283,7 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.simulate_motion",
          menu,
          "Simulate the motion file",
-         "The text as it is, by the drawn arm, from the home of the thesis on.",
+         "Runs the present text with the simulated arm, starting at the home of the thesis.",
          "",
          icons::play},
         can_simulate_motion,
@@ -283,7 +292,8 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.stream_motion",
          menu,
          "Stream the motion file to an emulated card",
-         "Point by point through its dual-ported RAM, with the flags and the interrupt of the thesis.",
+         "Streams it point by point through the dual-ported RAM, with the flags and the interrupt of the "
+         "thesis.",
          "",
          icons::play},
         can_simulate_motion,
@@ -291,8 +301,8 @@ void add_arm_teach_actions(Actions& actions) {
     add(actions,
         {"arm.play_motion",
          menu,
-         "Play the motion file that is written",
-         "From where the arm is: the drawn arm, or the connected one.",
+         "Play the edited motion file",
+         "Starts at the present position of the simulated arm or the connected one.",
          "",
          icons::play},
         can_play_motion,
@@ -301,13 +311,13 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.save_result",
          menu,
          "Save the result of the motion file",
-         "Points and joints from the home of the thesis on, in the layout of the thesis.",
+         "Writes points and joints from the home of the thesis, in the layout of the thesis.",
          "",
          icons::save},
         sound_motion_file,
         ask_for_arm_file<FileQuestion::save_motion_result>);
     add(actions,
-        {"arm.open_motion", menu, "Open a motion file", "In place of the present text.", "", icons::folder},
+        {"arm.open_motion", menu, "Open a motion file", "Replaces the present text.", "", icons::folder},
         in_workspace,
         ask_for_arm_file<FileQuestion::open_motion_file>);
     add(actions,
@@ -317,8 +327,8 @@ void add_arm_teach_actions(Actions& actions) {
     add(actions,
         {"arm.card_settings",
          menu,
-         "Load settings of the card",
-         "Sends a file such as assets/samples/pmac-arm.ini; reports protections that it switches off.",
+         "Load card settings",
+         "Sends a file such as assets/samples/pmac-arm.ini; reports protections that it disables.",
          "",
          icons::settings},
         can_load_settings,
@@ -326,10 +336,9 @@ void add_arm_teach_actions(Actions& actions) {
     add(actions,
         {"arm.send_path",
          menu,
-         "Go the path",
-         "The project's program where its part stands: the drawn arm, or the connected one. It goes to the "
-         "beginning joint by "
-         "joint, at a quarter of its speed.",
+         "Run the path",
+         "Runs the project's program at the position of its part, with the simulated arm or the connected "
+         "one. The arm moves to the start by a joint move, at a quarter of its speed.",
          "",
          icons::toolpath},
         can_send_path,

@@ -15,10 +15,9 @@ Permission at_rest(const ControllerView& machine) {
     const DriverState state = machine.status.state;
     if (state == DriverState::alarm) {
         return Permission::refused(machine.choice.kind == machine::DriverKind::pmac
-                                       ? "There is an alarm: look at the arm, then unlock it first."
-                                   : machine.can.home
-                                       ? "There is an alarm: home or unlock first."
-                                       : "There is an alarm: look at the machine, then unlock it first.");
+                                       ? "Alarm: inspect the arm, then unlock it."
+                                   : machine.can.home ? "Alarm: home or unlock first."
+                                                      : "Alarm: inspect the machine, then unlock it.");
     }
     return state == DriverState::idle || state == DriverState::stopped ||
                    (state == DriverState::holding && waits_for_tool(machine.status))
@@ -30,7 +29,8 @@ Permission seen(const Workbench& now) {
     const Workspace at = now.session.workspace;
     return at == Workspace::machine || at == Workspace::arm
                ? Permission{}
-               : Permission::refused("In the workspaces Machine (F6) and Arm (Shift+F6) only: it moves.");
+               : Permission::refused("Available only in the workspaces Machine (F6) and Arm (Shift+F6), "
+                                     "because it causes motion.");
 }
 
 namespace {

@@ -189,7 +189,7 @@ void Controller::drop() {
     const std::string farewell = card == nullptr ? "" : card->farewell();
     const std::scoped_lock lock(mutex_);
     view_.failure =
-        farewell.empty() ? std::nullopt : std::optional(Diagnostic{{}, farewell, "look at the machine"});
+        farewell.empty() ? std::nullopt : std::optional(Diagnostic{{}, farewell, "inspect the machine"});
 }
 
 void Controller::remember(const DriverStatus& status) {

@@ -19,11 +19,11 @@ Permission can_connect(const Workbench& now) {
     }
     switch (now.controller.link) {
     case LinkState::connecting:
-        return Permission::refused("It is being connected.");
+        return Permission::refused("The machine is being connected.");
     case LinkState::connected:
         return Permission::refused("A machine is connected.");
     case LinkState::closing:
-        return Permission::refused("It is being disconnected.");
+        return Permission::refused("The machine is being disconnected.");
     case LinkState::none:
         break;
     }
@@ -46,14 +46,14 @@ Permission in_alarm(const Workbench& now) {
         return Permission::refused("The link is lost: reconnect first.");
     }
     return now.controller.status.state == DriverState::alarm ? Permission{}
-                                                             : Permission::refused("There is no alarm.");
+                                                             : Permission::refused("No alarm is active.");
 }
 
 Permission can_reconnect(const Workbench& now) {
     if (const Permission connected = can_disconnect(now); !connected.allowed) {
         return connected;
     }
-    return now.controller.status.link_lost ? Permission{} : Permission::refused("The link is there.");
+    return now.controller.status.link_lost ? Permission{} : Permission::refused("The link is not lost.");
 }
 
 Permission can_home(const Workbench& now) {
@@ -72,10 +72,10 @@ Permission can_home(const Workbench& now) {
     }
     const DriverState state = now.controller.status.state;
     if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::linuxcnc) {
-        return Permission::refused("LinuxCNC homes when it is switched on: unlock it first.");
+        return Permission::refused("LinuxCNC homes after it is switched on: unlock it first.");
     }
     if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::pmac) {
-        return Permission::refused("There is an alarm: look at the arm, then unlock it first.");
+        return Permission::refused("Alarm: inspect the arm, then unlock it.");
     }
     if (!now.controller.status.powered) {
         return Permission::refused("The motors have no power.");
@@ -92,9 +92,8 @@ Permission can_trust(const Workbench& now) {
     if (const Permission connected = can_disconnect(now); !connected.allowed) {
         return connected;
     }
-    return now.controller.status.position_doubt.empty()
-               ? Permission::refused("Nothing speaks against the position.")
-               : Permission{};
+    return now.controller.status.position_doubt.empty() ? Permission::refused("The position is not in doubt.")
+                                                        : Permission{};
 }
 
 Permission can_single(const Workbench& now) {
@@ -120,7 +119,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.connect",
          "Machine",
          "Connect",
-         "Makes the link to the chosen machine. Nothing moves.",
+         "Opens the link to the chosen machine. Nothing moves.",
          "",
          icons::plug},
         can_connect,
@@ -129,7 +128,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.disconnect",
          "Machine",
          "Disconnect",
-         "Stops what moves, takes the power of an arm's motors, and drops the link.",
+         "Stops all motion, disables the motors of an arm, and closes the link.",
          "",
          icons::cancel},
         can_disconnect,
@@ -138,7 +137,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.reconnect",
          "Machine",
          "Reconnect",
-         "Makes a lost link again. Nothing moves, and nothing goes on that was under way.",
+         "Restores a lost link. Nothing moves, and nothing that was interrupted continues.",
          "",
          icons::plug},
         can_reconnect,
@@ -147,7 +146,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.reset",
          "Machine",
          "Unlock",
-         "After an alarm: a person has looked at the machine, it may move again. Nothing moves now.",
+         "Clears an alarm after you have inspected the machine: it can move again. Nothing moves now.",
          "",
          icons::unlock},
         in_alarm,
@@ -155,8 +154,8 @@ void add_controller_actions(Actions& actions) {
     add(actions,
         {"machine.trust_position",
          "Machine",
-         "The position is right",
-         "You have looked: the machine stands where its controller says. Nothing moves.",
+         "Confirm position",
+         "Confirms the reported position after you have inspected the machine. Nothing moves.",
          "",
          icons::check},
         can_trust,
@@ -167,7 +166,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.home",
          "Machine",
          "Home",
-         "Finds the machine's zero by its switches. It moves.",
+         "Finds the machine's zero with its switches. The machine moves.",
          "",
          icons::home},
         can_home,
@@ -179,7 +178,7 @@ void add_controller_actions(Actions& actions) {
         {"machine.single_block",
          "Machine",
          "Single block",
-         "The machine rests after each block until it is resumed.",
+         "Pauses the machine after each block until it is resumed.",
          "",
          icons::step_forward},
         can_single,
@@ -198,8 +197,8 @@ void add_controller_actions(Actions& actions) {
         actions,
         {"machine.arm_keys",
          "Machine",
-         "Jog by keys",
-         "Arrow keys move X and Y, page keys Z, as long as they are held.",
+         "Keyboard jog",
+         "While held, arrow keys jog X and Y, and page keys jog Z.",
          "Ctrl+J",
          icons::keyboard},
         can_arm,
@@ -209,8 +208,8 @@ void add_controller_actions(Actions& actions) {
         actions,
         {"machine.arm_gamepad",
          "Machine",
-         "Jog by gamepad",
-         "As long as a bumper is held: the left stick moves X and Y, the right one Z, the cross the rotary "
+         "Gamepad jog",
+         "While a bumper is held, the left stick jogs X and Y, the right stick Z, and the D-pad the rotary "
          "axes.",
          "",
          icons::machine},

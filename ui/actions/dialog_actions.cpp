@@ -10,11 +10,13 @@ namespace {
 using widgets::Permission;
 
 Permission is_leaving(const Workbench& now) {
-    return now.leaving_to.empty() ? Permission::refused("Nothing waits for unsaved changes.") : Permission{};
+    return now.leaving_to.empty() ? Permission::refused("No command is waiting for unsaved changes.")
+                                  : Permission{};
 }
 
 Permission has_left_behind(const Workbench& now) {
-    return now.left_behind.empty() ? Permission::refused("Nothing was left behind.") : Permission{};
+    return now.left_behind.empty() ? Permission::refused("There is no unsaved work to recover.")
+                                   : Permission{};
 }
 
 Permission can_recover(const Workbench& now) {
@@ -45,7 +47,7 @@ Permission is_quitting(const Workbench& now) {
 }
 
 Permission has_broken_job(const Workbench& now) {
-    return now.broken_jobs->empty() ? Permission::refused("No job was broken off.") : Permission{};
+    return now.broken_jobs->empty() ? Permission::refused("No job was interrupted.") : Permission{};
 }
 
 Permission can_continue(const Workbench& now) {
@@ -54,35 +56,35 @@ Permission can_continue(const Workbench& now) {
     }
     const jobs::JobStory& story = now.broken_jobs->front();
     if (story.executed_blocks >= story.start.blocks) {
-        return Permission::refused("Nothing is left of it.");
+        return Permission::refused("All of its blocks were executed.");
     }
     const std::filesystem::path file(story.start.project);
     if (story.start.driver == "points" && !project::is_plot_file(file) && !project::is_gcode_file(file)) {
-        return Permission::refused("A point file is played again by the command plot play.");
+        return Permission::refused("Replay a point file with the command plot play.");
     }
     std::error_code none;
     return std::filesystem::is_regular_file(file, none)
                ? Permission{}
-               : Permission::refused("Its program is no file any more.");
+               : Permission::refused("Its program file no longer exists.");
 }
 
 } // namespace
 
 void add_dialog_actions(Actions& actions) {
     add(actions,
-        {"unsaved.save", dialog_menu, "Save", "Saves the changes and goes on.", "", ""},
+        {"unsaved.save", dialog_menu, "Save", "Saves the changes and continues.", "", ""},
         is_leaving,
         [](Hands& hands) { hands.workshop.save_and_leave(); });
     add(actions,
-        {"unsaved.discard", dialog_menu, "Discard", "Goes on without saving the changes.", "", ""},
+        {"unsaved.discard", dialog_menu, "Discard", "Continues without saving the changes.", "", ""},
         is_leaving,
         [](Hands& hands) { hands.workshop.discard_and_leave(); });
     add(actions,
-        {"unsaved.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
+        {"unsaved.cancel", dialog_menu, "Cancel", "Nothing changes.", "", ""},
         is_leaving,
         [](Hands& hands) { hands.workshop.stay(); });
     add(actions,
-        {"replace.overwrite", dialog_menu, "Replace", "What is there now is lost.", "", ""},
+        {"replace.overwrite", dialog_menu, "Replace", "The present content of the file is lost.", "", ""},
         is_replacing,
         [](Hands& hands) { hands.workshop.replace(); });
     add(actions,
@@ -93,17 +95,22 @@ void add_dialog_actions(Actions& actions) {
         {"replace.reload",
          dialog_menu,
          "Reload",
-         "Shows what is in the file now; undo brings back what is here.",
+         "Loads the file from disk; Undo restores the present project.",
          "",
          ""},
         can_reload,
         [](Hands& hands) { hands.workshop.reload(); });
     add(actions,
-        {"replace.cancel", dialog_menu, "Cancel", "Everything stays as it is.", "", ""},
+        {"replace.cancel", dialog_menu, "Cancel", "Nothing changes.", "", ""},
         is_replacing,
         [](Hands& hands) { hands.workshop.keep_file(); });
     add(actions,
-        {"gouges.write", dialog_menu, "Write anyway", "The program cuts into the part.", "", ""},
+        {"gouges.write",
+         dialog_menu,
+         "Write anyway",
+         "Writes the program although it gouges the part.",
+         "",
+         ""},
         is_gouging,
         [](Hands& hands) { hands.workshop.write_gouging_program(); });
     add(actions,
@@ -114,7 +121,7 @@ void add_dialog_actions(Actions& actions) {
         {"gouges.show",
          dialog_menu,
          "Show the gouges",
-         "Lists the blocks below the view; no program is written.",
+         "Lists the gouging blocks below the view; no program is written.",
          "",
          ""},
         is_gouging,
@@ -125,14 +132,14 @@ void add_dialog_actions(Actions& actions) {
             hands.session.lower_tab_now() = LowerTab::gouges;
         });
     add(actions,
-        {"running_job.stay", dialog_menu, "Stay", "Everything goes on.", "", ""},
+        {"running_job.stay", dialog_menu, "Stay open", "Everything continues.", "", ""},
         is_quitting,
         [](Hands& hands) { hands.session.quit_wanted = false; });
     add(actions,
         {"running_job.stop",
          dialog_menu,
-         "Stop it and quit",
-         "The machine brakes; the job's log tells what was executed, and motors of an arm lose their power.",
+         "Stop and quit",
+         "The machine brakes, the job log records what was executed, and the motors of an arm are disabled.",
          "",
          ""},
         is_quitting,
@@ -148,13 +155,13 @@ void add_dialog_actions(Actions& actions) {
         {"recovery.recover",
          dialog_menu,
          "Recover",
-         "Goes on with the work; it still has to be saved.",
+         "Restores the unsaved work; it still has to be saved.",
          "",
          ""},
         can_recover,
         [](Hands& hands) { hands.workshop.recover(); });
     add(actions,
-        {"recovery.discard", dialog_menu, "Discard", "Removes the copy for good.", "", ""},
+        {"recovery.discard", dialog_menu, "Discard", "Deletes the copy permanently.", "", ""},
         has_left_behind,
         [](Hands& hands) { hands.workshop.discard_left_behind(); });
     add(actions,
@@ -165,14 +172,14 @@ void add_dialog_actions(Actions& actions) {
         {"broken_job.continue",
          dialog_menu,
          "Run from line",
-         "Opens the program and shows the approach to the first line that is not certain, if one can be "
-         "begun there. Nothing moves yet.",
+         "Opens the program and shows the approach to the first unconfirmed line, if the job can start "
+         "there. Nothing moves yet.",
          "",
          ""},
         can_continue,
         [](Hands& hands) { hands.workshop.continue_broken_job(); });
     add(actions,
-        {"broken_job.dismiss", dialog_menu, "Dismiss", "It is not asked again; the log stays.", "", ""},
+        {"broken_job.dismiss", dialog_menu, "Dismiss", "Does not ask again; the log is kept.", "", ""},
         has_broken_job,
         [](Hands& hands) { hands.workshop.job_recovery().dismiss(); });
     add(actions,

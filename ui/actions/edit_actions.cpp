@@ -65,7 +65,7 @@ void smooth(Hands& hands) {
 
 Permission has_patches(const Workbench& now) {
     return now.project.surface.patches.size() > 1 ? Permission{}
-                                                  : Permission::refused("The surface has one patch only.");
+                                                  : Permission::refused("The surface has only one patch.");
 }
 
 /// "gap 2.5000 -> 0.0000 mm, angle 0.31 -> 0.00 deg", of several seams the largest of each.
@@ -91,7 +91,7 @@ std::string seams_text(const project::JoinedSurface& joined) {
 /// Empty if all are closed.
 std::string open_text(const project::JoinedSurface& joined, double gap_mm) {
     return joined.open.empty() ? std::string()
-                               : fmt::format(" Left open, as more than {:.4f} mm are not closed: {}.",
+                               : fmt::format(" Left open, because gaps over {:.4f} mm are not closed: {}.",
                                              gap_mm,
                                              project::open_text(joined.open));
 }
@@ -117,14 +117,20 @@ void join(Hands& hands, geometry::Continuity continuity) {
 void add_edit_actions(Actions& actions) {
     add(
         actions,
-        {"edit.undo", "Edit", "Undo", "Takes back the last change of the project.", "Ctrl+Z", icons::undo},
+        {"edit.undo", "Edit", "Undo", "Reverts the last change of the project.", "Ctrl+Z", icons::undo},
         [](const Workbench& now) {
             return now.undo_title.empty() ? Permission::refused("There is nothing to undo.") : Permission{};
         },
         [](Hands& hands) { hands.history.undo(); });
     add(
         actions,
-        {"edit.redo", "Edit", "Redo", "Brings back what was undone.", "Ctrl+Y", icons::redo, "Ctrl+Shift+Z"},
+        {"edit.redo",
+         "Edit",
+         "Redo",
+         "Restores the last change that was undone.",
+         "Ctrl+Y",
+         icons::redo,
+         "Ctrl+Shift+Z"},
         [](const Workbench& now) {
             return now.redo_title.empty() ? Permission::refused("There is nothing to redo.") : Permission{};
         },
@@ -139,7 +145,7 @@ void add_edit_actions(Actions& actions) {
         always,
         select_all);
     add(actions,
-        {"edit.select_none", "Edit", "Select nothing", "Drops the selection.", "Esc", ""},
+        {"edit.select_none", "Edit", "Deselect all", "Clears the selection.", "Esc", ""},
         has_selection,
         [](Hands& hands) { hands.session.selected.clear(); });
     add(actions,
@@ -155,7 +161,7 @@ void add_edit_actions(Actions& actions) {
         {"edit.join_position",
          "Edit",
          "Close the gaps between patches",
-         "Sides that lie near each other become one (C0), by the least movement of control points.",
+         "Joins adjacent sides (C0) with the smallest movement of control points.",
          "",
          ""},
         has_patches,
@@ -164,7 +170,7 @@ void add_edit_actions(Actions& actions) {
         {"edit.join_tangent",
          "Edit",
          "Join the patches smoothly",
-         "The same, and no edge is left where they meet (C1).",
+         "Closes the gaps and removes the edges where patches meet (C1).",
          "",
          ""},
         has_patches,

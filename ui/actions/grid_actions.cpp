@@ -74,8 +74,8 @@ template <SurfaceToolKind kind> void take_in_hand(Hands& hands) {
     if (kind != SurfaceToolKind::none && !counts && !session.panes.inspector_shown) { // which says it, too
         tell(session,
              widgets::Severity::warning,
-             "The program's grid follows neither paint nor outline: they change the elliptic grid and the "
-             "harmonic map alone.");
+             "The program's grid ignores brush and outline: they affect only the elliptic grid and the "
+             "harmonic map.");
     }
 }
 
@@ -84,7 +84,7 @@ void add_tool_actions(Actions& actions) {
         {"grid.brush",
          "Grid",
          "Paint the weight",
-         "A brush on the surface: cells become smaller where it was.",
+         "Brush on the surface: cells become smaller where you paint.",
          "",
          ""},
         always,
@@ -93,15 +93,15 @@ void add_tool_actions(Actions& actions) {
     add(actions,
         {"grid.outline",
          "Grid",
-         "Draw the region of adaptation",
-         "An outline on the surface: the elliptic grid and the harmonic map adapt inside of it alone.",
+         "Draw the adaptation region",
+         "Outline on the surface: the elliptic grid and the harmonic map adapt only inside it.",
          "",
          ""},
         always,
         take_in_hand<SurfaceToolKind::outline>,
         is_in_hand<SurfaceToolKind::outline>);
     add(actions,
-        {"grid.no_tool", "Grid", "Put the tool away", "The mouse points at the path again.", "", ""},
+        {"grid.no_tool", "Grid", "Stop drawing", "The mouse picks points of the path again.", "", ""},
         always,
         take_in_hand<SurfaceToolKind::none>,
         is_in_hand<SurfaceToolKind::none>);
@@ -138,7 +138,7 @@ void add_grid_actions(Actions& actions) {
         {"grid.adapt",
          "Grid",
          "Adapt the grid",
-         "Starts the elliptic adaptation from the uniform grid and shows every step.",
+         "Starts the elliptic adaptation from the uniform grid and shows each step.",
          "",
          icons::play},
         has_surface,
@@ -147,7 +147,7 @@ void add_grid_actions(Actions& actions) {
         {"grid.optimise",
          "Grid",
          "Optimise the tracks",
-         "Places the nodes of every track where the error is least, and shows every step.",
+         "Places the nodes of each track where the error is smallest, and shows each step.",
          "",
          icons::play},
         has_surface,
@@ -156,7 +156,7 @@ void add_grid_actions(Actions& actions) {
         {"grid.chain",
          "Grid",
          "Run the whole chain",
-         "Chooses the tracks, places their nodes and moves all nodes at once, and shows every step.",
+         "Chooses the tracks, places their nodes, moves all nodes at once, and shows each step.",
          "",
          icons::play},
         has_surface,
@@ -164,8 +164,8 @@ void add_grid_actions(Actions& actions) {
     add(actions,
         {"grid.harmonic",
          "Grid",
-         "Make the harmonic map",
-         "Starts the harmonic map from the uniform grid and shows every step.",
+         "Generate the harmonic map",
+         "Starts the harmonic map from the uniform grid and shows each step.",
          "",
          icons::play},
         has_surface,
@@ -174,13 +174,13 @@ void add_grid_actions(Actions& actions) {
         {"grid.redistribute",
          "Grid",
          "Redistribute the nodes",
-         "Gives the nodes of every track equal shares of its error: one step.",
+         "Gives the nodes of each track equal shares of its error, in one step.",
          "",
          icons::play},
         has_surface,
         start_adaptation<GridMethod::redistribution>);
     add(actions,
-        {"grid.play", "Grid", "Play the adaptation", "Goes on by itself.", "", icons::play},
+        {"grid.play", "Grid", "Play the adaptation", "Runs the adaptation continuously.", "", icons::play},
         is_watched,
         [](Hands& hands) { hands.pipeline.play_adaptation(); });
     add(actions,
@@ -190,14 +190,19 @@ void add_grid_actions(Actions& actions) {
     add(actions,
         {"grid.step",
          "Grid",
-         "One step of the adaptation",
-         "Does one step and pauses.",
+         "Step the adaptation",
+         "Performs one step and pauses.",
          "",
          icons::step_forward},
         is_watched,
         [](Hands& hands) { hands.pipeline.step_adaptation(); });
     add(actions,
-        {"grid.reset", "Grid", "Back to the start grid", "Begins the adaptation anew.", "", icons::reset},
+        {"grid.reset",
+         "Grid",
+         "Reset to the start grid",
+         "Restarts the adaptation from its start grid.",
+         "",
+         icons::reset},
         is_watched,
         [](Hands& hands) { hands.pipeline.reset_adaptation(); });
     add(actions,
@@ -214,7 +219,7 @@ void add_grid_actions(Actions& actions) {
         {"grid.use_redistribution",
          "Grid",
          "Program from the redistributed nodes",
-         "The program follows straight tracks whose nodes share the error.",
+         "The program follows straight tracks whose nodes have equal shares of the error.",
          "",
          ""},
         always,
@@ -254,7 +259,7 @@ void add_grid_actions(Actions& actions) {
         {"grid.use_chain",
          "Grid",
          "Program from the whole chain",
-         "The program follows the grid whose tracks and nodes were all moved. Takes some seconds.",
+         "The program follows the grid in which all tracks and nodes were moved. This takes some seconds.",
          "",
          ""},
         always,
@@ -267,12 +272,12 @@ void add_grid_actions(Actions& actions) {
         {"work.cancel",
          "Grid",
          "Cancel background work",
-         "Stops what is being computed.",
+         "Stops the running computation.",
          "Ctrl+.",
          icons::cancel},
         [](const Workbench& now) {
-            return !now.activity.busy      ? Permission::refused("Nothing runs in the background.")
-                   : now.activity.stopping ? Permission::refused("It ends with its next step.")
+            return !now.activity.busy      ? Permission::refused("Nothing is running in the background.")
+                   : now.activity.stopping ? Permission::refused("The work stops after the current step.")
                                            : Permission{};
         },
         [](Hands& hands) { hands.workshop.cancel_work(); });

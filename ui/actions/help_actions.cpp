@@ -15,24 +15,29 @@ void add_help_actions(Actions& actions) {
     constexpr std::string_view menu = "Help";
     namespace icons = widgets::icons;
     add(actions,
-        {"help.workspace", menu, "This workspace", "What the manual says of it.", "F1", icons::info},
+        {"help.workspace",
+         menu,
+         "Help on this workspace",
+         "Shows the manual page of this workspace.",
+         "F1",
+         icons::info},
         always,
         open<HelpPage::workspace>);
     add(actions,
-        {"help.keys", menu, "Keys", "What can be done by a key.", "", icons::keyboard},
+        {"help.keys", menu, "Keyboard shortcuts", "Lists the keyboard shortcuts.", "", icons::keyboard},
         always,
         open<HelpPage::keys>);
     add(actions,
         {"help.commands",
          menu,
-         "Commands of a PMAC",
-         "The on-line commands of the arm's card.",
+         "PMAC command reference",
+         "Lists the on-line commands of the arm's card.",
          "",
          icons::program},
         always,
         open<HelpPage::commands>);
     add(actions,
-        {"help.about", menu, "About Millwright", "Which version this is, and its licence.", "", icons::info},
+        {"help.about", menu, "About Millwright", "Shows the version and the licence.", "", icons::info},
         always,
         open<HelpPage::about>);
 }

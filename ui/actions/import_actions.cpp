@@ -21,11 +21,11 @@ Permission can_take(const Workbench& now) {
         return {};
     }
     if (now.import.activity().busy) {
-        return Permission::refused("It is still being worked out.");
+        return Permission::refused("The surface is still being computed.");
     }
     const auto found = now.import.latest();
-    return Permission::refused(found && found->failure ? "It cannot be imported like this."
-                                                       : "Choose a face first.");
+    return Permission::refused(found && found->failure ? "The surface cannot be imported with these settings."
+                                                       : "Select a face first.");
 }
 
 Permission has_reference(const Workbench& now) {
@@ -40,8 +40,8 @@ void add_import_actions(Actions& actions) {
     add(actions,
         {"file.import",
          "File",
-         "Import a surface ...",
-         "Takes a face of a STEP or IGES file, or fits a patch to an STL, OBJ or PLY mesh.",
+         "Import surface ...",
+         "Imports a face of a STEP or IGES file, or fits a patch to an STL, OBJ or PLY mesh.",
          "Ctrl+I",
          ""},
         always,
@@ -49,8 +49,8 @@ void add_import_actions(Actions& actions) {
     add(actions,
         {"file.export",
          "File",
-         "Export the surface ...",
-         "Writes the surface as STEP, glb, STL, OBJ or PLY, by the end of the name.",
+         "Export surface ...",
+         "Writes the surface as STEP, glb, STL, OBJ or PLY; the file extension selects the format.",
          "",
          ""},
         always,
@@ -59,22 +59,17 @@ void add_import_actions(Actions& actions) {
         {"file.drop_reference",
          "File",
          "Remove the reference mesh",
-         "The triangles of the imported file are no longer shown.",
+         "Removes the triangles of the imported file from the view.",
          "",
          ""},
         has_reference,
         [](Hands& hands) { hands.workshop.import().drop_reference(); });
     add(actions,
-        {"import.take",
-         dialog_menu,
-         "Import",
-         "Takes the place of the project's surface; undo brings that back.",
-         "",
-         ""},
+        {"import.take", dialog_menu, "Import", "Replaces the project's surface; Undo restores it.", "", ""},
         can_take,
         [](Hands& hands) { hands.workshop.take_import(); });
     add(actions,
-        {"import.give_up", dialog_menu, "Cancel", "The project stays as it is.", "", ""},
+        {"import.give_up", dialog_menu, "Cancel", "The project is not changed.", "", ""},
         is_importing,
         [](Hands& hands) {
             hands.workshop.import().close();

@@ -23,7 +23,7 @@ Permission approach_ready(const Workbench& now) {
         return {};
     }
     if (!now.approach || !(now.approach->wish.begin == now.session.begin)) {
-        return Permission::refused("The approach to the line is being worked out.");
+        return Permission::refused("The approach to the line is being computed.");
     }
     return now.approach->refusal ? Permission::refused(to_text(*now.approach->refusal)) : Permission{};
 }
@@ -119,8 +119,8 @@ Permission axes_ready(const Workbench& now) {
     return missing.empty()
                ? Permission{}
                : Permission::refused("The program moves " + listed(missing) +
-                                     ", and the connected machine has " + listed(there) +
-                                     ". Connect a machine with all of them, make the program for " +
+                                     ", but the connected machine has only " + listed(there) +
+                                     ". Connect a machine with all of these axes, generate the program for " +
                                      listed(there) + ", or disconnect to run it on the virtual machine.");
 }
 

@@ -37,7 +37,7 @@ Permission machine_ready(const Workbench& now) {
         break;
     }
     if (now.arm_connected()) {
-        return Permission::refused("A PMAC runs motion programs in its own language, and no G-code.");
+        return Permission::refused("A PMAC runs motion programs in its own language, not G-code.");
     }
     return at_rest(now.controller);
 }
@@ -50,7 +50,7 @@ Permission position_ready(const Workbench& now, int from_line) {
         const bool assumed = from_line > 1 && !now.controller.status.position_known;
         return assumed || !doubt.empty()
                    ? Permission::refused(
-                         "The machine does not tell where it stands: read it there, and enter it.")
+                         "The machine does not report its position: read it at the machine and enter it.")
                    : Permission{};
     }
     const bool wrong =
@@ -58,7 +58,7 @@ Permission position_ready(const Workbench& now, int from_line) {
         (from_line > 1 ? !doubt.empty()
                        : drivers::needs_confirmation(now.controller.status, now.controller.offsets));
     return wrong ? Permission::refused(drivers::doubt_sentence(doubt) +
-                                       " Or say that it stands where the controller says.")
+                                       " Or confirm that the reported position is correct.")
                  : Permission{};
 }
 
@@ -70,7 +70,8 @@ bool moves_a_machine(const Workbench& now) {
 }
 
 Permission nothing_asked(const Workbench& now) {
-    return now.asks() ? Permission::refused("A question in the window waits for its answer.") : Permission{};
+    return now.asks() ? Permission::refused("A prompt in the window is waiting for your answer.")
+                      : Permission{};
 }
 
 Permission can_run_job(const Workbench& now) {
@@ -92,8 +93,7 @@ Permission can_run_job(const Workbench& now) {
 template <DriverState state> Permission driver_is(const Workbench& now) {
     const bool is = now.job.running && now.job.report && now.job.report->driver.state == state;
     return is ? Permission{}
-              : Permission::refused(state == DriverState::running ? "No job is moving."
-                                                                  : "No job is being held.");
+              : Permission::refused(state == DriverState::running ? "No job is moving." : "No job is held.");
 }
 
 /// A program that runs without a job, as an arm's.
@@ -146,7 +146,7 @@ Permission can_stop(const Workbench& now) {
         return {};
     }
     const bool stops = now.controller.connected() && state == DriverState::stopping;
-    return Permission::refused(stops ? "It is stopping already." : "Nothing moves.");
+    return Permission::refused(stops ? "The machine is already stopping." : "Nothing is moving.");
 }
 
 void stop(Hands& hands) {
@@ -187,7 +187,7 @@ void start_job(Hands& hands, jobs::Job job, const JobRunner::Ended& ended = {}) 
 /// The program has to be there when the window is opened again.
 Permission can_add(const Workbench& now) {
     if (!now.in_file() && (now.document.file.empty() || now.changed())) {
-        return Permission::refused("Save the project first: a job of the queue is read from its file.");
+        return Permission::refused("Save the project first: a queued job is read from its file.");
     }
     return job_ready(now);
 }
@@ -200,16 +200,15 @@ void add_to_queue(Hands& hands) {
 /// A job is made for a controller that plans for itself, or for a machine that is moved here.
 Permission suits_machine(const Workbench& now, const jobs::QueuedJob& job) {
     if (!job.has_program) {
-        return Permission::refused(job.name +
-                                   " was added before Millwright was started: \u201cOpen program\u201d "
-                                   "reads it again.");
+        return Permission::refused(
+            job.name +
+            " was added before Millwright was restarted: \u201cOpen program\u201d reads it again.");
     }
     const bool needs_motion = !(now.controller.connected() && now.controller.can.plans);
     return needs_motion == job.has_motion
                ? Permission{}
-               : Permission::refused(job.name +
-                                     " was added for another kind of machine: \u201cOpen program\u201d "
-                                     "makes it anew for this one.");
+               : Permission::refused(job.name + " was added for another type of machine: \u201cOpen "
+                                                "program\u201d generates it for this one.");
 }
 
 /// Of the project's program; nothing is known of any other.
@@ -249,11 +248,11 @@ Permission can_run_next(const Workbench& now) {
     const auto next = std::ranges::find_if(
         now.queue, [](const jobs::QueuedJob& job) { return job.state != jobs::QueueState::done; });
     if (next == now.queue.end()) {
-        return Permission::refused("No job waits.");
+        return Permission::refused("No job is waiting.");
     }
     if (next->state == jobs::QueueState::held) {
-        return Permission::refused(next->name + " did not end well and holds the queue: look at the machine, "
-                                                "then release or remove it.");
+        return Permission::refused(next->name + " did not finish successfully and holds the queue: inspect "
+                                                "the machine, then release or remove the job.");
     }
     const Permission suits = suits_machine(now, *next);
     const Permission ready = suits.allowed ? machine_ready(now) : suits;
@@ -291,10 +290,10 @@ void run_next(Hands& hands) {
 /// What was asked may have come to nothing meanwhile: the link, the machine's state, its position.
 Permission can_start(const Workbench& now) {
     if (!now.session.start) {
-        return Permission::refused("No job waits to be started.");
+        return Permission::refused("No job is waiting to be started.");
     }
     if (!moves_a_machine(now)) {
-        return Permission::refused("The machine is not connected any more.");
+        return Permission::refused("The machine is no longer connected.");
     }
     if (now.job.running) {
         return Permission::refused("A job is running.");
@@ -334,7 +333,7 @@ void check_there(Hands& hands) {
 Permission can_trace(const Workbench& now) {
     return now.controller.can.plans && now.controller.can.dialect
                ? can_start(now)
-               : Permission::refused("This controller executes no G-code of its own.");
+               : Permission::refused("This controller does not execute G-code itself.");
 }
 
 /// The job stays as it is: it is asked for again afterwards.
@@ -372,7 +371,7 @@ void add_queue_actions(Actions& actions) {
         {"queue.add",
          "Machine",
          "Add to the queue",
-         "Puts the program that is shown behind the jobs that wait. Nothing moves.",
+         "Adds the program that is shown to the end of the queue. Nothing moves.",
          "",
          icons::program},
         can_add,
@@ -381,7 +380,7 @@ void add_queue_actions(Actions& actions) {
         {"queue.run_next",
          "Machine",
          "Run the next job",
-         "Starts the first job that waits. The one behind it waits until you press this again.",
+         "Starts the first waiting job. The next one waits until you run this command again.",
          "",
          icons::play},
         can_run_next,
@@ -391,13 +390,13 @@ void add_queue_actions(Actions& actions) {
         {"queue.remove_done",
          "Machine",
          "Remove finished jobs",
-         "Out of the queue; their logs stay.",
+         "Removes finished jobs from the queue; their logs are kept.",
          "",
          icons::cancel},
         [](const Workbench& now) {
             const bool any = std::ranges::any_of(
                 now.queue, [](const jobs::QueuedJob& job) { return job.state == jobs::QueueState::done; });
-            return any ? Permission{} : Permission::refused("No job is done.");
+            return any ? Permission{} : Permission::refused("No job is finished.");
         },
         [](Hands& hands) { hands.workshop.queue().open().remove_done(); });
 }
@@ -407,8 +406,8 @@ void add_machine_actions(Actions& actions) {
         {"machine.run",
          "Machine",
          "Run the program",
-         "Sends the program to the connected machine, after a question, else to a virtual one. In other "
-         "workspaces it goes to the machine.",
+         "Sends the program to the connected machine after you confirm, or else to a virtual one. In other "
+         "workspaces, opens it in the Machine workspace.",
          "F9",
          icons::play},
         can_run_job,
@@ -420,8 +419,8 @@ void add_machine_actions(Actions& actions) {
     add(actions,
         {"start.check",
          dialog_menu,
-         "Check at the controller",
-         "The controller reads the program in its check mode and says what it refuses. Nothing moves.",
+         "Check on the controller",
+         "The controller reads the program in its check mode and reports what it rejects. Nothing moves.",
          "",
          icons::check},
         can_check_there,
@@ -429,10 +428,9 @@ void add_machine_actions(Actions& actions) {
     add(actions,
         {"start.trace",
          dialog_menu,
-         "Trace the box",
-         "The machine goes once around the box of the cuts, at the program's greatest height and with the "
-         "spindle "
-         "off: look whether clamps are in the way.",
+         "Trace bounding box",
+         "Moves the machine once around the bounding box of the cuts, at the program's greatest height with "
+         "the spindle off: check that no clamps are in the way.",
          "",
          icons::fit_view},
         can_trace,
@@ -448,20 +446,20 @@ void add_machine_actions(Actions& actions) {
         moves_in<DriverState::running>,
         hold);
     add(actions,
-        {"machine.resume", "Machine", "Resume", "Goes on where it was held.", "F11", icons::play},
+        {"machine.resume", "Machine", "Resume", "Continues where it was held.", "F11", icons::play},
         moves_in<DriverState::holding>,
         resume);
     add(actions,
         {"machine.stop",
          "Machine",
          "Stop",
-         "Brakes along the path and ends the job, or what the machine does by hand.",
+         "Brakes along the path and ends the job or the manual motion.",
          "F12",
          icons::stop},
         can_stop,
         stop);
     add(actions,
-        {"machine.emergency_stop", "Machine", "Emergency stop", "Stops at once.", "F8", icons::danger},
+        {"machine.emergency_stop", "Machine", "Emergency stop", "Stops immediately.", "F8", icons::danger},
         can_stop_at_once,
         stop_at_once);
 }

@@ -32,7 +32,7 @@ void MachineNews::log_messages(const ControllerView& machine, Session& session) 
     const bool alarm = machine.connected() && machine.status.state == drivers::DriverState::alarm;
     const std::string& message = machine.status.message;
     log(message_,
-        alarm && message.empty() ? "there is an alarm"
+        alarm && message.empty() ? "the controller gave no reason"
         : machine.connected()    ? message
                                  : std::string(),
         alarm ? "Alarm: " : "");
@@ -71,10 +71,10 @@ void MachineNews::tell_answer(const ControllerView& machine, Session& session) {
     }
     const SentFile sent = *std::exchange(sent_, std::nullopt);
     answer.text.empty()
-        ? tell(session, widgets::Severity::info, "The card took all settings.")
+        ? tell(session, widgets::Severity::info, "The card accepted all settings.")
         : tell(session,
                widgets::Severity::warning,
-               "The card refused settings: " + pmac::with_places(answer.text, sent.file, "line "));
+               "The card rejected settings: " + pmac::with_places(answer.text, sent.file, "line "));
 }
 
 } // namespace millwright::actions

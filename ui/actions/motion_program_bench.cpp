@@ -54,7 +54,7 @@ std::vector<std::string> MotionProgramBench::lines() const {
         lines.push_back(line.text);
     }
     if (lines.empty()) {
-        throw Error("there is no line in the program");
+        throw Error("the program has no lines");
     }
     return lines;
 }

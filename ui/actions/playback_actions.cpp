@@ -15,7 +15,7 @@ Permission can_play_program(const Workbench& now) {
         return Permission::refused("The view follows the running job.");
     }
     if (now.session.hand.keys_armed && now.session.workspace == Workspace::machine) {
-        return Permission::refused("The arrow keys move the machine.");
+        return Permission::refused("The arrow keys jog the machine.");
     }
     return now.duration() > 0.0 || now.file_place() ? Permission{}
                                                     : Permission::refused("There is no program yet.");
@@ -27,7 +27,7 @@ Permission can_step_lines(const Workbench& now) {
         return playing;
     }
     return now.file_place() ? Permission{}
-                            : Permission::refused("Lines are stepped in an opened G-code file.");
+                            : Permission::refused("Stepping by lines needs an open G-code file.");
 }
 
 bool is_editor(LowerTab tab) {
@@ -40,8 +40,8 @@ Permission has_text(const Workbench& now) {
     const bool editor = now.session.panes.lower_shown && is_editor(now.session.lower_tab_now());
     return editor || now.session.workspace == Workspace::program
                ? Permission{}
-               : Permission::refused("Texts are searched in the Program workspace, and in the editors of the "
-                                     "Arm and the Processor workspace.");
+               : Permission::refused("Search is available in the Program workspace, and in the editors of "
+                                     "the Arm and Processor workspaces.");
 }
 
 void go_to(Hands& hands, gcode::Step step) {
@@ -108,7 +108,7 @@ void add_playback_actions(Actions& actions) {
         {"play.toggle",
          "Step-through",
          "Play or pause",
-         "Moves the machine along the program.",
+         "Moves the displayed machine along the program.",
          "Space",
          icons::play},
         can_play_program,
@@ -123,7 +123,7 @@ void add_playback_actions(Actions& actions) {
         {"play.forward",
          "Step-through",
          "One block forward",
-         "To the start of the next block.",
+         "Goes to the start of the next block.",
          "Right",
          icons::step_forward},
         can_play_program,
@@ -132,7 +132,7 @@ void add_playback_actions(Actions& actions) {
         {"play.back",
          "Step-through",
          "One block back",
-         "To the start of this or the previous block.",
+         "Goes to the start of this or the previous block.",
          "Left",
          icons::step_back},
         can_play_program,
@@ -140,21 +140,26 @@ void add_playback_actions(Actions& actions) {
     add(actions,
         {"play.first",
          "Step-through",
-         "To the start",
-         "Before the first block.",
+         "Go to the start",
+         "Goes to before the first block.",
          "Ctrl+Left",
          icons::skip_first},
         can_play_program,
         [](Hands& hands) { jump(hands, 0.0); });
     add(actions,
-        {"play.last", "Step-through", "To the end", "After the last block.", "Ctrl+Right", icons::skip_last},
+        {"play.last",
+         "Step-through",
+         "Go to the end",
+         "Goes to after the last block.",
+         "Ctrl+Right",
+         icons::skip_last},
         can_play_program,
         [](Hands& hands) { jump(hands, hands.now.duration()); });
     add(actions,
         {"play.line_forward",
          "Step-through",
          "One line forward",
-         "To the line that is executed next, whether it moves anything or not.",
+         "Goes to the line that is executed next, even if it moves nothing.",
          "Shift+Right",
          icons::step_forward},
         can_step_lines,
@@ -163,7 +168,7 @@ void add_playback_actions(Actions& actions) {
         {"play.line_back",
          "Step-through",
          "One line back",
-         "To the line that was executed before.",
+         "Goes to the line that was executed before.",
          "Shift+Left",
          icons::step_back},
         can_step_lines,
@@ -172,7 +177,7 @@ void add_playback_actions(Actions& actions) {
         {"program.find",
          "Step-through",
          "Find",
-         "In the listing, or in the editor in sight, which can replace, too.",
+         "Searches the listing or the visible editor, where you can also replace text.",
          "Ctrl+F",
          icons::search},
         has_text,
@@ -180,8 +185,8 @@ void add_playback_actions(Actions& actions) {
     add(actions,
         {"program.find_next",
          "Step-through",
-         "Find the next place",
-         "Searches again, in the listing or in the editor in sight.",
+         "Find next",
+         "Searches again in the listing or the visible editor.",
          "Ctrl+G",
          icons::search},
         has_text,
@@ -189,8 +194,8 @@ void add_playback_actions(Actions& actions) {
     add(actions,
         {"program.find_previous",
          "Step-through",
-         "Find the place before",
-         "Searches backwards, in the listing or in the editor in sight.",
+         "Find previous",
+         "Searches backwards in the listing or the visible editor.",
          "Ctrl+Shift+G",
          icons::search},
         has_text,

@@ -15,7 +15,7 @@ Permission has_path(const Workbench& now) {
         return Permission::refused("Open a plot or a picture first.");
     }
     if (!made || !made->finished || !now.plot.is_current(*made)) {
-        return Permission::refused(now.plot.given_up() ? "Its path was cancelled."
+        return Permission::refused(now.plot.given_up() ? "The computation of the path was cancelled."
                                                        : "The path is still being computed.");
     }
     return made->path && !made->failure
@@ -29,8 +29,9 @@ Permission can_send_plot(const Workbench& now) {
 
 Permission has_path_without_points(const Workbench& now) {
     const Permission path = has_path(now);
-    return path.allowed && now.plot.latest()->points ? Permission::refused("It is a file of points already.")
-                                                     : path;
+    return path.allowed && now.plot.latest()->points
+               ? Permission::refused("The file already contains points.")
+               : path;
 }
 
 Permission can_play_plot(const Workbench& now) {
@@ -39,7 +40,7 @@ Permission can_play_plot(const Workbench& now) {
     }
     const TableView table = now.plot.table().view();
     if (table.playing && table.status.state == drivers::PlayState::holding) {
-        return Permission::refused("The table is held. Press Resume to go on.");
+        return Permission::refused("The table is held. Press Resume to continue.");
     }
     return table.playing ? Permission::refused("The table is moving.") : Permission{};
 }
@@ -53,7 +54,7 @@ template <drivers::PlayState state> Permission table_is(const Workbench& now) {
     const bool is = table.playing && table.status.state == state;
     return is ? Permission{}
               : Permission::refused(state == drivers::PlayState::playing ? "The table is not moving."
-                                                                         : "The table is not being held.");
+                                                                         : "The table is not held.");
 }
 
 template <render::StandardView side> void look(Hands& hands) {
@@ -66,19 +67,19 @@ template <render::StandardView side> void look(Hands& hands) {
 void add_plot_actions(Actions& actions) {
     constexpr std::string_view menu = "Plot";
     add(actions,
-        {"plot.flat", menu, "Look from above", "The drawing as it lies on the table.", "", ""},
+        {"plot.flat", menu, "Top view", "Shows the drawing as it lies on the table.", "", ""},
         always,
         look<render::StandardView::top>);
     add(actions,
-        {"plot.space", menu, "Look into space", "With depths and travel.", "", ""},
+        {"plot.space", menu, "Isometric view", "Shows depths and travel.", "", ""},
         always,
         look<render::StandardView::iso>);
     add(
         actions,
         {"plot.light",
          menu,
-         "Against the light",
-         "Shows the light that goes through the finished plate, as black plastic is looked at.",
+         "Backlit preview",
+         "Shows the light that passes through the finished plate, as with black plastic.",
          "",
          ""},
         always,
@@ -88,8 +89,8 @@ void add_plot_actions(Actions& actions) {
         actions,
         {"plot.picture",
          menu,
-         "Picture below the path",
-         "Shows the picture itself, with what is cut of it over it.",
+         "Show picture below path",
+         "Shows the picture with its toolpath on top.",
          "",
          ""},
         [](const Workbench& now) {
@@ -101,9 +102,9 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.write_program",
          menu,
-         "Write the G-code",
-         "Beside the plot, or in your own folder where that ships with the program; no other file is "
-         "replaced.",
+         "Write G-code",
+         "Writes it next to the plot, or to your own folder if the plot ships with Millwright; no other file "
+         "is replaced.",
          "",
          icons::save},
         has_path,
@@ -111,8 +112,8 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.write_path",
          menu,
-         "Write the path",
-         "A path file of X, Y, Z and speed beside the plot, or in your own folder; no other file is "
+         "Write path",
+         "Writes a path file of X, Y, Z and speed next to the plot, or to your own folder; no other file is "
          "replaced.",
          "",
          icons::save},
@@ -121,10 +122,9 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.write_points",
          menu,
-         "Write the points",
-         "A file of the points that the table is sent, one per period, beside the plot, or in your own "
-         "folder; "
-         "no other file is replaced.",
+         "Write points",
+         "Writes a file of the points that are sent to the table, one per period, next to the plot, or to "
+         "your own folder; no other file is replaced.",
          "",
          icons::save},
         has_path_without_points,
@@ -132,8 +132,8 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.to_machine",
          menu,
-         "To the machine",
-         "Writes the G-code and opens it in the Machine workspace, where it is sent or queued.",
+         "Open in Machine workspace",
+         "Writes the G-code and opens it in the Machine workspace, where it can be sent or queued.",
          "",
          icons::machine},
         can_send_plot,
@@ -141,8 +141,8 @@ void add_plot_actions(Actions& actions) {
     add(actions,
         {"plot.play_table",
          menu,
-         "Play to the table",
-         "Sends what is shown, one point per period at constant velocity.",
+         "Play on the table",
+         "Sends the displayed path, one point per period at constant velocity.",
          "",
          icons::play},
         can_play_plot,
@@ -154,7 +154,7 @@ void add_plot_actions(Actions& actions) {
         {"plot.hold_table",
          menu,
          "Hold the table",
-         "No further point is sent until you resume.",
+         "Sends no further point until you resume.",
          "",
          icons::hold},
         table_is<drivers::PlayState::playing>,
@@ -163,13 +163,13 @@ void add_plot_actions(Actions& actions) {
         {"plot.resume_table",
          menu,
          "Resume the table",
-         "Goes on with the next point, as after a tool change.",
+         "Continues with the next point, for example after a tool change.",
          "",
          icons::play},
         table_is<drivers::PlayState::holding>,
         [](Hands& hands) { hands.workshop.plot().table().resume(); });
     add(actions,
-        {"plot.stop_table", menu, "Stop the table", "No point is sent any more.", "", icons::stop},
+        {"plot.stop_table", menu, "Stop the table", "Sends no more points.", "", icons::stop},
         is_table_moving,
         [](Hands& hands) { hands.workshop.plot().table().stop(); });
 }

@@ -81,7 +81,7 @@ std::shared_ptr<const kinematics::MachineModel> PlotBench::model() const {
 void PlotBench::play_table(double timeline_s) {
     const auto now = latest();
     if (!now || !now->path) {
-        throw Error("there is no path to be played");
+        throw Error("there is no path to play");
     }
     table_->play(table_choice_, {now->path, file(), model(), now->spindle_rpm(), now->points});
     played_ = file();

@@ -12,7 +12,7 @@ using widgets::Permission;
 
 Permission can_execute(const Workbench& now) {
     if (now.session.workspace != Workspace::processor) {
-        return Permission::refused("In the Processor workspace (F7) only.");
+        return Permission::refused("Available only in the Processor workspace (F7).");
     }
     if (now.processor.failure()) {
         return Permission::refused("The processor cannot execute this program: see the inspector.");
@@ -29,7 +29,7 @@ Permission can_go_on(const Workbench& now) {
 }
 
 Permission runs(const Workbench& now) {
-    return now.processor.running() ? Permission{} : Permission::refused("The processor does not run.");
+    return now.processor.running() ? Permission{} : Permission::refused("The processor is not running.");
 }
 
 Permission has_gcode_file(const Workbench& now) {
@@ -43,18 +43,18 @@ Permission has_program(const Workbench& now) {
 Permission in_processor(const Workbench& now) {
     return now.session.workspace == Workspace::processor
                ? Permission{}
-               : Permission::refused("In the Processor workspace (F7) only.");
+               : Permission::refused("Available only in the Processor workspace (F7).");
 }
 
 Permission has_assembler(const Workbench& now) {
     return now.processor.written().input().assembler.empty()
-               ? Permission::refused("There is no assembler text yet: write or open one under Assembler.")
+               ? Permission::refused("There is no assembly source yet: write or open one under Assembler.")
                : Permission{};
 }
 
 Permission has_microprogram(const Workbench& now) {
     return now.processor.written().input().microprogram.empty()
-               ? Permission::refused("There is no microprogram yet: start from ours, or open one.")
+               ? Permission::refused("There is no microprogram yet: copy the built-in one, or open one.")
                : Permission{};
 }
 
@@ -90,41 +90,56 @@ template <ProcessorSource source> bool is_loaded(const Workbench& now) {
 void add_steps(Actions& actions) {
     constexpr std::string_view menu = "Processor";
     add(actions,
-        {"processor.reset", menu, "Reset", "As after power on; breakpoints stay.", "", icons::reset},
+        {"processor.reset",
+         menu,
+         "Reset",
+         "Restores the state after power-on; breakpoints stay.",
+         "",
+         icons::reset},
         can_execute,
         [](Hands& hands) { hands.workshop.processor().reset(); });
     add(actions,
-        {"processor.clock", menu, "Step a clock", "One clock of the processor.", "Ctrl+1", ""},
+        {"processor.clock", menu, "Step one clock", "Executes one clock of the processor.", "Ctrl+1", ""},
         can_go_on,
         do_step<ProcessorStep::clock>);
     add(actions,
         {"processor.micro",
          menu,
-         "Step a micro-instruction",
-         "To another micro-instruction; a loop of one is one step.",
+         "Step one micro-instruction",
+         "Executes up to another micro-instruction; a loop of one is one step.",
          "Ctrl+2",
          ""},
         can_go_on,
         do_step<ProcessorStep::micro_instruction>);
     add(actions,
-        {"processor.instruction", menu, "Step an instruction", "To the next fetch.", "Ctrl+3", ""},
+        {"processor.instruction",
+         menu,
+         "Step one instruction",
+         "Executes up to the next fetch.",
+         "Ctrl+3",
+         ""},
         can_go_on,
         do_step<ProcessorStep::instruction>);
     add(actions,
-        {"processor.block", menu, "Step a block", "To the next line of the program.", "Ctrl+5", ""},
+        {"processor.block",
+         menu,
+         "Step one block",
+         "Executes up to the next line of the program.",
+         "Ctrl+5",
+         ""},
         can_go_on,
         do_step<ProcessorStep::block>);
     add(actions,
         {"processor.set_point",
          menu,
          "Run to the next set-point",
-         "Until position, speed and acceleration are handed over.",
+         "Runs until position, speed and acceleration are output.",
          "Ctrl+6",
          icons::step_forward},
         can_go_on,
         do_step<ProcessorStep::set_point>);
     add(actions,
-        {"processor.run", menu, "Run", "To a breakpoint or the end.", "Ctrl+7", icons::play},
+        {"processor.run", menu, "Run", "Runs to a breakpoint or to the end.", "Ctrl+7", icons::play},
         can_go_on,
         [](Hands& hands) { hands.workshop.processor().run(); });
     add(actions,
@@ -138,8 +153,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.assembler",
          menu,
-         "Execute the assembler text",
-         "As it is written under Assembler.",
+         "Execute the assembly source",
+         "Executes the text under Assembler.",
          "",
          ""},
         has_assembler,
@@ -148,8 +163,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.take_over",
          menu,
-         "Take over as assembler text",
-         "The program that is executed, in place of the present text, to be changed there.",
+         "Copy to the assembly source",
+         "Replaces the present text under Assembler with the executed program, for editing.",
          "",
          ""},
         can_execute,
@@ -157,8 +172,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.open_assembler",
          menu,
-         "Open assembler text or an image",
-         "In place of the present text; an image is disassembled.",
+         "Open assembly source or a ROM image",
+         "Replaces the present text; an image is disassembled.",
          "",
          icons::folder},
         in_processor,
@@ -166,8 +181,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.save_assembler",
          menu,
-         "Save the assembler text",
-         "As a file of its own.",
+         "Save the assembly source",
+         "Saves it to a separate file.",
          "",
          icons::save},
         has_assembler,
@@ -175,8 +190,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.save_image",
          menu,
-         "Save the image",
-         "The bytes of the program that is executed, with its number format.",
+         "Save the ROM image",
+         "Saves the bytes of the executed program, with its number format.",
          "",
          icons::save},
         can_execute,
@@ -184,8 +199,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.own_microprogram",
          menu,
-         "Execute the microprogram that is written",
-         "In place of the processor's own; once more goes back to that.",
+         "Execute the edited microprogram",
+         "Replaces the built-in microprogram; use it again to return to the built-in one.",
          "",
          ""},
         can_turn_microprogram,
@@ -194,8 +209,8 @@ void add_texts(Actions& actions) {
     add(actions,
         {"processor.start_microprogram",
          menu,
-         "Start a microprogram from the processor's",
-         "A copy of it in place of the present text, to be changed there.",
+         "Copy the built-in microprogram",
+         "Replaces the present text with a copy of the processor's own microprogram, for editing.",
          "",
          ""},
         in_processor,
@@ -204,7 +219,7 @@ void add_texts(Actions& actions) {
         {"processor.open_microprogram",
          menu,
          "Open a microprogram",
-         "In place of the present text.",
+         "Replaces the present text.",
          "",
          icons::folder},
         in_processor,
@@ -213,7 +228,7 @@ void add_texts(Actions& actions) {
         {"processor.save_microprogram",
          menu,
          "Save the microprogram",
-         "As a file of its own.",
+         "Saves it to a separate file.",
          "",
          icons::save},
         has_microprogram,
@@ -226,7 +241,7 @@ void add_processor_actions(Actions& actions) {
     constexpr std::string_view menu = "Processor";
     add_steps(actions);
     add(actions,
-        {"processor.thesis_arc", menu, "Load the thesis's arc", "Three quarters of a turn.", "", ""},
+        {"processor.thesis_arc", menu, "Load the thesis's arc", "Loads three quarters of a turn.", "", ""},
         always,
         load<ProcessorSource::thesis_arc>,
         is_loaded<ProcessorSource::thesis_arc>);
@@ -234,19 +249,29 @@ void add_processor_actions(Actions& actions) {
         {"processor.thesis_path",
          menu,
          "Load the thesis's path",
-         "Lines and two arcs, experiment E7.",
+         "Loads lines and two arcs, experiment E7.",
          "",
          ""},
         always,
         load<ProcessorSource::thesis_path>,
         is_loaded<ProcessorSource::thesis_path>);
     add(actions,
-        {"processor.opened_file", menu, "Load the G-code file", "The one of the Program workspace.", "", ""},
+        {"processor.opened_file",
+         menu,
+         "Load the G-code file",
+         "Loads the file of the Program workspace.",
+         "",
+         ""},
         has_gcode_file,
         load<ProcessorSource::opened_file>,
         is_loaded<ProcessorSource::opened_file>);
     add(actions,
-        {"processor.project", menu, "Load the project's program", "As it is written for LinuxCNC.", "", ""},
+        {"processor.project",
+         menu,
+         "Load the project's program",
+         "Loads the program as it is written for LinuxCNC.",
+         "",
+         ""},
         has_program,
         load<ProcessorSource::project>,
         is_loaded<ProcessorSource::project>);

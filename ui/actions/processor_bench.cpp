@@ -96,7 +96,7 @@ bool ProcessorBench::follow(const project::ProcessorInput& input) {
 }
 
 void ProcessorBench::load_assembler() {
-    load(ProcessorSource::assembler, texts_.input().assembler, "assembler text");
+    load(ProcessorSource::assembler, texts_.input().assembler, "assembly source");
 }
 
 void ProcessorBench::check_texts() {

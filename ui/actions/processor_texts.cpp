@@ -10,7 +10,7 @@ namespace millwright::actions {
 
 namespace {
 
-constexpr const char* stands_for_text = "assembler text";
+constexpr const char* stands_for_text = "assembly source";
 constexpr const char* stands_for_microprogram = "microprogram";
 
 } // namespace
@@ -65,8 +65,9 @@ std::optional<Diagnostic> ProcessorTexts::failure() const {
         return program_.errors.front();
     }
     if (program_.image.code.empty()) {
-        return Diagnostic{
-            {stands_for_text, 0, 0, -1}, "there is no instruction in the program", "HLT ends one"};
+        return Diagnostic{{stands_for_text, 0, 0, -1},
+                          "the program contains no instruction",
+                          "write a program that ends with HLT"};
     }
     return std::nullopt;
 }
@@ -77,8 +78,8 @@ std::optional<Diagnostic> ProcessorTexts::micro_failure() const {
     }
     if (micro_.program.count == 0) {
         return Diagnostic{{stands_for_microprogram, 0, 0, -1},
-                          "there is no micro-instruction in the microprogram",
-                          "Start from ours copies that of the processor"};
+                          "the microprogram contains no micro-instruction",
+                          "start with a copy of the built-in microprogram"};
     }
     return std::nullopt;
 }

@@ -32,13 +32,12 @@ bool stands_there(const Workbench& now) {
 
 Permission can_accept(const Workbench& now) {
     if (!now.set_up || !now.set_up->study) {
-        return Permission::refused("No place has been searched for.");
+        return Permission::refused("No position has been searched for.");
     }
     if (!plan::same_but_for_place(now.set_up->project, now.project)) {
-        return Permission::refused(
-            "Part, machine or tracks are others than those that the place was searched for.");
+        return Permission::refused("The part, machine or tracks have changed since the search.");
     }
-    return stands_there(now) ? Permission::refused("The part stands there already.") : Permission{};
+    return stands_there(now) ? Permission::refused("The part is already there.") : Permission{};
 }
 
 } // namespace
@@ -47,10 +46,9 @@ void add_set_up_actions(Actions& actions) {
     add(actions,
         {"set_up.search",
          "Grid",
-         "Search the best place on the table",
-         "Looks in the background for the place of the part with the least error or travel, and maps what "
-         "the "
-         "places around it cost.",
+         "Find the best position on the table",
+         "Searches in the background for the position of the part with the smallest error or travel, and "
+         "maps the cost of the positions around it.",
          "",
          icons::search},
         can_search,
@@ -58,8 +56,8 @@ void add_set_up_actions(Actions& actions) {
     add(actions,
         {"set_up.accept",
          "Grid",
-         "Accept the place on the table",
-         "Puts the part where the map is marked: at the best place, or where the map was clicked.",
+         "Accept the position on the table",
+         "Moves the part to the position marked on the map: the best one, or the one that was clicked.",
          "",
          icons::check},
         can_accept,

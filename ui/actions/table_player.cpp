@@ -57,7 +57,7 @@ Vec3 TableWork::usual_start() const {
 
 void TablePlayer::play(const TableChoice& choice, TableWork work) {
     if (playing()) {
-        throw Error("the table is moving", {}, "stop it, or wait for its end");
+        throw Error("the table is moving", {}, "stop it, or wait until it has finished");
     }
     thread_ = {};
     const std::optional<Vec3> start = place(choice.port);
@@ -102,7 +102,7 @@ void TablePlayer::run(const std::shared_ptr<Play>& play,
     } catch (const Error& error) {
         failure = error.diagnostic();
     } catch (const Cancelled&) {
-        failure = Diagnostic{{}, "it was stopped before it began", {}};
+        failure = Diagnostic{{}, "playback was stopped before it began", {}};
     } catch (const std::exception& defect) {
         failure = Diagnostic{{}, defect.what(), {}};
     }

@@ -57,7 +57,7 @@ std::optional<ToolChangePlan> tool_change_plan(const HandSettings& hand, const C
 void read_macro(jobs::Job& job) {
     if (job.tool_change && job.tool_change->way == ToolChangeWay::macro) {
         if (job.tool_change->macro_file.empty()) {
-            throw Error("no file of lines for a tool change is named", {}, "name it below Tool changes");
+            throw Error("no file of lines for a tool change is selected", {}, "select it under Tool changes");
         }
         job.tool_change->macro = read_file(job.tool_change->macro_file);
     }

@@ -47,26 +47,26 @@ template <render::StandardView side> void look_from(Hands& hands) {
 void add_sides(Actions& actions) {
     using render::StandardView;
     add(actions,
-        {"view.from_above", "View", "Look from above", "X and Y.", "", ""},
+        {"view.from_above", "View", "Top view", "Shows X and Y.", "", ""},
         always,
         look_from<StandardView::top>);
     add(actions,
-        {"view.from_front", "View", "Look from the front", "X and Z.", "", ""},
+        {"view.from_front", "View", "Front view", "Shows X and Z.", "", ""},
         always,
         look_from<StandardView::front>);
     add(actions,
-        {"view.from_right", "View", "Look from the right", "Y and Z.", "", ""},
+        {"view.from_right", "View", "Right view", "Shows Y and Z.", "", ""},
         always,
         look_from<StandardView::right>);
     add(actions,
-        {"view.into_space", "View", "Look into space", "From the front, the right and above.", "", ""},
+        {"view.into_space", "View", "Isometric view", "Looks from the front, the right and above.", "", ""},
         always,
         look_from<StandardView::iso>);
     add(actions,
         {"view.oblique",
          "View",
          "Oblique view",
-         "From the front, with the depth at 30 degrees, as in the thesis: X + Y cos 30, Z + Y sin 30.",
+         "Looks from the front, with the depth at 30 degrees, as in the thesis: X + Y cos 30, Z + Y sin 30.",
          "",
          ""},
         always,
@@ -117,12 +117,12 @@ void add_view_actions(Actions& actions) {
         show_workspace<Workspace::toolpath>,
         is_in<Workspace::toolpath>);
     add(actions,
-        {"view.program", "View", "Program", "The G-code in step with the motion.", "F5", ""},
+        {"view.program", "View", "Program", "The G-code, synchronised with the motion.", "F5", ""},
         always,
         show_workspace<Workspace::program>,
         is_in<Workspace::program>);
     add(actions,
-        {"view.machine", "View", "Machine", "The machine at work.", "F6", ""},
+        {"view.machine", "View", "Machine", "The machine and its jobs.", "F6", ""},
         always,
         show_workspace<Workspace::machine>,
         is_in<Workspace::machine>);
@@ -130,7 +130,7 @@ void add_view_actions(Actions& actions) {
         {"view.plot",
          "View",
          "Plot & Picture",
-         "Plots and pictures become parts: levels, hatching, reliefs.",
+         "Turns plots and pictures into parts: levels, hatching, reliefs.",
          "Shift+F5",
          ""},
         always,
@@ -142,16 +142,17 @@ void add_view_actions(Actions& actions) {
         show_workspace<Workspace::processor>,
         is_in<Workspace::processor>);
     add(actions,
-        {"view.arm", "View", "Arm", "The robot arm: joints, goals, jogs.", "Shift+F6", icons::arm},
+        {"view.arm", "View", "Arm", "The robot arm: joints, goals, jogging.", "Shift+F6", icons::arm},
         always,
         show_workspace<Workspace::arm>,
         is_in<Workspace::arm>);
     add_show<GridMethod::uniform>(
         actions, "view.show_uniform", "Show the uniform grid", "Draws path and error of the uniform grid.");
-    add_show<GridMethod::redistribution>(actions,
-                                         "view.show_redistribution",
-                                         "Show the redistributed nodes",
-                                         "Draws path and error of the grid whose tracks share their error.");
+    add_show<GridMethod::redistribution>(
+        actions,
+        "view.show_redistribution",
+        "Show the redistributed nodes",
+        "Draws path and error of the grid whose tracks have equal shares of their error.");
     add_show<GridMethod::elliptic>(
         actions, "view.show_elliptic", "Show the elliptic grid", "Draws path and error of the adapted grid.");
     add_show<GridMethod::harmonic>(
@@ -160,16 +161,17 @@ void add_view_actions(Actions& actions) {
                                  "view.show_tracks",
                                  "Show the optimised tracks",
                                  "Draws path and error of the grid whose tracks stay straight.");
-    add_show<GridMethod::chain>(actions,
-                                "view.show_chain",
-                                "Show the whole chain's grid",
-                                "Draws path and error of the best grid, once it was chosen for the program.");
+    add_show<GridMethod::chain>(
+        actions,
+        "view.show_chain",
+        "Show the whole chain's grid",
+        "Draws path and error of the best grid, once it has been chosen for the program.");
     add(
         actions,
         {"view.show_path",
          "View",
          "Show the path of the program",
-         "Draws path and error of the strategy that was chosen.",
+         "Draws path and error of the chosen strategy.",
          "",
          ""},
         [](const Workbench& now) {
@@ -185,14 +187,14 @@ void add_view_actions(Actions& actions) {
     add(actions,
         {"view.keep_result",
          "View",
-         "Keep this result",
-         "Keeps the path that is shown with its error, to compare later ones with.",
+         "Pin this result for comparison",
+         "Keeps the displayed path and its error, to compare later results with it.",
          "",
          ""},
         has_shown,
         keep_result);
     add(actions,
-        {"view.fit", "View", "Fit the view", "Shows everything.", "F", icons::fit_view},
+        {"view.fit", "View", "Fit the view", "Shows the whole scene.", "F", icons::fit_view},
         always,
         [](Hands& hands) { hands.session.fit_wanted_in(hands.session.workspace) = true; });
     add_sides(actions);
@@ -222,7 +224,7 @@ void add_view_actions(Actions& actions) {
         {"view.theme",
          "View",
          "Light theme",
-         "Changes between the dark and the light theme.",
+         "Switches between the dark and the light theme.",
          "",
          icons::moon},
         always,
@@ -234,8 +236,8 @@ void add_view_actions(Actions& actions) {
     add(actions,
         {"view.colors",
          "View",
-         "Colours of the view ...",
-         "Colours of background, surfaces, lines, paths and axes in place of the theme's.",
+         "View colours ...",
+         "Sets colours of background, surfaces, lines, paths and axes instead of the theme's.",
          "",
          ""},
         always,
@@ -243,8 +245,8 @@ void add_view_actions(Actions& actions) {
     add(actions,
         {"view.search",
          "View",
-         "Search for an action ...",
-         "Everything by a few letters.",
+         "Search commands ...",
+         "Finds any command by a few letters.",
          "Ctrl+K",
          icons::search},
         always,

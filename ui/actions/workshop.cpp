@@ -152,7 +152,7 @@ void Workshop::search_set_up() {
 
 void Workshop::accept_set_up() {
     const toolpath::SetUpPlace place = look().set_up_place();
-    edit("Accept the set-up",
+    edit("Accept the position on the table",
          [&](project::Project& draft) { draft = plan::with_set_up(std::move(draft), place); },
          {});
 }

@@ -53,7 +53,7 @@ void expect_start(const motion::Trajectory& motion, const arm::JointPositions& j
     constexpr double near_deg = 0.5;
     const double away = (motion.at(0.0).position - joints).cwiseAbs().maxCoeff();
     if (away > from_degrees(near_deg)) {
-        throw Error("the arm no longer stands where this motion begins", {}, "ask for it again");
+        throw Error("the arm is no longer where this motion begins", {}, "start the motion again");
     }
 }
 
@@ -108,11 +108,11 @@ void Workshop::follow_arm_work() {
         if (simulation->records.size() > 1 && !now.arm_connected()) {
             arm_->play(play_of(simulation));
         } else if (simulation->faults.empty()) {
-            tell(
-                session_,
-                widgets::Severity::good,
-                fmt::format("On an emulated card the program takes {:.1f} s, and no joint leaves its limits.",
-                            simulation->duration));
+            tell(session_,
+                 widgets::Severity::good,
+                 fmt::format(
+                     "On an emulated card, the program takes {:.1f} s and no joint exceeds its limits.",
+                     simulation->duration));
         }
         if (!simulation->faults.empty()) {
             tell(session_, widgets::Severity::warning, to_text(simulation->faults.front()));
@@ -132,12 +132,12 @@ void Workshop::follow_arm_work() {
         arm_->call_off_path_motion();
         tell(session_,
              widgets::Severity::warning,
-             "The path is not gone: the arm is not as it was when that was asked for. Ask for it again.");
+             "The path was not run: the state of the arm has changed since the request. Start it again.");
     }
     if (const auto answer = arm_->take_path_motion()) {
         guarded([&] {
             if (!answer->motion) {
-                throw Error("the arm cannot go this path: " + answer->why);
+                throw Error("the arm cannot run this path: " + answer->why);
             }
             play_on_arm(*answer->motion);
         });
@@ -189,7 +189,7 @@ void Workshop::simulate_motion_file() {
         arm_->arm(), history_.current().arm.motion_file, arm_->home(), MotionFileBench::name());
     tell(session_,
          widgets::Severity::info,
-         fmt::format("From its home the arm takes {:.1f} s.", motion.trajectory.duration()));
+         fmt::format("From its home, the arm takes {:.1f} s.", motion.trajectory.duration()));
     arm_->play(play_of(std::move(motion)));
     arm_->clear_trace();
 }
@@ -204,11 +204,10 @@ void Workshop::stream_motion_file() {
     if (arm::sets_feed(blocks)) {
         tell(session_,
              widgets::Severity::info,
-             fmt::format(
-                 "The stream does not use F: each move takes {:.0f} ms, in which no motor turns faster "
-                 "than {} degrees per second.",
-                 1e3 * stream->move_time(),
-                 deg_per_s));
+             fmt::format("The stream ignores F: each move takes {:.0f} ms, in which no motor exceeds {} "
+                         "degrees per second.",
+                         1e3 * stream->move_time(),
+                         deg_per_s));
     }
     arm_->play_stream(std::move(stream));
 }
@@ -226,8 +225,8 @@ void Workshop::load_card_settings(const fs::path& file) {
     session_.question = FileQuestion::none;
     pmac::PmacFile found = pmac::read_pmac_file(read_file(file), file);
     for (const auto& [kind, several] :
-         {std::pair(&found.omissions, "lines are left out"),
-          std::pair(&found.warnings, "protections are off or values too great")}) {
+         {std::pair(&found.omissions, "lines were skipped"),
+          std::pair(&found.warnings, "settings disable protections or are too large")}) {
         tell_findings(session_, *kind, several);
     }
     std::vector<std::string> lines;

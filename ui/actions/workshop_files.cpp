@@ -47,9 +47,8 @@ void expect_text(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
     if (begin.find('\0') != std::string::npos) {
-        throw Error("is no G-code, and of no kind that can be opened",
-                    file,
-                    "pictures are PNG, JPEG, BMP, PGM or PPM files");
+        throw Error(
+            "cannot be opened: unknown file type", file, "use PNG, JPEG, BMP, PGM or PPM for pictures");
     }
 }
 
@@ -91,12 +90,12 @@ void Workshop::receive(const std::vector<fs::path>& files) {
     if (files.size() > 1) {
         tell(session_,
              widgets::Severity::warning,
-             "One file is opened at a time: of these " + std::to_string(files.size()) + " it is " + name +
-                 ".");
+             "Only one file can be opened at a time. Of these " + std::to_string(files.size()) +
+                 ", Millwright opens " + name + ".");
     }
     follow_received();
     if (received_) {
-        tell(session_, widgets::Severity::info, name + " is opened when the question is answered.");
+        tell(session_, widgets::Severity::info, name + " will be opened after you answer the prompt.");
     }
 }
 
@@ -110,7 +109,7 @@ void Workshop::follow_received() {
 
 void Workshop::open_gcode(const fs::path& file) {
     if (jobs_->view().running) {
-        throw Error("a job is running; another program can be opened when it has ended", file);
+        throw Error("a job is running; open another program when it has ended", file);
     }
     reader_->open(file, session_.file.reading, options_.assets);
     gcode_ = file;
@@ -155,7 +154,7 @@ void Workshop::cancel_work() {
         tell(session_,
              widgets::Severity::info,
              with_full_stop("Cancelled" + (ended.text.empty() ? "" : ": " + ended.text)) +
-                 (planned ? " What is missing is made with the next change of the project." : ""));
+                 (planned ? " Missing results are computed after the next change of the project." : ""));
     }
     pipeline_->cancel();
     reader_->cancel();
@@ -328,7 +327,7 @@ void Workshop::follow_autosave() {
     if (const auto failure = autosave_->take_failure()) {
         tell(session_,
              widgets::Severity::warning,
-             "No copy of the unsaved changes can be kept: " + failure->message,
+             "The unsaved changes cannot be backed up: " + failure->message,
              failure->place.file.string());
     }
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 void Workshop::open_surface(const fs::path& file) {
     if (!fs::is_regular_file(file)) {
-        throw Error(fs::exists(file) ? "is no file" : "there is no such file", file);
+        throw Error(fs::exists(file) ? "is not a file" : "there is no such file", file);
     }
     import_->open(fs::absolute(file).lexically_normal());
     session_.workspace = Workspace::design;
@@ -71,9 +71,9 @@ void Workshop::take_import() {
 
 void Workshop::export_surface(const fs::path& file) {
     if (!exchange::is_surface_file(file)) {
-        throw Error("a surface is not written in this kind of file",
+        throw Error("a surface cannot be written to this type of file",
                     file,
-                    "the name ends in .step, .glb, .stl, .obj or .ply");
+                    "use a name ending in .step, .glb, .stl, .obj or .ply");
     }
     export_->write(
         {std::make_shared<const geometry::Surface>(project::surface_of(history_.current().surface)),

@@ -69,10 +69,10 @@ std::optional<gcode::CommentTool> tool_of_comments(const fs::path& file) {
 
 void Workshop::open_plot(const fs::path& file) {
     if (jobs_->view().running) {
-        throw Error("a job is running; a plot can be opened when it has ended", file);
+        throw Error("a job is running; open a plot when it has ended", file);
     }
     if (!fs::is_regular_file(file)) {
-        throw Error(fs::exists(file) ? "is no file" : "there is no such file", file);
+        throw Error(fs::exists(file) ? "is not a file" : "there is no such file", file);
     }
     const fs::path whole = fs::absolute(file).lexically_normal();
     const bool another = history_.current().plot.file != whole;
@@ -95,7 +95,7 @@ void Workshop::open_plot(const fs::path& file) {
         tell(session_,
              widgets::Severity::info,
              fmt::format(
-                 "A comment in line {} says the tool is {} mm wide: that is now the cutter's diameter.",
+                 "A comment in line {} gives a tool diameter of {} mm: this is now the cutter's diameter.",
                  tool->line,
                  shortest(tool->diameter)));
     }

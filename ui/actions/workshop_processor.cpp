@@ -97,11 +97,12 @@ void Workshop::save_image(const fs::path& file) {
 }
 
 void Workshop::take_over_assembler() {
-    write_assembler("Take over as assembler text", cordic::disassemble(processor_->image()));
+    write_assembler("Copy to the assembly source", cordic::disassemble(processor_->image()));
 }
 
 void Workshop::start_microprogram() {
-    write_microprogram("Start a microprogram", cordic::microprogram_text(cordic::Publishing::latch));
+    write_microprogram("Copy the built-in microprogram",
+                       cordic::microprogram_text(cordic::Publishing::latch));
 }
 
 void Workshop::open_microprogram(const fs::path& file) {

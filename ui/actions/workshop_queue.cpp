@@ -54,7 +54,7 @@ void Workshop::follow_queue() {
         tell(session_,
              widgets::Severity::danger,
              with_sentence("The queue could not be written: " + failure->message,
-                           "The job's log tells how it ended."),
+                           "See the job's log for how it ended."),
              failure->place.file.string());
     }
     const Workbench now = look();
@@ -64,13 +64,13 @@ void Workshop::follow_queue() {
     const QueuedJobId id = *std::exchange(loading_, std::nullopt);
     guarded([&] {
         if (const auto permission = job_ready(now); !permission.allowed) {
-            throw Error("The job keeps waiting for its program: " + permission.reason);
+            throw Error("The job is still waiting for its program: " + permission.reason);
         }
         queue_.open().load(id, wanted_job(now));
         session_.begin = {};
         tell(session_,
              widgets::Severity::good,
-             "The program was read again; it begins by \u201cRun next\u201d.");
+             "The program was read again; start it with \u201cRun next\u201d.");
     });
 }
 

@@ -159,7 +159,7 @@ TEST_F(ArmMotionFileS7, IsStreamedThroughTheDualPortedRamOfAnEmulatedCard) {
     const Vec3 begin = arm::base_T_tool(arm().arm(), arm().home()).translation();
     person_.click("lower/arm_stream_motion");
     EXPECT_THAT(person_.workshop().session().log,
-                ::testing::Contains(::testing::HasSubstr("The stream does not use F")));
+                ::testing::Contains(::testing::HasSubstr("The stream ignores F")));
     ASSERT_NE(arm().stream(), nullptr);
     person_.frames(20);
     EXPECT_TRUE(arm().stream()->buffer().runs);

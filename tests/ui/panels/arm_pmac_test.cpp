@@ -116,8 +116,7 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     EXPECT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::alarm) && !bench.pmac.any_power(); }));
     EXPECT_TRUE(bench.person.sees("alarm/message"));
-    EXPECT_EQ(bench.person.refusal("hand/power/machine_home"),
-              "There is an alarm: look at the arm, then unlock it first.");
+    EXPECT_EQ(bench.person.refusal("hand/power/machine_home"), "Alarm: inspect the arm, then unlock it.");
     told = bench.newest_notice();
     bench.person.press_key(Key::equal);
     EXPECT_GT(bench.newest_notice(), told);
@@ -425,7 +424,7 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
 
 /// Played later, such a point would send the arm to where it never stood.
 TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
-    constexpr const char* why = "The position is not known: home the arm first.";
+    constexpr const char* why = "The position is unknown: home the arm first.";
     ArmAtPmac bench;
     const auto status = [&] { return bench.person.workshop().look().controller.status; };
     bench.person.workshop().run("arm.teach"); // of the drawn arm

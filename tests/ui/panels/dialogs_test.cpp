@@ -202,7 +202,8 @@ TEST(RecoveryDialog, FilesFromOutsideWaitForTheAnswer) {
     person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt")});
     person.frames();
     EXPECT_TRUE(person.project().plot.file.empty()) << "opened behind the question";
-    EXPECT_EQ(person.workshop().session().log.back(), "moves.plt is opened when the question is answered.");
+    EXPECT_EQ(person.workshop().session().log.back(),
+              "moves.plt will be opened after you answer the prompt.");
     person.click("dialogs/recovery/recovery_recover");
     person.wait_idle();
     EXPECT_EQ(person.project().grid.nu, 33);
@@ -218,7 +219,7 @@ TEST(ReceivedFiles, OfSeveralTheOneThatIsOpenedIsNamed) {
     person.wait_idle();
     EXPECT_EQ(person.project().plot.file.filename(), "moves.plt");
     const auto& log = person.workshop().session().log;
-    EXPECT_EQ(log.back(), "One file is opened at a time: of these 3 it is moves.plt.");
+    EXPECT_EQ(log.back(), "Only one file can be opened at a time. Of these 3, Millwright opens moves.plt.");
 }
 
 TEST(ReceivedFiles, WaitBehindAQuestionAboutUnsavedChangesAndAskTheirOwn) {

@@ -317,7 +317,7 @@ TEST_F(Import, TheSurfaceIsExported) {
     person_.workshop().run("file.export");
     person_.frames();
     person_.fill_in("dialogs/files/name", (person_.folder() / "out.dwg").string());
-    EXPECT_TRUE(was_told("ends in .step"));
+    EXPECT_TRUE(was_told("name ending in .step"));
     EXPECT_FALSE(fs::exists(person_.folder() / "out.dwg"));
     person_.frames(3);
     person_.keep("export-refused");

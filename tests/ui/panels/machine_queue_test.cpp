@@ -153,7 +153,7 @@ TEST_F(MachineQueue, HoldsAJobThatWasRunningWhenTheWindowWasKilled) {
     person.workshop().run("view.machine");
     person.frames(3);
     person.click("lower/tabs/queue");
-    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("far did not end well"));
+    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("far did not finish successfully"));
 }
 
 TEST_F(MachineQueue, BelongsToOneWindowAndIsFreeWhenItIsEmpty) {
@@ -209,7 +209,7 @@ TEST_F(MachineQueue, MakesAJobAnewForAnotherKindOfMachine) {
             [&] { return person.workshop().look().controller.link == actions::LinkState::none; }));
     }
     person.frames(2);
-    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("another kind of machine"));
+    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("another type of machine"));
     person.workshop().run("queue.run_next");
     EXPECT_FALSE(person.workshop().look().job.running);
     choose(person, 1);
@@ -311,7 +311,8 @@ TEST_F(MachineQueue, BeginsOneByOneByAPersonsWord) {
     ASSERT_TRUE(
         person.live_until([&] { return person.workshop().look().queue[2].state == QueueState::held; }));
     person.frames(3);
-    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("second did not end well"));
+    EXPECT_THAT(person.refusal("lower/queue/queue_run_next"),
+                HasSubstr("second did not finish successfully"));
     person.keep("machine-queue-held");
     person.click("lower/queue/queue_remove_done");
     EXPECT_EQ(person.workshop().look().queue.size(), 1U);

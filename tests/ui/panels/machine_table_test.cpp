@@ -1,4 +1,4 @@
-// A table that takes records and does not tell where it stands, in the Machine workspace.
+// A table that takes records and does not report its position, in the Machine workspace.
 #include "core/base/files.h"
 #include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/person.h"
@@ -74,7 +74,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     EXPECT_FALSE(known());
     EXPECT_TRUE(person.sees("hand/messages/stands/there"));
     begin_at(20);
-    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not tell where it stands"));
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not report its position"));
     person.workshop().run("machine.run");
     person.frames(5);
     EXPECT_FALSE(now().job.running);
@@ -154,7 +154,7 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     person.workshop().run("machine.reset");
     ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::idle); }));
     person.frames(3);
-    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not tell where it stands"));
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not report its position"));
     person.keep("table-in-doubt");
     const auto at = table.position();
     say_where("hand/messages/stands", at[0], at[1], at[2]);

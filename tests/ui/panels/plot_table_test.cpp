@@ -113,7 +113,7 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
     EXPECT_EQ(table.records(), 0);
     bench.person.frames(2);
     EXPECT_EQ(table_text(bench.person.workshop().look()), "table at " + table.port() + ": held");
-    EXPECT_EQ(bench.person.refusal("lower/plot_play_table"), "The table is held. Press Resume to go on.");
+    EXPECT_EQ(bench.person.refusal("lower/plot_play_table"), "The table is held. Press Resume to continue.");
     // The tip of a button is not over the line that says which tool to put in.
     const widgets::Rect play = bench.person.place("lower/plot_play_table");
     bench.person.hover({play.x + 10.0F, play.y + 5.0F});

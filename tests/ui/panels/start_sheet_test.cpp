@@ -214,7 +214,7 @@ TEST_F(StartSheetAtGrbl, AMachineThatIsGoneIsNotReplacedByAVirtualOne) {
     person.workshop().controller().disconnect();
     ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().controller.connected(); }));
     person.frames(2);
-    EXPECT_THAT(person.refusal(start), HasSubstr("not connected any more"));
+    EXPECT_THAT(person.refusal(start), HasSubstr("no longer connected"));
     person.press_key(render::Key::enter);
     person.frames(5);
     EXPECT_FALSE(has_job());

@@ -187,7 +187,7 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
     EXPECT_EQ(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
     EXPECT_LT(person_.workshop().look().evaluation(project::GridMethod::uniform)->closest.mean, before);
     const std::string accept = "inspector/set_up_search/set_up_accept";
-    EXPECT_EQ(person_.refusal(accept), "The part stands there already.");
+    EXPECT_EQ(person_.refusal(accept), "The part is already there.");
     person_.keep("toolpath-set-up-accepted");
     person_.press_key(render::Key::z, true);
     person_.wait_idle();

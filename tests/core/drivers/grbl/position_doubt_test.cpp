@@ -196,7 +196,7 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
         (void)dispatcher.run(rest, {});
         FAIL() << "it began at a line although nobody knows where the machine stands";
     } catch (const Error& error) {
-        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Line 20 could start anywhere"));
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Line 20 could start at the wrong position"));
     }
     EXPECT_EQ(wire.grbl.truth().lines.size(), lines);
     driver.trust_position();
