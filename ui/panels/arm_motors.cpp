@@ -102,7 +102,7 @@ private:
 
 void arm_motors(Ui& ui, const Workbench& now) {
     if (!now.arm.loaded()) {
-        ui.note("There is no arm.");
+        ui.note("No arm is loaded.");
         return;
     }
     constexpr std::array<widgets::Column, 10> columns{{{"Joint", {}, 0.8F},
