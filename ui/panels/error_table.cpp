@@ -64,7 +64,7 @@ std::string error_cell(const Evaluation* evaluation, int column) {
 ErrorRow
 row_of(std::string id, std::string name, const Evaluation* evaluation, const std::optional<double>& seconds) {
     const bool so_far = evaluation != nullptr && actions::is_so_far(*evaluation);
-    ErrorRow row{std::move(id), {std::move(name) + (so_far ? " (so far)" : "")}};
+    ErrorRow row{std::move(id), {std::move(name) + (so_far ? " (preliminary)" : "")}};
     for (int column = 1; column < static_cast<int>(error_columns.size()) - 1; ++column) {
         row.cells.push_back(error_cell(evaluation, column));
     }

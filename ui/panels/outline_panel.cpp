@@ -41,9 +41,8 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
     }
     if (std::ranges::any_of(rows, &OutlineRow::so_far)) {
-        ui.note(
-            "~ so far: measured coarsely, or on the grid from before the last change. The figures at the end "
-            "can be others.");
+        ui.note("~ Preliminary: measured coarsely, or on the grid before the last change. The final values "
+                "can differ.");
     }
     for (const GridMethod method : project::every_grid_method) {
         const auto evaluation = now.evaluation(method);

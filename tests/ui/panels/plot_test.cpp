@@ -511,8 +511,8 @@ TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
     bench.person.workshop().session().layers_now().toolpath = false;
     bench.person.frames(3);
     EXPECT_GT(drawn, bench.pixels_like(red) + 1000);
-    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("as it stands"));
-    EXPECT_THAT(bench.person.refusal("inspector/travel/order"), HasSubstr("as it stands"));
+    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));
+    EXPECT_THAT(bench.person.refusal("inspector/travel/order"), HasSubstr("cut unchanged"));
     EXPECT_THAT(bench.person.refusal("inspector/cutter/tool_mm"), testing::IsEmpty()); // how wide it cuts
 }
 
@@ -526,7 +526,7 @@ TEST(PlotWorkspace, GCodeThatIsDroppedHereIsCutAsItStands) {
     EXPECT_NEAR(bench.made().lengths.cut, 438.2848, 1e-2);
     EXPECT_NEAR(bench.made().lengths.travel, 80.2905, 1e-3);
     EXPECT_EQ(bench.made().path->front().at, Vec3(10, 10, 10));
-    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("as it stands"));
+    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));
     EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), testing::IsEmpty());
     EXPECT_TRUE(bench.person.workshop().look().in_file()); // its program can be played
     bench.person.keep("plot-gcode");
