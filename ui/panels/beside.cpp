@@ -93,7 +93,7 @@ std::optional<PathBeside> path_beside(const Workbench& now) {
     }
     if (beside.kept) {
         const auto& kept = now.session.kept;
-        return PathBeside{kept->evaluation, "Kept: " + kept->name + ", " + kept->place};
+        return PathBeside{kept->evaluation, "Pinned: " + kept->name + ", " + kept->place};
     }
     auto path = now.evaluation(*beside.method);
     std::string name(project::row_of(project::grid_methods(), *beside.method).label);

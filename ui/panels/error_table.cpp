@@ -90,8 +90,8 @@ std::vector<ErrorRow> error_rows(const Workbench& now) {
                               now.plan ? now.plan->plan.path_time : std::nullopt));
     }
     if (const auto& kept = now.session.kept) {
-        rows.push_back(
-            row_of("kept", "Kept: " + kept->name + ", " + kept->place, kept->evaluation.get(), std::nullopt));
+        rows.push_back(row_of(
+            "kept", "Pinned: " + kept->name + ", " + kept->place, kept->evaluation.get(), std::nullopt));
     }
     return rows;
 }

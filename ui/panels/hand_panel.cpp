@@ -51,7 +51,7 @@ Permission can_jog_axis(const Workbench& now, char axis) {
     }
     const std::string_view some = now.controller.can.jog_axes;
     if (!some.empty() && some.find(axis) == std::string_view::npos) {
-        return Permission::refused("This machine jogs " + std::string(some) + " alone.");
+        return Permission::refused("This machine can only jog " + std::string(some) + ".");
     }
     const bool jogging = now.controller.status.activity == drivers::Activity::jog;
     return jogging ? Permission{} : at_rest(now.controller);
