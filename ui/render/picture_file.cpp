@@ -48,7 +48,7 @@ Picture from_image_bytes(std::string_view bytes, const std::filesystem::path& na
     if (!decoded) {
         throw Error(std::string("cannot read the picture: ") + stbi_failure_reason(),
                     name,
-                    "PNG, JPEG and BMP files can be read");
+                    "use a PNG, JPEG or BMP file");
     }
     Picture picture = filled(size, Pixel{});
     std::memcpy(picture.pixels.data(), decoded.get(), picture.pixels.size() * sizeof(Pixel));

@@ -44,7 +44,7 @@ std::optional<TimelineAsk> speed_choice(Ui& ui, double now) {
         options.push_back({.id = "now", .label = own});
     }
     const auto width = ui.width(ui.px(speed_width));
-    const auto chosen = ui.choice("speed", "", index, options, "Speed of the playback, times real time.");
+    const auto chosen = ui.choice("speed", "", index, options, "Playback speed, as a factor of real time.");
     if (!chosen || *chosen >= std::ssize(speeds)) {
         return std::nullopt;
     }
@@ -59,15 +59,15 @@ std::optional<TimelineAsk> transport(Ui& ui, const TimelineView& view) {
         }
         ui.beside();
     };
-    button("first", icons::skip_first, "To the start", Kind::first);
-    button("back", icons::step_back, "One block back", Kind::back);
+    button("first", icons::skip_first, "Go to start", Kind::first);
+    button("back", icons::step_back, "Previous block", Kind::back);
     if (view.is_playing) {
         button("play", icons::pause, "Pause", Kind::pause);
     } else {
         button("play", icons::play, "Play", Kind::play);
     }
-    button("step", icons::step_forward, "One block on", Kind::step);
-    button("last", icons::skip_last, "To the end", Kind::last);
+    button("step", icons::step_forward, "Next block", Kind::step);
+    button("last", icons::skip_last, "Go to end", Kind::last);
     return ask;
 }
 
