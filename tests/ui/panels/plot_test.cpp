@@ -344,7 +344,7 @@ TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
     bench.person.workshop().session().workspace = Workspace::plot;
     bench.person.frames(3);
     ASSERT_TRUE(bench.person.workshop().look().job.running);
-    EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job runs"));
+    EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job is running"));
     bench.person.keep("plot-beside-a-job");
     bench.person.workshop().run("machine.stop");
     EXPECT_TRUE(bench.person.live_until([&] { return !bench.person.workshop().look().job.running; }));
