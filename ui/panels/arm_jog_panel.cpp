@@ -288,13 +288,12 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
     if (const auto value = widgets::slider(ui, hand.arm_percent, percent)) {
         ask.show([value = *value](actions::Session& session) { session.hand.arm_percent = value; });
     }
-    if (const auto on =
-            ui.toggle("keys",
-                      "Keyboard",
-                      hand.arm_keys,
-                      "Keyboard jog. 1 to 5: select joint; + and -: jog while held; /: stop; H: home; K: "
-                      "disable the motors; Q: quit the program; S: send the program; R: run it; I: load "
-                      "settings; : (colon): terminal; X: turn keyboard jog off")) {
+    if (const auto on = ui.toggle("keys",
+                                  "Keyboard",
+                                  hand.arm_keys,
+                                  "Keyboard jog. 1 to 5: select joint; + and -: jog while held; /: stop; H: "
+                                  "home; K: disable the motors; Q: stop the program; S: send the program; R: "
+                                  "run it; I: load settings; colon: terminal; X: turn keyboard jog off")) {
         ask.show([on = *on](actions::Session& session) { session.hand.arm_keys = on; });
     }
     if (const int joint = joint_of_keys(now); joint >= 0) {

@@ -189,7 +189,7 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
         if (const auto on = ui.toggle("fifth_axis",
                                       "Axis 5",
                                       choice.axes.find('B') != std::string::npos,
-                                      "Motor 5 drives joint 5, on a second output connector or simulated in "
+                                      "Motor 5 drives joint 5, on a second row of outputs or simulated in "
                                       "the card; the card must be configured for it")) {
             change_hand_settings(
                 ask, [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });

@@ -73,7 +73,7 @@ void set_weights(const Workbench& now,
 void symmetry_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const geometry::NetSymmetry& symmetry = now.session.symmetry;
     constexpr const char* tip = "Edits of a control point are mirrored to its counterpart in the net; points "
-                                "on the symmetry plane stay there";
+                                "in the middle stay in the middle";
     if (const auto on = ui.toggle("symmetric_x", "Symmetric in X", symmetry.x, tip)) {
         ask.show([x = *on](actions::Session& session) { session.symmetry.x = x; });
     }

@@ -87,7 +87,7 @@ std::pair<std::string, widgets::Tone> position_words(const ControllerView& machi
                : status.position_known ? std::pair{"Entered manually, not reported.", Tone::muted}
                                        : std::pair{"Assumed, not reported.", Tone::muted};
     }
-    return doubt ? std::pair{"Not verified: home the machine or confirm.", Tone::warning}
+    return doubt ? std::pair{"Position not verified: home or confirm it.", Tone::warning}
                  : std::pair{"Reported by the controller.", Tone::muted};
 }
 

@@ -209,7 +209,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         compare(ui, *made, planned, current);
     }
     ui.value("way",
-             "Total travel",
+             "Travel incl. lifts",
              current ? metres(made->lengths.cut + made->lengths.travel) : unknown,
              current ? "m" : "");
     ui.value("planner",

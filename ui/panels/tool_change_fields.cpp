@@ -132,8 +132,8 @@ namespace {
 
 std::string_view what_a_person_can_do(const drivers::ToolChangeStatus& change) {
     return change.held         ? "Press Resume to end the hold."
-           : change.keeps_zero ? "Change the tool, then press Continue: the tool is measured, raised and "
-                                 "returned to its position."
+           : change.keeps_zero ? "Change the tool, then press Continue: the tool is raised and measured, "
+                                 "then returns to its position."
                                : "Jog and set the Z zero, then press Continue. If the tool has to return, it "
                                  "is raised first.";
 }

@@ -71,7 +71,7 @@ TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
     EXPECT_GT(way.part_length(), 250.0); // what the plot draws, and travel
 }
 
-// "Travelled" and "Total travel": one number, of the program that is played.
+// "Travelled" and "Travel incl. lifts": one number, of the program that is played.
 TEST(PlotWorkspace, TheWayThatIsToldIsTheOneThatIsGone) {
     PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const auto differ = [&] {
