@@ -154,9 +154,10 @@ void ConnectionPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const DriverChoice& choice = now.session.hand.choice;
-    const auto permitted = ui.permitted(now.controller.link == LinkState::none
-                                            ? widgets::Permission{}
-                                            : widgets::Permission::refused("Connecting \u2026"));
+    const auto permitted =
+        ui.permitted(now.controller.link == LinkState::none
+                         ? widgets::Permission{}
+                         : widgets::Permission::refused("The machine is being connected."));
     if (const auto kind = ui.choice("driver", "Driver", static_cast<int>(choice.kind), driver_kind_options)) {
         change_hand_settings(ask, [kind = *kind](actions::HandSettings& hand) {
             hand.addresses[static_cast<std::size_t>(hand.choice.kind)] = hand.choice.address;

@@ -59,7 +59,7 @@ std::optional<TimelineAsk> transport(Ui& ui, const TimelineView& view) {
         }
         ui.beside();
     };
-    button("first", icons::skip_first, "Go to start", Kind::first);
+    button("first", icons::skip_first, "Go to the start", Kind::first);
     button("back", icons::step_back, "Previous block", Kind::back);
     if (view.is_playing) {
         button("play", icons::pause, "Pause", Kind::pause);
@@ -67,7 +67,7 @@ std::optional<TimelineAsk> transport(Ui& ui, const TimelineView& view) {
         button("play", icons::play, "Play", Kind::play);
     }
     button("step", icons::step_forward, "Next block", Kind::step);
-    button("last", icons::skip_last, "Go to end", Kind::last);
+    button("last", icons::skip_last, "Go to the end", Kind::last);
     return ask;
 }
 
