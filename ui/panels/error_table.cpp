@@ -23,16 +23,16 @@ using plan::Evaluation;
 using project::GridMethod;
 
 constexpr std::array<widgets::Column, 11> error_columns{{{"Grid", "", 1.9F, false},
-                                                         {"max", "mm", 1.0F, true},
-                                                         {"mean", "mm", 1.0F, true},
-                                                         {"mean/length", "mm", 1.2F, true},
+                                                         {"Max.", "mm", 1.0F, true},
+                                                         {"Mean", "mm", 1.0F, true},
+                                                         {"Mean by length", "mm", 1.2F, true},
                                                          {"RMS", "mm", 1.0F, true},
                                                          {"95 %", "mm", 1.0F, true},
-                                                         {"axis max", "deg", 1.2F, true},
-                                                         {"track gap", "mm", 1.1F, true},
-                                                         {"points", "", 0.9F, true},
-                                                         {"length", "mm", 1.1F, true},
-                                                         {"time", "s", 1.0F, true}}};
+                                                         {"Axis max.", "deg", 1.2F, true},
+                                                         {"Track gap", "mm", 1.1F, true},
+                                                         {"Points", "", 0.9F, true},
+                                                         {"Length", "mm", 1.1F, true},
+                                                         {"Time", "s", 1.0F, true}}};
 
 std::string error_cell(const Evaluation* evaluation, int column) {
     if (evaluation == nullptr) {

@@ -161,7 +161,7 @@ void FilePanel::draw_places(Ui& ui, const Workbench& now) {
     }
     const auto width = ui.width(ui.px(130.0F));
     if (const auto chosen =
-            ui.choice("places", "", 0, options, "Home, project, samples, recent folders, drives");
+            ui.choice("places", "", 0, options, "Go to home, project, samples, recent folders or drives");
         chosen && *chosen > 0) {
         enter(places[static_cast<std::size_t>(*chosen) - 1].folder);
     }

@@ -19,7 +19,7 @@ using plan::BlockBite;
 
 constexpr std::array<widgets::Column, 6> gouge_columns{{{"Line", "", 0.8F, true},
                                                         {"Body", "", 1.0F, false},
-                                                        {"depth", "mm", 1.0F, true},
+                                                        {"Depth", "mm", 1.0F, true},
                                                         {"x", "mm", 1.0F, true},
                                                         {"y", "mm", 1.0F, true},
                                                         {"z", "mm", 1.0F, true}}};

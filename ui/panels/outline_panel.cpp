@@ -23,7 +23,7 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
     const std::vector<OutlineRow> rows = outline_rows(now);
     constexpr std::array<widgets::Column, 2> columns{
-        {{"Stage", "", 0.9F, false}, {"mean error", "", 1.1F, true}}};
+        {{"Stage", "", 0.9F, false}, {"Mean error", "", 1.1F, true}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(rows);

@@ -37,7 +37,7 @@ void ProgramPanel::draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask)
     choice_field<project::LinkInput>(ui,
                                      ask,
                                      "link",
-                                     "Track to track",
+                                     "Track linking",
                                      "Change the track links",
                                      project::links(),
                                      now.project.program.link,

@@ -217,11 +217,11 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::S
     }
     const toolpath::SetUpPlace place = now.set_up_place();
     ui.value("place",
-             "Marked a, b, c",
+             "Selected a, b, c",
              fmt::format("{}, {}, {}", fixed(place[0], 1), fixed(place[1], 1), fixed(place[2], 1)),
              "mm");
     if (found.settings.turn_reach > 0.0 || std::abs(place[3]) > 0.0) {
-        ui.value("place_turn", "Marked rotation", fixed(to_degrees(place[3]), 1), "deg");
+        ui.value("place_turn", "Selected rotation", fixed(to_degrees(place[3]), 1), "deg");
     }
 }
 
