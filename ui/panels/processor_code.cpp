@@ -59,7 +59,7 @@ void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     {
         const auto labels = ui.label_share(0.24F);
-        if (const auto chosen = ui.segmented("click", "On click", static_cast<int>(click_), clicks)) {
+        if (const auto chosen = ui.segmented("click", "Click", static_cast<int>(click_), clicks)) {
             click_ = static_cast<Click>(*chosen);
         }
     }

@@ -420,7 +420,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
     const cordic::RunReport& report = now.processor.report();
     ui.value("late", "Late set-points", fmt::format("{} of {}", report.late.size(), report.published));
     ui.value("fastest",
-             "Max. feed on time",
+             "Feed limit",
              report.fastest ? fmt::format("{:.0f}", to_mm_per_min(*report.fastest)) : "-",
              "mm/min");
     if (const auto value = ui.number(choice.needle_rpm, needle_field)) {

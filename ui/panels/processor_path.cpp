@@ -189,11 +189,11 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const double worst = now.processor.report().position_error;
     const std::span<const std::size_t> late = now.processor.report().late;
-    const Rect inside = below_title(ui,
-                                    place,
-                                    late.empty() ? std::string("Deviation from the exact path")
-                                                 : fmt::format("Deviation from the exact path; {} late",
-                                                               counted(late.size(), "set-point")));
+    const Rect inside =
+        below_title(ui,
+                    place,
+                    late.empty() ? std::string("Path deviation")
+                                 : fmt::format("Path deviation; {} late", counted(late.size(), "set-point")));
     (void)widgets::canvas(ui, "map", inside, 0);
     if (path.empty()) {
         return say(ui, inside, "No set-points.");

@@ -237,7 +237,7 @@ void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
     {
         const auto labels = ui.label_share(0.3F);
         ui.value("begins",
-                 "Start point",
+                 "Start",
                  fmt::format("{}  {}  {}", fixed(at.x(), 2), fixed(at.y(), 2), fixed(at.z(), 2)),
                  "mm");
     }
