@@ -175,7 +175,7 @@ constexpr std::array<AskedFile, 20> questions{
       [](actions::Workshop& workshop, const fs::path& file) { workshop.save_microprogram(file); },
       "No microprograms (.micro) in this folder."},
      {FileQuestion::write_program,
-      "Export G-code as",
+      "Write G-code as",
       false,
       ".ngc",
       "",

@@ -95,7 +95,7 @@ void Dialogs::draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) con
 }
 
 void Dialogs::draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("gouges", "Export a program that gouges the part?", ui.px(wide));
+    const auto dialog = ui.dialog("gouges", "Write a program that gouges the part?", ui.px(wide));
     if (!dialog) {
         return;
     }

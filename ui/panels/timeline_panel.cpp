@@ -121,8 +121,9 @@ void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
     widgets::TimelineView view;
     view.permission = widgets::Permission::refused(
         now.plot.file().empty() ? "No file is open."
-        : long_one ? "With more than 100,000 points, the program is available only after it is exported."
-                   : "There is no program yet.");
+        : long_one
+            ? "With more than 100,000 points, the program is available only after it is written to a file."
+            : "There is no program yet.");
     (void)widgets::timeline(ui, "timeline", view);
 }
 
