@@ -30,7 +30,7 @@ std::string to_png(const Picture& picture) {
     std::string bytes;
     const int stride = width * static_cast<int>(sizeof(Pixel));
     const int done = stbi_write_png_to_func(append, &bytes, width, height, 4, picture.pixels.data(), stride);
-    expects(done != 0 && !bytes.empty(), "a picture in memory becomes a PNG");
+    expects(done != 0 && !bytes.empty(), "a picture can be encoded as PNG");
     return bytes;
 }
 

@@ -211,7 +211,7 @@ void draw_timeline_key(Ui& ui, std::span<const TimelineSeries> series) {
 } // namespace
 
 std::optional<TimelineAsk> timeline(Ui& ui, std::string_view id, const TimelineView& view) {
-    expects(std::isfinite(view.fraction) && std::isfinite(view.speed), "a timeline stands somewhere");
+    expects(std::isfinite(view.fraction) && std::isfinite(view.speed), "a timeline has a position");
     const auto scope = ui.scope(id);
     std::optional<TimelineAsk> ask = transport(ui, view);
     where(ui, view);
