@@ -47,12 +47,12 @@ std::string drive_cell(const arm::ArmDriveReadings& found, std::size_t row, int 
 
 void arm_drives(Ui& ui, const Workbench& now) {
     if (!now.arm.loaded()) {
-        ui.note("There is no arm.");
+        ui.note("No arm is loaded.");
         return;
     }
     const auto& drives = now.arm.look()->file.actuators;
     if (!drives) {
-        ui.note("The file of this arm describes no actuators: each joint has a motor of its own.");
+        ui.note("The arm file describes no actuators: each joint has its own motor.");
         return;
     }
     constexpr std::array<widgets::Column, 6> columns{{{"Drive", {}, 0.7F},
@@ -77,7 +77,7 @@ void arm_drives(Ui& ui, const Workbench& now) {
     }
     const arm::ArmZone* zone = now.arm.arm().zone();
     if (zone == nullptr || !zone->drives) {
-        ui.note("These limits are shown, not enforced: \"watched\" is false in the arm's file.");
+        ui.note("These limits are displayed but not enforced: \"watched\" is false in the arm file.");
     }
 }
 

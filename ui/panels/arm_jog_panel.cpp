@@ -33,12 +33,15 @@ constexpr double fastest_mm_per_s = 150.0;
 constexpr double whole_percent = 100.0;
 
 constexpr std::array<widgets::Option, 3> frames{
-    {{"joints", "Joints", {}, "Each joint by itself"},
-     {"base", "Base", {}, "The tip along X, Y and Z of the arm's base"},
-     {"tool", "Tool", {}, "The tip along x, y and z of the tool"}}};
+    {{"joints", "Joints", {}, "Jog each joint individually"},
+     {"base", "Base", {}, "Jog the tip along X, Y and Z of the base frame"},
+     {"tool", "Tool", {}, "Jog the tip along x, y and z of the tool frame"}}};
 constexpr std::array<double, 4> arm_jog_steps{0.0, 0.1, 1.0, 10.0};
 constexpr std::array<widgets::Option, 4> arm_jog_step_options{
-    {{"hold", "Held", {}, "Moves as long as it is held"}, {"0_1", "0.1"}, {"1", "1"}, {"10", "10"}}};
+    {{"hold", "Cont.", {}, "Continuous: moves while the button is held"},
+     {"0_1", "0.1"},
+     {"1", "1"},
+     {"10", "10"}}};
 
 bool drives(const Workbench& now, int joint) {
     return joint < std::ssize(now.controller.axes);
@@ -47,7 +50,7 @@ bool drives(const Workbench& now, int joint) {
 Permission can_jog_joint(const Workbench& now, int joint) {
     if (!now.arm_connected()) {
         return now.controller.connected()
-                   ? Permission::refused("What is connected is no arm: see the Machine workspace.")
+                   ? Permission::refused("The connected device is not an arm: use the Machine workspace.")
                    : Permission{};
     }
     if (joint >= 0 && !drives(now, joint)) {
@@ -194,7 +197,7 @@ void draw_protections(Ui& ui, const Workbench& now) {
     if (now.arm.news().protections_off().empty()) {
         return;
     }
-    if (const auto section = ui.section("protections", "Protections that are off")) {
+    if (const auto section = ui.section("protections", "Disabled protections")) {
         for (const std::string& sentence : now.arm.news().protections_off()) {
             ui.text(as_sentence(sentence));
         }
@@ -209,9 +212,9 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     draw_power(ui, now, ask);
-    if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog the drawn arm")) {
+    if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog (simulated arm)")) {
         const int frame = static_cast<int>(now.session.hand.arm_frame);
-        if (const auto chosen = ui.segmented("frame", "Along", frame, frames)) {
+        if (const auto chosen = ui.segmented("frame", "Frame", frame, frames)) {
             refusal_.clear();
             ask.show([f = static_cast<ArmFrame>(*chosen)](actions::Session& session) {
                 session.hand.arm_frame = f;
@@ -226,7 +229,7 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         wish.tell();
         draw_speed(ui, now, ask);
         if (!refusal_.empty()) {
-            ui.note(with_full_stop("Not done: " + refusal_));
+            ui.note(with_full_stop("Not possible: " + refusal_));
         }
     }
     connection_.draw_messages(ui, now, ask);
@@ -269,8 +272,8 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
     const auto labels = ui.label_share(0.3F);
     const auto at = std::ranges::find(arm_jog_steps, hand.step);
     const int chosen = at == arm_jog_steps.end() ? 0 : static_cast<int>(at - arm_jog_steps.begin());
-    if (const auto step =
-            ui.segmented("step", "Step", chosen, arm_jog_step_options, "Degrees or mm of one press")) {
+    if (const auto step = ui.segmented(
+            "step", "Step", chosen, arm_jog_step_options, "Jog increment, degrees or mm per press")) {
         ask.show([step = arm_jog_steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
             session.hand.step = step;
         });
@@ -279,24 +282,23 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
         "speed",
         "Speed %",
         {},
-        "Of 30 \u00b0/s and 150 mm/s, which no jog by hand exceeds; a PMAC goes no faster than 5 \u00b0/s",
+        "Jog speed, percent of the maximum of 30 \u00b0/s and 150 mm/s; a PMAC is limited to 5 \u00b0/s",
         1.0,
         100.0};
     if (const auto value = widgets::slider(ui, hand.arm_percent, percent)) {
         ask.show([value = *value](actions::Session& session) { session.hand.arm_percent = value; });
     }
-    if (const auto on =
-            ui.toggle("keys",
-                      "By keys",
-                      hand.arm_keys,
-                      "1 to 5 choose a joint, + and - jog it while held, / stops, H homes, K takes the "
-                      "power, Q ends a program, S sends the program, R runs it, I loads settings, : goes to "
-                      "the terminal, X gives the keys back")) {
+    if (const auto on = ui.toggle("keys",
+                                  "Keyboard",
+                                  hand.arm_keys,
+                                  "Keyboard jog. 1 to 5: select joint; + and -: jog while held; /: stop; H: "
+                                  "home; K: disable the motors; Q: stop the program; S: send the program; R: "
+                                  "run it; I: load settings; colon: terminal; X: turn keyboard jog off")) {
         ask.show([on = *on](actions::Session& session) { session.hand.arm_keys = on; });
     }
     if (const int joint = joint_of_keys(now); joint >= 0) {
         ui.note("Joint " + now.arm.arm().joint(joint).name +
-                " by + and \u2212, held, whatever is chosen above.");
+                " jogs while + or \u2212 is held, regardless of the frame and step selected above.");
     }
 }
 

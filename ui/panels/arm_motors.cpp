@@ -102,7 +102,7 @@ private:
 
 void arm_motors(Ui& ui, const Workbench& now) {
     if (!now.arm.loaded()) {
-        ui.note("There is no arm.");
+        ui.note("No arm is loaded.");
         return;
     }
     constexpr std::array<widgets::Column, 10> columns{{{"Joint", {}, 0.8F},
@@ -114,7 +114,7 @@ void arm_motors(Ui& ui, const Workbench& now) {
                                                        {"Max", "\u00b0/s\u00b2", 1.2F, true},
                                                        {"Output", "V", 1.1F, true},
                                                        {"Max", "V", 0.9F, true},
-                                                       {"Lag", "\u00b0", 0.9F, true}}};
+                                                       {"Foll. error", "\u00b0", 0.9F, true}}};
     const arm::ArmModel& arm = now.arm.arm();
     widgets::TableView view;
     view.columns = columns;

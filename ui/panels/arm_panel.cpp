@@ -33,9 +33,9 @@ using arm::JointKind;
 constexpr double least_manipulability = 1e-3; // below: next to singular
 
 widgets::Permission by_hand(const Workbench& now) {
-    return now.arm_connected()
-               ? widgets::Permission::refused("The picture follows the connected controller: jog it.")
-               : widgets::Permission{};
+    return now.arm_connected() ? widgets::Permission::refused(
+                                     "The view follows the connected controller: jog the arm instead.")
+                               : widgets::Permission{};
 }
 
 /// "12 s", from a minute on "00:01:12".
@@ -49,11 +49,11 @@ std::string place_text(const actions::CardPlace& place) {
     constexpr double whole = 100.0;
     const std::string share = fmt::format("{:.0f} %", std::floor(whole * place.share));
     if (place.sending) {
-        return fmt::format("To the card goes line {} of {}, {}.", place.line, place.lines, share);
+        return fmt::format("Sending line {} of {} to the card, {}.", place.line, place.lines, share);
     }
     const std::string line = fmt::format("Line {} of {}", place.line, place.lines);
     if (!(place.duration > 0.0)) {
-        return fmt::format("{}; how long it takes is not known.", line);
+        return fmt::format("{}; duration unknown.", line);
     }
     // Of whole seconds, so that what is shown adds up.
     const double all = std::round(place.duration), gone = std::min(std::floor(place.time), all);
@@ -67,7 +67,7 @@ std::string place_text(const actions::CardPlace& place) {
 
 /// Of one that did not come to its end.
 std::string broken_off_text(const actions::CardPlace& place) {
-    const std::string line = fmt::format("Ended before its end, in line {} of {}", place.line, place.lines);
+    const std::string line = fmt::format("Ended early at line {} of {}", place.line, place.lines);
     return place.sending || !(place.duration > 0.0) ? line + "."
                                                     : fmt::format("{}, at {:.0f} % and {} of {}.",
                                                                   line,
@@ -89,24 +89,23 @@ bool slides(const arm::ArmModel& arm) {
 void roll_fields(Ui& ui, const ArmBench& bench, ActionQueue& ask) {
     const auto& roll = bench.goal_roll();
     if (const auto on = ui.toggle("roll_matters",
-                                  "With roll",
+                                  "Set roll",
                                   roll.has_value(),
-                                  "Off: the tool may turn about its axis as it likes")) {
+                                  "Off: the rotation of the tool about its axis is free")) {
         ask.arm([on = *on](ArmBench& b) {
             b.set_goal_roll(on ? std::optional(kinematics::roll_of(b.tool().linear())) : std::nullopt);
         });
     }
     if (roll) {
-        const widgets::FieldInfo field{
-            "roll",
-            "Roll",
-            "\u00b0",
-            "Of the tool about its axis. At 0 the tool's x lies in the upright plane "
-            "through the axis and points up",
-            -360.0,
-            360.0,
-            {},
-            2};
+        const widgets::FieldInfo field{"roll",
+                                       "Roll",
+                                       "\u00b0",
+                                       "Rotation of the tool about its axis. At 0 the tool's x axis lies in "
+                                       "the vertical plane through the tool axis and points up",
+                                       -360.0,
+                                       360.0,
+                                       {},
+                                       2};
         if (const auto wanted = ui.number(to_degrees(*roll), field)) {
             ask.arm([to = from_degrees(*wanted)](ArmBench& b) { b.set_goal_roll(to); });
         }
@@ -153,8 +152,8 @@ void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto found = std::ranges::find(arms_, now.arm.name());
     const int at = found == arms_.end() ? 0 : static_cast<int>(found - arms_.begin());
     const auto permitted = ui.permitted(by_hand(now));
-    if (const auto chosen = ui.choice(
-            "arm", "Arm", at, options, "One that ships with the program, or was opened: Arm > Open an arm")) {
+    if (const auto chosen =
+            ui.choice("arm", "Arm", at, options, "Included arms and those opened with Arm > Open an arm")) {
         ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmBench& bench) { bench.load(name); });
         ask.show([](actions::Session& session) {
             session.fit_wanted_in(actions::Workspace::arm) = true;
@@ -172,10 +171,10 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
                               "not_known",
                               {widgets::Severity::warning,
                                now.controller.status.velocity.size() == 0 // as last told
-                                   ? "Position not known: these are the degrees that the card told last, and "
-                                     "the arm may have gone on. Look at it."
-                                   : "Position not known: these are degrees from where the arm stood when "
-                                     "the card was switched on. Home it.",
+                                   ? "Position unknown: these are the last angles that the card reported, "
+                                     "and the arm may have moved since. Inspect the arm."
+                                   : "Position unknown: these angles are relative to the pose at which the "
+                                     "card was switched on. Home the arm.",
                                {}});
     }
     const auto labels = ui.label_share(0.24F);
@@ -185,7 +184,7 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
         const bool bounded = std::isfinite(joint.min) && std::isfinite(joint.max);
         const std::string id = "joint_" + joint.name;
         const std::string label = "Joint " + joint.name + (viewport::near_limit(joint, position) ? " !" : "");
-        const std::string tip = fmt::format("From {} to {} {}; ! within 10 \u00b0 of a limit",
+        const std::string tip = fmt::format("Range {} to {} {}; ! means within 10 \u00b0 of a limit",
                                             shortest(std::round(in_joint_unit(joint, joint.min))),
                                             shortest(std::round(in_joint_unit(joint, joint.max))),
                                             is_revolute(joint) ? "\u00b0" : "mm");
@@ -221,12 +220,12 @@ void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
     const auto labels = ui.label_share(0.34F);
     if (const actions::ArmBlockPlayed* const block = now.arm.block()) {
         ui.value("block", fmt::format("Line {}", block->line), block->text);
-        ui.value("block_goal", "Goes to", tip_place_text(block->goal), "mm");
+        ui.value("block_goal", "Target", tip_place_text(block->goal), "mm");
     }
     ui.value("tip", "Tip", tip_place_text(tip), "mm");
     ui.value("axis", "Axis (z)", direction_text(directions.col(2)));
-    ui.value("x", "Its x", direction_text(directions.col(0)));
-    ui.value("y", "Its y", direction_text(directions.col(1)));
+    ui.value("x", "Axis (x)", direction_text(directions.col(0)));
+    ui.value("y", "Axis (y)", direction_text(directions.col(1)));
     ui.value("roll", "Roll", fixed(to_degrees(kinematics::roll_of(directions)), 2), "\u00b0");
     const double measure = now.arm.manipulability();
     ui.value("manipulability",
@@ -245,32 +244,33 @@ void ArmPanel::draw_goal(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const Vec3 tip = bench.goal() ? bench.goal()->tip : Vec3(tool.translation());
     const Vec3 axis = bench.goal() ? bench.goal()->axis : Vec3(tool.linear().col(2));
     const widgets::FieldInfo place{
-        "tip", "Tip", "mm", "Where the tip shall be, in the arm's base", -1e5, 1e5, {}, 2};
+        "tip", "Tip", "mm", "Target position of the tip in the base frame", -1e5, 1e5, {}, 2};
     if (const auto wanted = ui.vec3("tip", "Tip", {tip.x(), tip.y(), tip.z()}, place)) {
         ask.arm([axis, p = *wanted](ArmBench& b) { b.set_goal(Vec3(p[0], p[1], p[2]), axis); });
     }
     const widgets::FieldInfo direction{
-        "axis", "Axis", {}, "Where the tool axis shall point; of any length", -1e3, 1e3, {}, 3};
+        "axis", "Axis", {}, "Target direction of the tool axis; need not be a unit vector", -1e3, 1e3, {}, 3};
     if (const auto wanted = ui.vec3("axis", "Axis", {axis.x(), axis.y(), axis.z()}, direction)) {
         ask.arm([tip, d = *wanted](ArmBench& b) { b.set_goal(tip, Vec3(d[0], d[1], d[2])); });
     }
     roll_fields(ui, bench, ask);
-    if (const auto on = ui.toggle("project",
-                                  "Into its plane",
-                                  bench.projects(),
-                                  "Turns the axis by the smallest angle to where five joints can hold it")) {
+    if (const auto on = ui.toggle(
+            "project",
+            "Snap axis to plane",
+            bench.projects(),
+            "Rotate the tool axis by the smallest angle to a direction that five joints can reach")) {
         ask.arm([on = *on](ArmBench& b) { b.set_projects(on); });
     }
     {
         const auto row = ui.row(2);
         if (ui.button("from_tool",
-                      "From the tool",
+                      "Use current pose",
                       {},
-                      {{}, widgets::Rank::normal, -1.0F, "Takes what the arm does now"})) {
+                      {{}, widgets::Rank::normal, -1.0F, "Copy the current pose of the arm"})) {
             ask.arm([](ArmBench& b) { b.set_goal_from_tool(); });
         }
         const auto allowed =
-            bench.goal() ? widgets::Permission{} : widgets::Permission::refused("There is no goal.");
+            bench.goal() ? widgets::Permission{} : widgets::Permission::refused("No goal is set.");
         if (ui.button("drop", "Clear", allowed, {{}, widgets::Rank::normal, -1.0F, {}})) {
             ask.arm([](ArmBench& b) { b.drop_goal(); });
         }
@@ -288,7 +288,7 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
     }
     // Of any joint from where it stands.
     constexpr std::array<widgets::Column, 2> turning{
-        {{"Solution", {}, 1.6F}, {"Farthest turn", "\u00b0", 1.0F, true}}};
+        {{"Solution", {}, 1.6F}, {"Max. travel", "\u00b0", 1.0F, true}}};
     constexpr std::array<widgets::Column, 3> sliding{
         {{"Solution", {}, 1.0F}, {"Turn", "\u00b0", 1.0F, true}, {"Slide", "mm", 1.0F, true}}};
     const bool with_slide = slides(bench.arm());
@@ -324,8 +324,8 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
             action_button(ui, now, ask, catalogue_, "machine.resume", widgets::Rank::normal, "Resume");
             action_button(ui, now, ask, catalogue_, "machine.stop", widgets::Rank::primary, "Stop");
         } else {
-            action_button(ui, now, ask, catalogue_, "arm.go_joints", widgets::Rank::primary, "By joints");
-            action_button(ui, now, ask, catalogue_, "arm.go_straight", widgets::Rank::normal, "In a line");
+            action_button(ui, now, ask, catalogue_, "arm.go_joints", widgets::Rank::primary, "Joint");
+            action_button(ui, now, ask, catalogue_, "arm.go_straight", widgets::Rank::normal, "Linear");
             action_button(ui, now, ask, catalogue_, "arm.stop", widgets::Rank::normal, "Stop");
         }
         action_button(ui,
@@ -345,14 +345,13 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
     } else if (const auto& ended = now.arm.card_run().broken_off(); real && ended) {
         ui.note(broken_off_text(*ended));
     } else if (real && status.link_lost) {
-        ui.note("The link is lost: the picture is what the card told last.");
+        ui.note("The link is lost: the view shows the last reported position.");
     } else if (real) {
-        ui.note("The picture follows the connected PMAC.");
+        ui.note("The view follows the connected PMAC.");
     } else if (now.arm.duration() > 0.0) {
-        ui.note(
-            fmt::format("On its way: {} of {}.", short_time(now.arm.time()), short_time(now.arm.duration())));
+        ui.note(fmt::format("Moving: {} of {}.", short_time(now.arm.time()), short_time(now.arm.duration())));
     } else {
-        ui.note("Drag the tool's tip or a link in the view, or set a goal and go there.");
+        ui.note("Drag the tool tip or a link in the view, or set a goal and move to it.");
     }
 }
 

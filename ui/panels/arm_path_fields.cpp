@@ -18,38 +18,44 @@ namespace millwright::panels {
 namespace {
 
 constexpr std::array<widgets::Option, 2> sources{
-    {{"project", "Project", {}, "The program of the project's surface"},
-     {"file", "Opened file", {}, "The G-code file that is open in the Program workspace, as of a plot"}}};
+    {{"project", "Project", {}, "Program generated from the project's surface"},
+     {"file", "Opened file", {}, "G-code file that is open in the Program workspace, such as a plot"}}};
 
 void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const project::PathPlace& place = now.project.arm.path;
     const widgets::FieldInfo at{
-        "at", "At", "mm", "Where the program's zero stands in the arm's base", -1e5, 1e5, {}, 1};
-    if (const auto v = ui.vec3("at", "At", {place.at_mm.x(), place.at_mm.y(), place.at_mm.z()}, at)) {
+        "at", "Origin", "mm", "Position of the program zero in the base frame", -1e5, 1e5, {}, 1};
+    if (const auto v = ui.vec3("at", "Origin", {place.at_mm.x(), place.at_mm.y(), place.at_mm.z()}, at)) {
         ask.edit(
             "Place the path on the arm",
             [to = Vec3((*v)[0], (*v)[1], (*v)[2])](project::Project& draft) { draft.arm.path.at_mm = to; });
     }
-    const widgets::FieldInfo turned{
-        "turned", "Turned", "\u00b0", "About the base's X, then Y, then Z", -360.0, 360.0, {}, 1};
+    const widgets::FieldInfo turned{"turned",
+                                    "Rotation",
+                                    "\u00b0",
+                                    "Rotation about X, then Y, then Z of the base frame",
+                                    -360.0,
+                                    360.0,
+                                    {},
+                                    1};
     const Vec3& t = place.turned_deg;
-    if (const auto v = ui.vec3("turned", "Turned", {t.x(), t.y(), t.z()}, turned)) {
-        ask.edit("Turn the path on the arm", [to = Vec3((*v)[0], (*v)[1], (*v)[2])](project::Project& draft) {
-            draft.arm.path.turned_deg = to;
-        });
+    if (const auto v = ui.vec3("turned", "Rotation", {t.x(), t.y(), t.z()}, turned)) {
+        ask.edit("Rotate the path on the arm",
+                 [to = Vec3((*v)[0], (*v)[1], (*v)[2])](project::Project& draft) {
+                     draft.arm.path.turned_deg = to;
+                 });
     }
     const widgets::FieldInfo lean{
         "lean",
-        "May lean",
+        "Max. tilt",
         "\u00b0",
-        "By how much the tool may be turned from what is programmed, where an arm of "
-        "five joints cannot hold it so; 0: not at all",
+        "Largest tilt of the tool from the programmed axis where a five-joint arm cannot reach it; 0: none",
         0.0,
         90.0,
         project::PathPlace().most_lean_deg,
         1};
     if (const auto v = ui.number(place.most_lean_deg, lean)) {
-        ask.edit("Lean of the tool on the arm",
+        ask.edit("Change the maximum tool tilt",
                  [to = *v](project::Project& draft) { draft.arm.path.most_lean_deg = to; });
     }
 }
@@ -63,8 +69,7 @@ void lean_text(Ui& ui, const arm::ArmReach& reach) {
             ui,
             "leans",
             {widgets::Severity::warning,
-             fmt::format("The arm cannot hold the tool as it is programmed: it leans by up to "
-                         "{}\u00b0 from that.",
+             fmt::format("The arm cannot reach the programmed tool axis: the tool tilts by up to {}\u00b0.",
                          fixed(lean, 1)),
              {}});
     }
@@ -75,14 +80,12 @@ void holes_text(Ui& ui, const arm::ArmReach& reach) {
     if (reach.holes.empty()) {
         return;
     }
-    const std::string what = reach.holes.size() == 1
-                                 ? "One stretch of it is"
-                                 : fmt::format("{} stretches of it are", reach.holes.size());
-    (void)widgets::banner(ui,
-                          "holes",
-                          {widgets::Severity::warning,
-                           "The arm does not reach the whole path: " + what + " out of reach.",
-                           {}});
+    const std::string what =
+        reach.holes.size() == 1 ? "1 section is" : fmt::format("{} sections are", reach.holes.size());
+    (void)widgets::banner(
+        ui,
+        "holes",
+        {widgets::Severity::warning, "The arm cannot reach the whole path: " + what + " out of reach.", {}});
 }
 
 void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
@@ -95,7 +98,7 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
     const double share = reach.length > 0.0 ? 100.0 * reach.reached / reach.length : 0.0;
     const double percent = reach.holes.empty() ? share : std::min(share, nearly);
     holes_text(ui, reach);
-    ui.value("reached", "Reached", fixed(percent, 1), fmt::format("% of {} mm", fixed(reach.length, 0)));
+    ui.value("reached", "Reachable", fixed(percent, 1), fmt::format("% of {} mm", fixed(reach.length, 0)));
     lean_text(ui, reach);
     constexpr std::size_t most_shown = 3;
     for (std::size_t n = 0; n < std::min(most_shown, reach.holes.size()); ++n) {
@@ -106,10 +109,10 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
                             place,
                             fixed(hole.length, 1),
                             with_full_stop(hole.why),
-                            off.empty() ? "" : " At worst " + with_full_stop(off)));
+                            off.empty() ? "" : " Worst case: " + with_full_stop(off)));
     }
     if (reach.holes.size() > most_shown) {
-        ui.note(fmt::format("{} more stretches out of reach.", reach.holes.size() - most_shown));
+        ui.note(fmt::format("{} more sections out of reach.", reach.holes.size() - most_shown));
     }
 }
 
@@ -121,7 +124,7 @@ std::string why_none(const Workbench& now) {
     if (!now.session.hand.arm_path_of_file || !now.opened) {
         return "The project has no program yet.";
     }
-    return now.opened->no_motion.empty() ? "The file is being read." : now.opened->no_motion;
+    return now.opened->no_motion.empty() ? "Reading the file \u2026" : now.opened->no_motion;
 }
 
 void source_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -129,7 +132,7 @@ void source_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const int source = now.session.hand.arm_path_of_file ? 1 : 0;
-    if (const auto chosen = ui.segmented("source", "Program of", source, sources)) {
+    if (const auto chosen = ui.segmented("source", "Program", source, sources)) {
         ask.show(
             [of_file = *chosen == 1](actions::Session& session) { session.hand.arm_path_of_file = of_file; });
     }
@@ -146,11 +149,8 @@ void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actio
     const bool shown = now.session.hand.arm_path;
     const std::string none = why_none(now);
     const auto can_show = none.empty() ? widgets::Permission{} : widgets::Permission::refused(none);
-    if (const auto on = ui.toggle("shown",
-                                  "Show the program",
-                                  shown,
-                                  "Green where the arm reaches it and red where not",
-                                  can_show)) {
+    if (const auto on =
+            ui.toggle("shown", "Show the program", shown, "Green: reachable; red: out of reach", can_show)) {
         ask.show([on = *on](actions::Session& session) { session.hand.arm_path = on; });
     }
     if (!shown || !none.empty()) {
@@ -160,11 +160,11 @@ void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actio
     if (const auto path = now.arm.path()) {
         reach_text(ui, *path);
     } else {
-        ui.note("Being worked out \u2026");
+        ui.note("Computing \u2026");
     }
     action_button(ui, now, ask, catalogue, "arm.send_path");
     if (now.arm.works_out_path_motion()) {
-        ui.note("Its motion is being worked out \u2026");
+        ui.note("Computing the motion \u2026");
     }
 }
 

@@ -25,8 +25,14 @@ using widgets::Permission;
 using widgets::Rank;
 
 constexpr std::array<widgets::Option, 2> moves{
-    {{"joints", "By joints", {}, "All joints at once; the tool goes anywhere between"},
-     {"line", "In a line", {}, "The tip along a line, the tool turning evenly"}}};
+    {{"joints",
+      "Joint",
+      {},
+      "Joint move: all joints move at once; the tool path in between is not controlled"},
+     {"line",
+      "Linear",
+      {},
+      "Linear move: the tip follows a straight line; the tool orientation changes uniformly"}}};
 
 std::string joints_text(const TaughtPoint& point) {
     std::string text;
@@ -68,9 +74,10 @@ void ArmPointsPanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask
     const auto row = ui.row(8);
     action_button(ui, now, ask, catalogue_, "arm.teach", Rank::primary, "Teach");
     action_button(ui, now, ask, catalogue_, "arm.play_points", Rank::normal, "Play");
-    const auto picture = now.arm_connected() ? Permission::refused("Play the points: the arm is connected.")
-                                             : need(chosen_ >= 0, "Choose a point first.");
-    if (ui.button("go_to", "Show", picture, {{}, Rank::normal, -1.0F, "Draws the arm at this point"})) {
+    const auto picture = now.arm_connected()
+                             ? Permission::refused("The arm is connected: play the points instead.")
+                             : need(chosen_ >= 0, "Select a point first.");
+    if (ui.button("go_to", "Show", picture, {{}, Rank::normal, -1.0F, "Show the arm at this point"})) {
         ask.arm([point = now.project.arm.points[static_cast<std::size_t>(chosen_)]](actions::ArmBench& arm) {
             auto joints = arm.joints();
             for (Eigen::Index n = 0; n < std::min(joints.size(), std::ssize(point.joints_deg)); ++n) {
@@ -81,14 +88,14 @@ void ArmPointsPanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask
             arm.set_joints(joints);
         });
     }
-    if (ui.button("up", "Earlier", need(chosen_ > 0, "It is the first."), {{}, Rank::normal, -1.0F, {}})) {
+    if (ui.button("up", "Up", need(chosen_ > 0, "This is the first point."), {{}, Rank::normal, -1.0F, {}})) {
         swap_with(ask, chosen_ - 1);
     }
-    const auto later = need(chosen_ >= 0 && chosen_ < last, "It is the last.");
-    if (ui.button("down", "Later", later, {{}, Rank::normal, -1.0F, {}})) {
+    const auto later = need(chosen_ >= 0 && chosen_ < last, "This is the last point.");
+    if (ui.button("down", "Down", later, {{}, Rank::normal, -1.0F, {}})) {
         swap_with(ask, chosen_ + 1);
     }
-    const auto some = need(chosen_ >= 0, "Choose a point first.");
+    const auto some = need(chosen_ >= 0, "Select a point first.");
     if (ui.button("remove", "Remove", some, {icons::remove, Rank::normal, -1.0F, {}})) {
         ask.edit("Remove a taught point", [n = chosen_](project::Project& draft) {
             draft.arm.points.erase(draft.arm.points.begin() + n);
@@ -106,7 +113,7 @@ void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask)
     {
         const auto width = ui.width(0.3F * whole);
         const auto labels = ui.label_share(0.25F);
-        if (const auto name = ui.text_field("name", "Name", point.name, "Of its own among the points")) {
+        if (const auto name = ui.text_field("name", "Name", point.name, "Unique name of the point")) {
             ask.edit("Rename a taught point",
                      [n, name = *name](project::Project& draft) { draft.arm.points.at(n).name = name; });
         }
@@ -114,9 +121,9 @@ void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask)
     ui.beside();
     {
         const auto width = ui.width(0.3F * whole);
-        const auto labels = ui.label_share(0.2F);
-        if (const auto way = ui.segmented("way", "Go", point.straight ? 1 : 0, moves)) {
-            ask.edit("Change the way to a taught point", [n, straight = *way == 1](project::Project& draft) {
+        const auto labels = ui.label_share(0.25F);
+        if (const auto way = ui.segmented("way", "Move", point.straight ? 1 : 0, moves)) {
+            ask.edit("Change the move to a taught point", [n, straight = *way == 1](project::Project& draft) {
                 draft.arm.points.at(n).straight = straight;
             });
         }
@@ -128,7 +135,7 @@ void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask)
         const widgets::FieldInfo info{"speed",
                                       "Speed",
                                       "%",
-                                      "Of the joints' greatest speeds, in a line of 250 mm/s",
+                                      "Percent of the maximum joint speeds; for linear moves, of 250 mm/s",
                                       0.1,
                                       100.0,
                                       100.0,
@@ -142,8 +149,11 @@ void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask)
     ui.beside();
     const auto width = ui.width(0.16F * whole);
     const Permission teaches = catalogue_.find("arm.teach").permission(now);
-    if (ui.button("again", "Teach again", teaches, {{}, Rank::normal, -1.0F, "Where the arm stands now"})) {
-        ask.edit("Teach a point again", [n, taught = now.arm.taught(point.name)](project::Project& draft) {
+    if (ui.button("again",
+                  "Re-teach",
+                  teaches,
+                  {{}, Rank::normal, -1.0F, "Replace with the current pose of the arm"})) {
+        ask.edit("Re-teach a point", [n, taught = now.arm.taught(point.name)](project::Project& draft) {
             draft.arm.points.at(n).joints_deg = taught.joints_deg;
         });
     }
@@ -154,7 +164,7 @@ void ArmPointsPanel::draw_table(Ui& ui, const Workbench& now) {
     constexpr std::array<widgets::Column, 5> columns{{{"", {}, 0.3F, true},
                                                       {"Name", {}, 1.4F},
                                                       {"Joints", "\u00b0", 3.0F, true},
-                                                      {"Goes there", {}, 1.0F},
+                                                      {"Move", {}, 1.0F},
                                                       {"Speed", "%", 0.7F, true}}};
     widgets::TableView view;
     view.columns = columns;
@@ -162,7 +172,7 @@ void ArmPointsPanel::draw_table(Ui& ui, const Workbench& now) {
     view.chosen = chosen_;
     view.wanted = now.arm.new_point() ? chosen_ : -1;
     view.height = ui.rest().h;
-    view.when_empty = "Bring the arm somewhere and teach the point; a click on a point lets you change it.";
+    view.when_empty = "Move the arm to a position and teach the point. Click a point to edit it.";
     view.row_id = [](std::ptrdiff_t row) { return fmt::format("point_{}", row + 1); };
     view.cell = [&](std::ptrdiff_t row, int column) -> std::string {
         const TaughtPoint& point = points[static_cast<std::size_t>(row)];
@@ -174,7 +184,7 @@ void ArmPointsPanel::draw_table(Ui& ui, const Workbench& now) {
         case 2:
             return joints_text(point);
         case 3:
-            return point.straight ? "in a line" : "by joints";
+            return point.straight ? "linear" : "joint";
         default:
             return shortest(point.speed_percent);
         }

@@ -42,7 +42,7 @@ std::string why_not_known(const Workbench& now) {
     if (!now.in_file() || !now.opened->finished) {
         return "No program yet.";
     }
-    return "Where the rotary axes stand is known of planned programs only. " + now.opened->no_motion;
+    return "Rotary axis positions are available for planned programs only. " + now.opened->no_motion;
 }
 
 } // namespace
@@ -68,12 +68,12 @@ TravelWords travel_words(std::span<const widgets::AxisReading> axes) {
         return found;
     };
     if (const std::string beyond = letters(widgets::AxisState::beyond_limit); !beyond.empty()) {
-        return {"Beyond the travel: " + beyond, widgets::Tone::danger};
+        return {"Beyond travel limit: " + beyond, widgets::Tone::danger};
     }
     if (const std::string near = letters(widgets::AxisState::near_limit); !near.empty()) {
-        return {"Near the end of the travel: " + near, widgets::Tone::warning};
+        return {"Near travel limit: " + near, widgets::Tone::warning};
     }
-    return {"Within the travel", widgets::Tone::muted};
+    return {"Within travel limits", widgets::Tone::muted};
 }
 
 void axis_positions(Ui& ui, const Workbench& now) {

@@ -43,9 +43,9 @@ void draw_numbers(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const int last = std::max(line_count(now), 1);
     const std::string of_all = fmt::format("of {}", last);
     const widgets::FieldInfo info{"line",
-                                  "First line",
+                                  "Start line",
                                   of_all,
-                                  "Of the program: the first that is executed",
+                                  "First program line to execute",
                                   1.0,
                                   static_cast<double>(last),
                                   std::numeric_limits<double>::quiet_NaN(),
@@ -55,22 +55,23 @@ void draw_numbers(Ui& ui, const Workbench& now, ActionQueue& ask) {
         set_begin(ask, begin);
     }
     const auto check = [](std::string_view text) {
-        return text.empty() || height(text) ? std::string() : std::string("A height, or nothing");
+        return text.empty() || height(text) ? std::string() : std::string("Enter a height, or leave empty");
     };
     if (const auto text = ui.expression("clearance",
                                         "Clearance Z",
                                         begin.clearance ? shortest(*begin.clearance) : std::string(),
                                         check,
-                                        "mm, in work coordinates: from here up the tool can go anywhere. "
-                                        "Empty: the highest rapid above the line")) {
+                                        "Z height in work coordinates, mm, at and above which the tool can "
+                                        "move freely. Empty: the highest rapid above the line")) {
         begin.clearance = text->empty() ? std::nullopt : height(*text);
         set_begin(ask, begin);
     }
     const auto here = current_line(now);
-    if (here >= 0 && ui.button("cursor",
-                               fmt::format("Line of the cursor ({})", here + 1),
-                               {},
-                               {{}, widgets::Rank::quiet, -1.0F, "Begins where the listing stands"})) {
+    if (here >= 0 &&
+        ui.button("cursor",
+                  fmt::format("Use current line ({})", here + 1),
+                  {},
+                  {{}, widgets::Rank::quiet, -1.0F, "Start at the current line of the listing"})) {
         begin.line = static_cast<int>(here) + 1;
         set_begin(ask, begin);
     }
@@ -89,16 +90,16 @@ void draw_doubt(Ui& ui, const Workbench& now, ActionQueue& ask) {
     (void)widgets::banner(
         ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(doubt), std::string()});
     if (ui.toggle("trust",
-                  "It stands where it says",
+                  "Confirm position",
                   false,
-                  "You have looked: the position of the machine is the one that is shown")) {
+                  "Confirm, after inspecting the machine, that the displayed position is correct")) {
         ask.run("machine.trust_position");
     }
 }
 
 void draw_approach(Ui& ui, const Workbench& now) {
     if (!now.approach) {
-        ui.note("The approach is being worked out \u2026");
+        ui.note("Computing the approach \u2026");
         return;
     }
     const actions::Approach& approach = *now.approach;
@@ -116,8 +117,8 @@ void draw_approach(Ui& ui, const Workbench& now) {
                                line > 0 ? fmt::format("line {}", line) : std::string()});
         return;
     }
-    ui.note(fmt::format("Before line {} the machine brings into force what the lines above would have, lifts "
-                        "the tool, goes over the place and comes down at the feed:",
+    ui.note(fmt::format("Before line {}, the machine sets the modes that the lines above would have set, "
+                        "raises the tool, moves above the start point and plunges at the feed rate:",
                         approach.wish.begin.line));
     std::string lines;
     for (const std::string& line : approach.lines) {
@@ -133,12 +134,13 @@ void begin_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const BeginAt& begin = now.session.begin;
     const widgets::Permission can =
         now.job.running ? widgets::Permission::refused("A job is running.") : actions::program_ready(now);
-    if (const auto on = ui.toggle("on",
-                                  "Begin at a line",
-                                  begin.on,
-                                  "After a broken tool: everything above the line is brought into force, and "
-                                  "the tool comes from above",
-                                  can)) {
+    if (const auto on =
+            ui.toggle("on",
+                      "Run from line",
+                      begin.on,
+                      "Restart in the middle of the program, for example after a broken tool: the modes set "
+                      "by the lines above are restored, and the tool approaches from above",
+                      can)) {
         const auto here = std::max<std::ptrdiff_t>(current_line(now), 0);
         set_begin(ask, *on ? BeginAt{true, static_cast<int>(here) + 1, std::nullopt, {}} : BeginAt{});
     }

@@ -20,17 +20,17 @@ struct Choice {
 };
 
 std::vector<Choice> choices_of(const Workbench& now) {
-    std::vector<Choice> choices{{{}, {"nothing", "Nothing", {}, "One view of the shown result", {}}}};
+    std::vector<Choice> choices{{{}, {"nothing", "None", {}, "Single view of the current result", {}}}};
     for (const GridMethod method : project::every_grid_method) {
         if (now.evaluation(method)) {
             const auto& row = project::row_of(project::grid_methods(), method);
             choices.push_back({{method, false}, {row.id, row.label, {}, row.tip, {}}});
         }
     }
-    choices.push_back(
-        {{{}, false, true}, {"design", "Designed surface", {}, "To compare the produced surface with", {}}});
+    choices.push_back({{{}, false, true},
+                       {"design", "Designed surface", {}, "For comparison with the produced surface", {}}});
     if (now.session.kept) {
-        choices.push_back({{{}, true}, {"kept", {}, {}, "The result that was kept", {}}});
+        choices.push_back({{{}, true}, {"kept", {}, {}, "Result pinned for comparison", {}}});
     }
     return choices;
 }
@@ -73,9 +73,12 @@ void beside_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions
         options.back().label = choices[n].beside.kept ? std::string_view(kept) : options.back().label;
         index = choices[n].beside == now.session.beside ? static_cast<int>(n) : index;
     }
-    const auto labels = ui.label_share(0.28F); // a machine and a place are long words
-    if (const auto chosen = ui.choice(
-            "beside", "Beside it", index, options, "Another result at the left, in the same colours")) {
+    const auto labels = ui.label_share(0.32F); // a machine and a place are long words
+    if (const auto chosen = ui.choice("beside",
+                                      "Compare with",
+                                      index,
+                                      options,
+                                      "Show another result on the left with the same colour scale")) {
         ask.show([beside = choices[static_cast<std::size_t>(*chosen)].beside](actions::Session& session) {
             session.beside = beside;
         });
@@ -90,7 +93,7 @@ std::optional<PathBeside> path_beside(const Workbench& now) {
     }
     if (beside.kept) {
         const auto& kept = now.session.kept;
-        return PathBeside{kept->evaluation, "Kept: " + kept->name + ", " + kept->place};
+        return PathBeside{kept->evaluation, "Pinned: " + kept->name + ", " + kept->place};
     }
     auto path = now.evaluation(*beside.method);
     std::string name(project::row_of(project::grid_methods(), *beside.method).label);

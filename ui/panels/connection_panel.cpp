@@ -26,22 +26,28 @@ using machine::DriverKind;
 using widgets::Rank;
 
 constexpr std::array<widgets::Option, 7> driver_kind_options{
-    {{"virtual", "Virtual machine", {}, "A machine inside this program; nothing is plugged in"},
-     {"grbl", "Grbl", {}, "A Grbl 1.1, grblHAL or FluidNC controller at a serial port or TCP address"},
-     {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, through its linuxcncrsh"},
-     {"stream", "Coordinate stream", {}, "A machine that is sent where its axes shall be, and says nothing"},
+    {{"virtual", "Virtual machine", {}, "Simulated machine; no hardware required"},
+     {"grbl", "Grbl", {}, "Grbl 1.1, grblHAL or FluidNC controller on a serial port or TCP address"},
+     {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, connected through linuxcncrsh"},
+     {"stream",
+      "Coordinate stream",
+      {},
+      "Machine that receives axis positions at a fixed rate and sends no feedback"},
      {"cordic",
       "CORDIC processor",
       {},
-      "The G-code processor's model with a machine inside this program; X, Y and Z only"},
-     {"records", "Table by records", {}, "A table that takes one record a move, as t x y z a s"},
-     {"pmac", "PMAC", {}, "The motor card of a robot arm, at a serial port or TCP address"}}};
+      "Simulated G-code processor with a simulated machine; X, Y and Z only"},
+     {"records",
+      "Record-based XYZ table",
+      {},
+      "XYZ table that takes one record per move, such as t x y z a s"},
+     {"pmac", "PMAC", {}, "Motor controller card of a robot arm, on a serial port or TCP address"}}};
 
 std::string kind_text(DriverKind kind) {
     return kind == DriverKind::virtual_machine ? "virtual machine"
            : kind == DriverKind::stream        ? "coordinate stream"
            : kind == DriverKind::records
-               ? "table by records"
+               ? "XYZ table"
                : std::string(driver_kind_options[static_cast<std::size_t>(kind)].label);
 }
 
@@ -53,23 +59,23 @@ template <class Change> void change_hand_settings(ActionQueue& ask, Change&& cha
 /// What a person should do about an alarm.
 std::string advice(const Workbench& now) {
     if (now.controller.status.link_lost) {
-        return "Look at the machine first. Then reconnect: nothing moves by that.";
+        return "Inspect the machine, then reconnect. Reconnecting does not move it.";
     }
     if (now.controller.choice.kind == DriverKind::pmac) {
-        return "Look at the arm first. Then unlock it; no motor gets power by that.";
+        return "Inspect the arm, then unlock it. Unlocking does not enable the motors.";
     }
     if (now.controller.choice.kind == DriverKind::linuxcnc) { // which homes once it is switched on
-        return "Unlock it when you have looked at it, then home it unless its position is certain.";
+        return "Inspect the machine and unlock it, then home it unless you are sure the position is correct.";
     }
     return now.controller.can.home
-               ? "Look at the machine first. Then home it, or unlock it if its position is surely right."
-               : "Look at the machine first. Then unlock it.";
+               ? "Inspect the machine, then home it - or unlock it if you are sure the position is correct."
+               : "Inspect the machine, then unlock it.";
 }
 
 std::string_view position_text(const drivers::DriverStatus& status) {
-    return !status.position_known           ? "not known"
-           : !status.position_doubt.empty() ? "in doubt"
-           : status.link_lost               ? "as last told"
+    return !status.position_known           ? "unknown"
+           : !status.position_doubt.empty() ? "not verified"
+           : status.link_lost               ? "last reported"
                                             : "known";
 }
 
@@ -85,17 +91,15 @@ std::string driver_state_text(const drivers::DriverStatus& status) {
 void draw_arm_of_card(Ui& ui, const Workbench& now) {
     constexpr std::string_view own = "motoman-l3";
     if (now.arm.loaded() && now.arm.name() != own) {
-        (void)widgets::banner(
-            ui,
-            "other_arm",
-            {widgets::Severity::warning,
-             fmt::format(
-                 "The card's counts of a degree are those of a Motoman L-3. Joints and limits would be "
-                 "those of the arm that is drawn, '{}'.",
-                 now.arm.arm().name()),
-             {}});
+        (void)widgets::banner(ui,
+                              "other_arm",
+                              {widgets::Severity::warning,
+                               fmt::format("The card uses the counts per degree of a Motoman L-3, but joints "
+                                           "and limits would be those of the displayed arm, '{}'.",
+                                           now.arm.arm().name()),
+                               {}});
     } else {
-        ui.note("It moves the driven joints of a Motoman L-3. Nothing moves by connecting.");
+        ui.note("Drives the joints of a Motoman L-3. Connecting does not move the arm.");
     }
 }
 
@@ -116,7 +120,7 @@ std::string controller_text(const Workbench& now) {
         break;
     }
     return name + ": " + driver_state_text(machine.status) +
-           (machine.status.position_known ? "" : ", position not known");
+           (machine.status.position_known ? "" : ", position unknown");
 }
 
 std::string alarm_text(const Workbench& now) {
@@ -124,8 +128,7 @@ std::string alarm_text(const Workbench& now) {
     if (!now.controller.connected() || status.state != DriverState::alarm) {
         return "";
     }
-    return with_sentence(status.message.empty() ? "There is an alarm" : capitalised(status.message),
-                         advice(now));
+    return with_sentence(status.message.empty() ? "Alarm" : capitalised(status.message), advice(now));
 }
 
 void ConnectionPanel::look_for_ports() {
@@ -151,9 +154,10 @@ void ConnectionPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const DriverChoice& choice = now.session.hand.choice;
-    const auto permitted = ui.permitted(now.controller.link == LinkState::none
-                                            ? widgets::Permission{}
-                                            : widgets::Permission::refused("It is being connected."));
+    const auto permitted =
+        ui.permitted(now.controller.link == LinkState::none
+                         ? widgets::Permission{}
+                         : widgets::Permission::refused("The machine is being connected."));
     if (const auto kind = ui.choice("driver", "Driver", static_cast<int>(choice.kind), driver_kind_options)) {
         change_hand_settings(ask, [kind = *kind](actions::HandSettings& hand) {
             hand.addresses[static_cast<std::size_t>(hand.choice.kind)] = hand.choice.address;
@@ -167,16 +171,16 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
     draw_address(ui, now, ask);
     if (choice.kind == DriverKind::grbl) {
         if (const auto on = ui.toggle("one_by_one",
-                                      "Line by line",
+                                      "Send line by line",
                                       choice.one_by_one,
-                                      "Waits for the answer to each line before the next: slower, for "
-                                      "controllers with a small buffer")) {
+                                      "Wait for the response to each line before sending the next. Slower; "
+                                      "for controllers with a small buffer")) {
             change_hand_settings(ask,
                                  [on = *on](actions::HandSettings& hand) { hand.choice.one_by_one = on; });
         }
     } else if (choice.kind == DriverKind::linuxcnc) {
         if (const auto axes = ui.text_field(
-                "axes", "Axes", choice.axes, "Letters of the machine's axes: XYZ, and any of ABC behind")) {
+                "axes", "Axes", choice.axes, "Axis letters of the machine: XYZ, followed by any of ABC")) {
             change_hand_settings(ask,
                                  [axes = *axes](actions::HandSettings& hand) { hand.choice.axes = axes; });
         }
@@ -186,20 +190,19 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
         if (const auto on = ui.toggle("fifth_axis",
                                       "Axis 5",
                                       choice.axes.find('B') != std::string::npos,
-                                      "Motor 5 turns joint 5: on a second row of outputs, or simulated in "
-                                      "the card, which has to be set up for it")) {
+                                      "Motor 5 drives joint 5, on a second row of outputs or simulated in "
+                                      "the card; the card must be configured for it")) {
             change_hand_settings(
                 ask, [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });
         }
         draw_arm_of_card(ui, now);
     } else {
-        const widgets::FieldInfo info{
-            "period", "Period", "ms", "From one sample to the next", 0.5, 1000.0, 10.0, 1};
+        const widgets::FieldInfo info{"period", "Period", "ms", "Sample period", 0.5, 1000.0, 10.0, 1};
         if (const auto ms = ui.number(1e3 * choice.period, info)) {
             change_hand_settings(ask,
                                  [ms = *ms](actions::HandSettings& hand) { hand.choice.period = 1e-3 * ms; });
         }
-        ui.note("It tells nothing back. The machine has to stand at zero when it is connected.");
+        ui.note("This machine sends no feedback. It must be at zero when it is connected.");
     }
 }
 
@@ -216,30 +219,30 @@ void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& as
             ui.text_field("record",
                           "Record",
                           format.pattern,
-                          "Letters of axes in braces, {s} the speed, {a} the acceleration")) {
+                          "Record format: axis letters in braces, {s} speed, {a} acceleration")) {
         change([text = *pattern](drivers::RecordFormat& f) { f.pattern = text; });
     }
     if (const auto ending = ending_field(ui, format.ending)) {
         change([bytes = *ending](drivers::RecordFormat& f) { f.ending = bytes; });
     }
-    if (const auto answer = ui.text_field(
-            "answer", "Answer", format.answer, "What comes back for each record; empty: nothing")) {
+    if (const auto answer =
+            ui.text_field("answer", "Response", format.answer, "Response to each record; empty: none")) {
         change([text = *answer](drivers::RecordFormat& f) { f.answer = text; });
     }
     if (const auto on =
-            ui.toggle("relative", "Relative", format.relative, "Records say how far, not where")) {
+            ui.toggle("relative", "Relative", format.relative, "Records contain distances, not positions")) {
         change([on = *on](drivers::RecordFormat& f) { f.relative = on; });
     }
-    ui.note("The table has to stand where the program begins, else at zero, when it is connected.");
+    ui.note("When it is connected, the table must be at the start point of the program, otherwise at zero.");
 }
 
 void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const DriverChoice& choice = now.session.hand.choice;
     const bool shell = choice.kind == DriverKind::linuxcnc;
-    const std::string_view tip = shell ? "tcp:HOST:PORT of its linuxcncrsh, most often port 5007"
+    const std::string_view tip = shell ? "tcp:HOST:PORT of linuxcncrsh; the usual port is 5007"
                                  : choice.kind == DriverKind::grbl || choice.kind == DriverKind::pmac
-                                     ? "A serial port such as /dev/ttyUSB0, or tcp:HOST:PORT"
-                                     : "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH";
+                                     ? "Serial port such as /dev/ttyUSB0, or tcp:HOST:PORT"
+                                     : "Serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH";
     if (const auto address = ui.text_field("address", shell ? "Address" : "Port", choice.address, tip)) {
         change_hand_settings(
             ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
@@ -268,7 +271,7 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
         look_for_ports();
     }
     if (ports_.empty()) {
-        ui.note("No serial port was found on this computer.");
+        ui.note("No serial ports were found on this computer.");
     } else {
         const auto chosen_port = serial_port_of(now.session.hand.choice.address);
         std::vector<widgets::Option> options{{"none", "Choose ..."}};
@@ -277,7 +280,7 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
             at = chosen_port && port.path == chosen_port->path ? static_cast<int>(options.size()) : at;
             options.push_back({port.path, port.label});
         }
-        if (const auto chosen = ui.choice("ports", "Found here", at, options); chosen && *chosen > 0) {
+        if (const auto chosen = ui.choice("ports", "Detected", at, options); chosen && *chosen > 0) {
             change_hand_settings(
                 ask,
                 [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](actions::HandSettings& hand) {
@@ -285,7 +288,7 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
                 });
         }
     }
-    if (ui.button("look", "Look for ports again", {}, {icons::redo, Rank::quiet, -1.0F, {}})) {
+    if (ui.button("look", "Rescan ports", {}, {icons::redo, Rank::quiet, -1.0F, {}})) {
         look_for_ports();
     }
 }

@@ -20,7 +20,7 @@ using widgets::Permission;
 constexpr std::size_t most_kept = 20'000;
 constexpr std::size_t most_commands = 100;
 constexpr std::string_view command_tip =
-    "A line for the machine; Enter sends it, arrows bring back earlier ones, Tab completes";
+    "Command line for the machine. Enter: send; arrow keys: history; Tab: complete";
 
 bool is_report(const ConsoleLine& line) {
     return line.kind == ConsoleKind::query || line.kind == ConsoleKind::report;
@@ -53,7 +53,7 @@ Permission can_type(const Workbench& now) {
         return Permission::refused("No machine is connected.");
     }
     if (!now.controller.can.command) {
-        return Permission::refused("This machine takes no single lines.");
+        return Permission::refused("This machine does not accept single commands.");
     }
     return {};
 }
@@ -105,7 +105,7 @@ void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     follow(now);
     draw_command(ui, now, ask);
     if (!now.console) {
-        ui.note("Connect a machine to see what it is told and what it answers.");
+        ui.note("Connect a machine to see the commands sent and its responses.");
         return;
     }
     widgets::ListingView view;
@@ -155,20 +155,22 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
         const auto width = ui.width(own);
         const auto labels = ui.label_share((ui.words_width("Search") + ui.px(widgets::gaps::small)) / own);
         if (const auto text =
-                ui.text_field("filter", "Search", wanted_, "Shows only the lines with this in them")) {
+                ui.text_field("filter", "Search", wanted_, "Show only lines that contain this text")) {
             wanted_ = *text;
         }
     }
     ui.beside();
-    if (const auto on = ui.checkbox(
-            "reports", "Status reports", now.session.hand.show_reports, "They come ten times a second")) {
+    if (const auto on = ui.checkbox("reports",
+                                    "Status reports",
+                                    now.session.hand.show_reports,
+                                    "Show the status reports (ten per second)")) {
         ask.show([on = *on](actions::Session& session) { session.hand.show_reports = on; });
     }
     if (refused) {
         (void)widgets::banner(
             ui, "refused", {widgets::Severity::danger, "Refused: " + answer.text, {}}); // of any length
     } else if (answer.state == drivers::CommandAnswer::State::pending) {
-        ui.words("Being executed \u2026", widgets::Tone::muted);
+        ui.words("Executing \u2026", widgets::Tone::muted);
     }
 }
 

@@ -20,7 +20,7 @@ Permission can_change(const Workbench& now) {
     const DriverState state = now.controller.status.state;
     return !now.job.running && (state == DriverState::idle || state == DriverState::stopped)
                ? Permission{}
-               : Permission::refused("The machine is not at rest.");
+               : Permission::refused("The machine is not idle.");
 }
 
 } // namespace
@@ -29,11 +29,12 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto& axes = now.controller.axes;
     const auto& offsets = now.controller.offsets;
     if (!now.controller.connected() || offsets.empty()) {
-        ui.note(now.controller.connected() ? "This machine tells no stored offsets."
+        ui.note(now.controller.connected() ? "This machine reports no stored offsets."
                                            : "No machine is connected.");
         return;
     }
-    ui.note("Machine coordinates of each zero, in mm and degrees. A click on a work system selects it.");
+    ui.note("Machine coordinates of each work zero, in mm and degrees. Click a work coordinate system to "
+            "select it.");
     std::vector<std::string> letters;
     for (const program::ProgramAxis& axis : axes) {
         letters.emplace_back(1, axis.letter);
@@ -74,7 +75,7 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto& settings = now.controller.settings;
     if (!now.controller.connected() || settings.empty()) {
-        ui.note(now.controller.connected() ? "This machine has no settings of its own."
+        ui.note(now.controller.connected() ? "This machine reports no settings."
                                            : "No machine is connected.");
         return;
     }
@@ -97,13 +98,13 @@ void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
             });
         }
     } else {
-        ui.note("A click on a row lets you change it.");
+        ui.note("Click a row to edit its value.");
     }
     constexpr std::array<widgets::Column, 5> columns{{{"Name", "", 0.7F, false},
                                                       {"Setting", "", 2.6F, false},
                                                       {"Value", "", 1.2F, true},
                                                       {"Unit", "", 0.9F, false},
-                                                      {"What it does", "", 5.0F, false}}};
+                                                      {"Description", "", 5.0F, false}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(settings);

@@ -24,7 +24,7 @@ Permission can_override(const drivers::Capabilities& can, bool feed) {
         return Permission::refused("This machine has no overrides.");
     }
     return feed || can.other_overrides ? Permission{}
-                                       : Permission::refused("This machine overrides the feed alone.");
+                                       : Permission::refused("This machine supports the feed override only.");
 }
 
 /// The steps that controllers have: Grbl knows no others.
@@ -94,33 +94,40 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
     hand_number(ui,
                 ask,
                 {"probe_way",
-                 "Probe down by",
+                 "Probe distance",
                  "mm",
-                 "The longest way that it looks for the part",
+                 "Maximum distance to search for the part",
                  0.1,
                  500.0,
                  no_default,
                  1},
                 hand.probe_way_mm,
                 &actions::HandSettings::probe_way_mm);
-    hand_number(
-        ui,
-        ask,
-        {"probe_speed", "Probe at", "mm/min", "Slow: it touches at this speed", 1.0, 2000.0, no_default, 0},
-        hand.probe_mm_per_min,
-        &actions::HandSettings::probe_mm_per_min);
+    hand_number(ui,
+                ask,
+                {"probe_speed",
+                 "Probe feed",
+                 "mm/min",
+                 "Feed rate on contact: keep it low",
+                 1.0,
+                 2000.0,
+                 no_default,
+                 0},
+                hand.probe_mm_per_min,
+                &actions::HandSettings::probe_mm_per_min);
     const auto z = axis_named(machine, 'Z');
     Permission can =
         machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
     if (can.allowed && machine.status.spindle != gcode::SpindleTurning::stopped) {
-        can = Permission::refused("The spindle turns: stop it first.");
+        can = Permission::refused("The spindle is running: stop it first.");
     } else if (machine.status.inputs.probe) {
-        can = Permission::refused("The probe touches already.");
+        can = Permission::refused("The probe is already triggered.");
     }
-    if (ui.button("probe",
-                  "Probe Z",
-                  can,
-                  {icons::chevron_down, Rank::normal, -1.0F, "G38.2 downwards. It moves."})) {
+    if (ui.button(
+            "probe",
+            "Probe Z",
+            can,
+            {icons::chevron_down, Rank::normal, -1.0F, "Probe downwards with G38.2. The machine moves."})) {
         command(ask,
                 drivers::probe_line(machine.axes[*z],
                                     static_cast<int>(*z),
@@ -132,10 +139,10 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
         const drivers::Probing& last = *machine.status.probe;
         const bool known = z && last.position.size() > static_cast<Eigen::Index>(*z);
         ui.value("probed",
-                 "Last probing",
-                 !last.touched ? "touched nothing"
+                 "Last probe",
+                 !last.touched ? "no contact"
                  : known       ? "Z " + fixed(last.position[static_cast<Eigen::Index>(*z)], 3)
-                               : "touched",
+                               : "contact",
                  last.touched && known ? "mm" : "");
     }
 }
@@ -161,30 +168,32 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
     const bool clockwise = status.spindle == gcode::SpindleTurning::clockwise;
     ui.value("state",
              "Spindle",
-             !now.controller.can.tells_spindle ? std::string("not told")
+             !now.controller.can.tells_spindle ? std::string("not reported")
              : turning ? fmt::format("{}, {:.0f} rpm", clockwise ? "M3" : "M4", status.spindle_rpm)
                        : std::string("stopped"));
     const double rpm = now.session.hand.spindle_rpm;
     hand_number(ui,
                 ask,
-                {"rpm", "Speed", "rpm", "For the buttons below", 0.0, 60000.0, no_default, 0},
+                {"rpm", "Speed", "rpm", "Spindle speed for the buttons below", 0.0, 60000.0, no_default, 0},
                 rpm,
                 &actions::HandSettings::spindle_rpm);
     {
         const auto row = ui.row(3);
-        if (ui.button("clockwise", "M3", can, {{}, Rank::normal, -1.0F, "Starts the spindle clockwise"})) {
+        if (ui.button("clockwise", "M3", can, {{}, Rank::normal, -1.0F, "Start the spindle clockwise"})) {
             command(ask, drivers::start_spindle(rpm, true));
         }
-        if (ui.button(
-                "counterclockwise", "M4", can, {{}, Rank::normal, -1.0F, "Starts it counter-clockwise"})) {
+        if (ui.button("counterclockwise",
+                      "M4",
+                      can,
+                      {{}, Rank::normal, -1.0F, "Start the spindle counter-clockwise"})) {
             command(ask, drivers::start_spindle(rpm, false));
         }
-        if (ui.button("stop", "M5", can, {{}, Rank::normal, -1.0F, "Stops the spindle"})) {
+        if (ui.button("stop", "M5", can, {{}, Rank::normal, -1.0F, "Stop the spindle"})) {
             command(ask, drivers::stop_spindle());
         }
     }
     const Permission can_mist =
-        now.controller.can.mist ? can : Permission::refused("This controller was built without M7.");
+        now.controller.can.mist ? can : Permission::refused("This controller does not support M7.");
     if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can_mist)) {
         command(ask, drivers::set_coolant(*on, status.flood));
     }

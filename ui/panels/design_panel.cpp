@@ -72,9 +72,8 @@ void set_weights(const Workbench& now,
 /// What is done to one side of the net is done to the other one, too.
 void symmetry_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const geometry::NetSymmetry& symmetry = now.session.symmetry;
-    constexpr const char* tip =
-        "What is done to a control point happens to its image in the net, mirrored; points in "
-        "the middle stay there";
+    constexpr const char* tip = "Edits of a control point are mirrored to its counterpart in the net; points "
+                                "in the middle stay in the middle";
     if (const auto on = ui.toggle("symmetric_x", "Symmetric in X", symmetry.x, tip)) {
         ask.show([x = *on](actions::Session& session) { session.symmetry.x = x; });
     }
@@ -84,7 +83,7 @@ void symmetry_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 std::vector<widgets::Option> preset_options() {
-    std::vector<widgets::Option> options{{"own", "Own shape", {}, "The surface was changed by hand", {}}};
+    std::vector<widgets::Option> options{{"own", "Custom shape", {}, "The surface was edited manually", {}}};
     for (const geometry::SurfacePreset& preset : geometry::surface_presets()) {
         options.push_back({preset.id, preset.title, {}, preset.source, {}});
     }
@@ -149,15 +148,16 @@ void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const auto options = preset_options();
-    if (const auto chosen = ui.choice("preset",
-                                      "Start from",
-                                      preset_index(now.project.surface.preset),
-                                      options,
-                                      "Replaces the surface by one of the literature; undo brings it back");
+    if (const auto chosen =
+            ui.choice("preset",
+                      "Preset",
+                      preset_index(now.project.surface.preset),
+                      options,
+                      "Replace the surface with one from the literature; Undo restores the previous one");
         chosen && *chosen > 0) {
         const geometry::SurfacePreset preset =
             geometry::surface_presets()[static_cast<std::size_t>(*chosen - 1)];
-        ask.edit("Start from " + std::string(preset.title),
+        ask.edit("Load preset " + std::string(preset.title),
                  [preset](project::Project& draft) { set_preset(draft, preset); });
         ask.run("view.fit");
     }
@@ -165,7 +165,7 @@ void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const widgets::FieldInfo info{"machined",
                                       "Machined patch",
                                       "",
-                                      "The patch that the tool path covers, counted from 0",
+                                      "Patch that the toolpath covers, numbered from 0",
                                       0.0,
                                       static_cast<double>(now.project.surface.patches.size() - 1),
                                       0.0,
@@ -175,11 +175,12 @@ void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
                      [n = *patch](project::Project& draft) { draft.surface.machined_patch = n; });
         }
     }
-    if (const auto flipped = ui.toggle("flipped",
-                                       "Cut the other side",
-                                       now.project.surface.flipped,
-                                       "The tool stands against the normal S_u x S_v")) {
-        ask.edit("Cut the other side",
+    if (const auto flipped =
+            ui.toggle("flipped",
+                      "Opposite side",
+                      now.project.surface.flipped,
+                      "Machine the opposite side: the tool axis points against the normal S_u x S_v")) {
+        ask.edit("Machine the opposite side",
                  [on = *flipped](project::Project& draft) { draft.surface.flipped = on; });
     }
     draw_turn(ui, ask);
@@ -187,9 +188,9 @@ void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void DesignPanel::draw_turn(Ui& ui, ActionQueue& ask) {
     const widgets::FieldInfo info{"turn",
-                                  "Turn the part by",
+                                  "Rotate part by",
                                   "\u00b0",
-                                  "Lays all of the part on another side; its origin stays",
+                                  "Rotate the whole part; its origin stays in place",
                                   -360.0,
                                   360.0,
                                   90.0,
@@ -202,7 +203,7 @@ void DesignPanel::draw_turn(Ui& ui, ActionQueue& ask) {
         const std::string name(1, "XYZ"[axis]);
         const std::string tip = fmt::format("By {:.6g}\u00b0 about {} through the origin", turn_deg_, name);
         if (ui.button("turn_" + name, "About " + name, {}, {{}, widgets::Rank::normal, -1.0F, tip})) {
-            ask.edit("Turn the part", [by = Vec3(turn_deg_ * Vec3::Unit(axis))](project::Project& draft) {
+            ask.edit("Rotate the part", [by = Vec3(turn_deg_ * Vec3::Unit(axis))](project::Project& draft) {
                 draft.surface = project::with_turn(draft.surface, by);
             });
             ask.run("view.fit");
@@ -237,7 +238,7 @@ void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
             name,
             label,
             "mm",
-            "Coordinate of the control point; the others of the selection move along",
+            "Coordinate of the control point; the other selected points move by the same distance",
             -farthest,
             farthest};
         if (const auto value = ui.number(at[axis], info)) {
@@ -268,14 +269,14 @@ void DesignPanel::draw_columns(Ui& ui, const Workbench& now, const ControlNet& n
     }
     const auto before = first_column_ > 0 ? widgets::Permission{}
                                           : widgets::Permission::refused("These are the first columns.");
-    if (ui.icon_button("columns_back", widgets::icons::back, "The columns before", before)) {
+    if (ui.icon_button("columns_back", widgets::icons::back, "Previous columns", before)) {
         first_column_ = std::max(0, first_column_ - shown);
     }
     ui.beside();
     const auto after = first_column_ < last_first
                            ? widgets::Permission{}
                            : widgets::Permission::refused("These are the last columns.");
-    if (ui.icon_button("columns_on", widgets::icons::forward, "The columns behind", after)) {
+    if (ui.icon_button("columns_on", widgets::icons::forward, "Next columns", after)) {
         first_column_ = std::min(last_first, first_column_ + shown);
     }
     ui.beside();
@@ -330,9 +331,8 @@ void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
             draw_net_row(ui, now, ask, i, shown);
         }
     }
-    ui.note(
-        "X, Y, Z in mm. Rows follow u, columns follow v. Arithmetic is allowed: 25.4/2. Enter goes on to the "
-        "next number.");
+    ui.note("X, Y, Z in mm. Rows follow u, columns follow v. Expressions such as 25.4/2 are allowed. Enter "
+            "moves to the next field.");
 }
 
 } // namespace millwright::panels

@@ -71,16 +71,14 @@ void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void Dialogs::draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::Replacing& asked = *now.session.replacing;
     const bool project = asked.what == actions::ReplacedFile::project;
-    const auto dialog = ui.dialog("replace",
-                                  project ? "The file was changed on disk" : "Replace the file?",
-                                  ui.px(project ? wide : width));
+    const auto dialog = ui.dialog(
+        "replace", project ? "File changed on disk" : "Replace the file?", ui.px(project ? wide : width));
     if (!dialog) {
         return;
     }
-    ui.text(project
-                ? "Another program, or another window, has written this file since Millwright read or saved "
-                  "it here."
-                : "This file is not what Millwright wrote there last.");
+    ui.text(project ? "Another program or another Millwright window has changed this file since it was "
+                      "opened or saved here."
+                    : "This file has changed since Millwright last wrote it.");
     ui.gap();
     ui.note(shortened_path(asked.file.string()));
     ui.gap();
@@ -103,7 +101,7 @@ void Dialogs::draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const 
     }
     const std::string warning = now.gouge_warning();
     ui.text(warning.empty() ? "The program no longer gouges the part." : warning);
-    ui.note("Another or a smaller cutter, more nodes along a track, or another place of the part helps.");
+    ui.note("Use a smaller or different cutter, more nodes per track, or another part position.");
     ui.gap();
     const auto row = ui.row(3);
     action_button(ui, now, ask, catalogue_, "gouges.write", Rank::danger);
@@ -119,7 +117,7 @@ void Dialogs::draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const
     if (!dialog) {
         return;
     }
-    ui.text(fmt::format("{} has changes that are not saved. Save them before you {}?",
+    ui.text(fmt::format("{} has unsaved changes. Save them before you {}?",
                         now.document.file.empty() ? "\u201c" + now.project.name + "\u201d"
                                                   : now.document.file.filename().string(),
                         now.leaving_to));
@@ -139,26 +137,31 @@ void Dialogs::draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) c
     const auto dialog = ui.dialog("running_job",
                                   job     ? "Stop the job?"
                                   : moves ? "Stop the arm?"
-                                          : "Take the arm's power?",
+                                          : "Disable the motors and quit?",
                                   ui.px(width));
     if (!dialog) {
         return;
     }
     if (job) {
         ui.text(fmt::format(
-            "\u201c{}\u201d is running. Closing Millwright stops it: the machine brakes where it is.",
+            "\u201c{}\u201d is running. Closing Millwright stops the job: the machine brakes to a stop.",
             now.job.name));
     } else {
-        ui.text(moves ? "The arm is moving. Closing Millwright stops it: it brakes where it is, and then its "
-                        "motors lose their power."
-                      : "The arm's motors have power. Closing Millwright takes it, since nobody would watch "
-                        "over them.");
-        ui.note("An arm without brakes may sink then: see that nothing is below it.");
+        ui.text(moves ? "The arm is moving. Closing Millwright stops it: the arm brakes to a stop, then its "
+                        "motors are disabled."
+                      : "The motors of the arm are enabled. Closing Millwright disables them, because they "
+                        "would no longer be supervised.");
+        ui.note("An arm without brakes may then drop: keep the area below it clear.");
     }
     ui.gap();
     const auto row = ui.row(2);
-    action_button(
-        ui, now, ask, catalogue_, "running_job.stop", Rank::normal, job || moves ? "" : "Take it and quit");
+    action_button(ui,
+                  now,
+                  ask,
+                  catalogue_,
+                  "running_job.stop",
+                  Rank::normal,
+                  job || moves ? "" : "Disable motors and quit");
     action_button(ui, now, ask, catalogue_, "running_job.stay", Rank::primary);
     if (ui.escape_pressed()) {
         ask.run("running_job.stay");
@@ -166,20 +169,20 @@ void Dialogs::draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) c
 }
 
 void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("recovery", "Unsaved work was found", ui.px(width));
+    const auto dialog = ui.dialog("recovery", "Unsaved work found", ui.px(width));
     if (!dialog) {
         return;
     }
     const project::LeftBehind& left = now.left_behind.front();
     if (left.work()) {
-        ui.text("Millwright did not end well last time. Here is what had not been saved:");
+        ui.text("Millwright was not closed properly. Unsaved work was found:");
         ui.gap();
         const auto labels = ui.label_share(0.2F);
         ui.value("project", "Project", left.work()->project.name);
         ui.value("file", "File", where(left.work()->file));
-        ui.value("time", "Copied", date_time_text(left.work()->time_s));
+        ui.value("time", "Saved copy", date_time_text(left.work()->time_s));
     } else {
-        ui.text("Millwright did not end well last time. The copy that it kept cannot be read:");
+        ui.text("Millwright was not closed properly. The recovery copy cannot be read:");
         ui.gap();
         (void)widgets::banner(
             ui, "fault", {widgets::Severity::warning, left.fault()->message, left.copy().string()});
@@ -195,7 +198,7 @@ void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) c
 }
 
 void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("broken_job", "A job was broken off", ui.px(wide));
+    const auto dialog = ui.dialog("broken_job", "A job was interrupted", ui.px(wide));
     if (!dialog) {
         return;
     }
@@ -216,8 +219,8 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
     (void)widgets::banner(ui,
                           "look",
                           {widgets::Severity::warning,
-                           "Look at the machine and the part before anything else: a controller may still be "
-                           "executing what it was sent. Millwright moves nothing by itself.",
+                           "Inspect the machine and the part first: the controller may still be executing "
+                           "blocks that it received. Millwright does not start any motion on its own.",
                            {}});
     if (now.broken_jobs->size() > 1) {
         ui.note(fmt::format("{} more after this one.", now.broken_jobs->size() - 1));
@@ -233,7 +236,7 @@ void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) co
                   "broken_job.continue",
                   Rank::primary,
                   jobs::why_not_from_line(story).empty() ? fmt::format("From line {} \u2026", story.next_line)
-                                                         : std::string("From its beginning \u2026"));
+                                                         : std::string("From the start \u2026"));
 }
 
 } // namespace millwright::panels

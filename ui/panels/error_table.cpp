@@ -23,16 +23,16 @@ using plan::Evaluation;
 using project::GridMethod;
 
 constexpr std::array<widgets::Column, 11> error_columns{{{"Grid", "", 1.9F, false},
-                                                         {"max", "mm", 1.0F, true},
-                                                         {"mean", "mm", 1.0F, true},
-                                                         {"mean/length", "mm", 1.2F, true},
+                                                         {"Max.", "mm", 1.0F, true},
+                                                         {"Mean", "mm", 1.0F, true},
+                                                         {"Mean by length", "mm", 1.2F, true},
                                                          {"RMS", "mm", 1.0F, true},
                                                          {"95 %", "mm", 1.0F, true},
-                                                         {"axis max", "deg", 1.2F, true},
-                                                         {"track gap", "mm", 1.1F, true},
-                                                         {"points", "", 0.9F, true},
-                                                         {"length", "mm", 1.1F, true},
-                                                         {"time", "s", 1.0F, true}}};
+                                                         {"Axis max.", "deg", 1.2F, true},
+                                                         {"Track gap", "mm", 1.1F, true},
+                                                         {"Points", "", 0.9F, true},
+                                                         {"Length", "mm", 1.1F, true},
+                                                         {"Time", "s", 1.0F, true}}};
 
 std::string error_cell(const Evaluation* evaluation, int column) {
     if (evaluation == nullptr) {
@@ -64,7 +64,7 @@ std::string error_cell(const Evaluation* evaluation, int column) {
 ErrorRow
 row_of(std::string id, std::string name, const Evaluation* evaluation, const std::optional<double>& seconds) {
     const bool so_far = evaluation != nullptr && actions::is_so_far(*evaluation);
-    ErrorRow row{std::move(id), {std::move(name) + (so_far ? " (so far)" : "")}};
+    ErrorRow row{std::move(id), {std::move(name) + (so_far ? " (preliminary)" : "")}};
     for (int column = 1; column < static_cast<int>(error_columns.size()) - 1; ++column) {
         row.cells.push_back(error_cell(evaluation, column));
     }
@@ -90,8 +90,8 @@ std::vector<ErrorRow> error_rows(const Workbench& now) {
                               now.plan ? now.plan->plan.path_time : std::nullopt));
     }
     if (const auto& kept = now.session.kept) {
-        rows.push_back(
-            row_of("kept", "Kept: " + kept->name + ", " + kept->place, kept->evaluation.get(), std::nullopt));
+        rows.push_back(row_of(
+            "kept", "Pinned: " + kept->name + ", " + kept->place, kept->evaluation.get(), std::nullopt));
     }
     return rows;
 }

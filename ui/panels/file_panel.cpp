@@ -118,7 +118,7 @@ void FilePanel::go_to(const fs::path& typed, ActionQueue& ask) {
     } else {
         entries_.clear();
         chosen_.clear();
-        fault_ = "There is no " + place.string() + ".";
+        fault_ = "Not found: " + place.string() + ".";
     }
 }
 
@@ -135,14 +135,14 @@ void FilePanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const auto above =
-        folder_.has_relative_path() ? Permission{} : Permission::refused("There is no folder above.");
-    if (ui.icon_button("up", icons::back, "The folder above", above)) {
+        folder_.has_relative_path() ? Permission{} : Permission::refused("There is no parent folder.");
+    if (ui.icon_button("up", icons::back, "Parent folder", above)) {
         enter(folder_.parent_path());
     }
     ui.beside();
     draw_places(ui, now);
     ui.beside();
-    if (const auto typed = ui.text_field("path", "", folder_.string(), "A folder to look into, or a file")) {
+    if (const auto typed = ui.text_field("path", "", folder_.string(), "Path of a folder or file")) {
         go_to(*typed, ask);
     }
 }
@@ -161,7 +161,7 @@ void FilePanel::draw_places(Ui& ui, const Workbench& now) {
     }
     const auto width = ui.width(ui.px(130.0F));
     if (const auto chosen =
-            ui.choice("places", "", 0, options, "Home, project, samples, recent folders, drives");
+            ui.choice("places", "", 0, options, "Go to home, project, samples, recent folders or drives");
         chosen && *chosen > 0) {
         enter(places[static_cast<std::size_t>(*chosen) - 1].folder);
     }
@@ -195,13 +195,13 @@ std::string FilePanel::cell(const FolderEntry& entry, int column) const {
 
 void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask) {
     constexpr std::array<widgets::Column, 4> columns{{{"Name", "", 2.6F, false},
-                                                      {"Kind", "", 1.3F, false},
+                                                      {"Type", "", 1.3F, false},
                                                       {"Size", "", 1.0F, true},
-                                                      {"Changed", "", 2.2F, true}}};
+                                                      {"Modified", "", 2.2F, true}}};
     constexpr std::array<widgets::Column, 4> of_recent{{{"Name", "", 2.0F, false},
                                                         {"Folder", "", 2.6F, false},
                                                         {"Size", "", 1.0F, true},
-                                                        {"Changed", "", 2.1F, true}}};
+                                                        {"Modified", "", 2.1F, true}}};
     widgets::TableView view;
     view.columns = source_ == Source::recent ? of_recent : columns;
     view.rows = std::ssize(entries_);
@@ -216,8 +216,7 @@ void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask)
     view.chosen = chosen == entries_.end() ? -1 : chosen - entries_.begin();
     view.wanted = std::exchange(to_top_, false) && !entries_.empty() ? 0 : -1;
     view.height = ui.px(232.0F);
-    const std::string_view none =
-        source_ == Source::recent ? "Nothing was opened or saved before." : about(asked_).none;
+    const std::string_view none = source_ == Source::recent ? "No recent files." : about(asked_).none;
     view.when_empty = fault_.empty() ? none : std::string_view(fault_);
     if (const auto row = widgets::table(ui, "entries", view)) {
         take(entries_[static_cast<std::size_t>(*row)], ask);
@@ -245,28 +244,29 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (asked_ != FileQuestion::open) {
         ui.note(chosen_.empty() ? " " : chosen_.filename().string());
     } else if (entry_of(chosen_).is_folder) {
-        ProjectPreview::draw_words(ui, "A folder: click it again, or press Enter, to look into it.");
+        ProjectPreview::draw_words(ui, "A folder: click it again, or press Enter, to open it.");
     } else if (project::opens_as_surface(chosen_)) {
         ProjectPreview::draw_words(
-            ui, "A surface of another program: it is shown first, in the Design workspace.");
+            ui, "A surface from another program: it opens as a preview in the Design workspace.");
     } else if (is_gcode(chosen_)) {
         ProjectPreview::draw_words(
             ui,
             now.session.workspace == actions::Workspace::plot
-                ? "A G-code program: it is cut as it stands, here in the Plot & Picture workspace."
-                : "A G-code program: it opens beside the project, in the Program workspace.");
+                ? "A G-code program: it opens here in the Plot & Picture workspace and is used unchanged."
+                : "A G-code program: it opens in the Program workspace; the project stays open.");
     } else if (actions::is_processor_file(chosen_)) {
-        ProjectPreview::draw_words(ui, "Of the CORDIC processor: it opens in the Processor workspace.");
+        ProjectPreview::draw_words(ui,
+                                   "A file for the CORDIC processor: it opens in the Processor workspace.");
     } else if (project::is_plot_file(chosen_)) {
-        ProjectPreview::draw_words(
-            ui, "A " + file_kind(chosen_) + ": it is cut in the Plot & Picture workspace.");
+        ProjectPreview::draw_words(ui,
+                                   "A " + file_kind(chosen_) + ": it opens in the Plot & Picture workspace.");
     } else {
         preview_.draw(ui, chosen_);
     }
     ui.gap();
     const auto row = ui.row(2);
     draw_cancel(ui, now, ask);
-    const auto allowed = chosen_.empty() ? Permission::refused("Choose a file first.") : Permission{};
+    const auto allowed = chosen_.empty() ? Permission::refused("Select a file first.") : Permission{};
     const bool entered = ui.enter_pressed() && allowed.allowed;
     if (ui.button("open", "Open", allowed, {icons::folder, Rank::primary, -1.0F, "Enter"}) || entered) {
         const FolderEntry entry = entry_of(chosen_);
@@ -315,13 +315,13 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::string name = widgets::typed_text(ui, "name").value_or(name_);
     const fs::path file = file_to_save(name);
     std::error_code unreadable;
-    const Permission allowed = name.empty() ? Permission::refused("Type a file name first.")
+    const Permission allowed = name.empty() ? Permission::refused("Enter a file name first.")
                                : fs::is_directory(file, unreadable)
                                    ? Permission::refused(file.filename().string() + " is a folder.")
                                    : Permission{};
     const fs::path replaced = allowed.allowed && replaces(file, now) ? file : fs::path();
     ui.note(replaced.empty() ? ending_text(about(asked_))
-                             : file.filename().string() + " is there already and would be replaced.");
+                             : file.filename().string() + " already exists and will be replaced.");
     const auto row = ui.row(2);
     draw_cancel(ui, now, ask);
     const bool clicked = draw_save_button(ui, allowed, replaced);

@@ -40,15 +40,15 @@ bool is_drawing(const fs::path& file) {
 
 constexpr FileFilter all_files{"all", "All files", any_file};
 constexpr std::array<FileFilter, 8> open_filters{
-    {{"known", "All that can be opened", of_question},
+    {{"known", "All supported files", of_question},
      {"projects", "Projects (.json)", of_kind<project::is_project_json>},
      {"gcode", "G-code programs", of_kind<is_gcode>},
      {"surfaces", "Surfaces (STEP, IGES, STL, OBJ, PLY)", of_kind<project::opens_as_surface>},
      {"drawings", "Plots, paths and points", of_kind<is_drawing>},
      {"pictures", "Pictures", of_kind<project::is_picture_file>},
-     {"processor", "Of the processor", of_kind<actions::is_processor_file>},
+     {"processor", "Processor files", of_kind<actions::is_processor_file>},
      all_files}};
-constexpr std::array<FileFilter, 2> other_filters{{{"known", "Those of this kind", of_question}, all_files}};
+constexpr std::array<FileFilter, 2> other_filters{{{"known", "Files of this type", of_question}, all_files}};
 
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
@@ -122,7 +122,7 @@ std::string file_kind(const fs::path& file) {
            : project::is_path_file(file)      ? "path file"
            : project::is_point_file(file)     ? "point file"
            : project::is_plot_file(file)      ? "plot"
-           : actions::is_processor_file(file) ? "for the processor"
+           : actions::is_processor_file(file) ? "processor file"
                                               : std::string(project::json_kind(file));
 }
 
@@ -154,13 +154,13 @@ std::vector<FilePlace> places_of(const Workbench& now) {
     };
     add("Home", environment("HOME"));
     if (!now.document.file.empty()) {
-        add("Folder of the project", fs::absolute(now.document.file).parent_path());
+        add("Project folder", fs::absolute(now.document.file).parent_path());
     }
     for (const auto& [use, folder] : now.session.folders) {
         add(folder.string(), folder);
     }
     std::error_code gone;
-    add("Where Millwright was started", fs::current_path(gone));
+    add("Start folder of Millwright", fs::current_path(gone));
     add("Samples: projects", now.assets / "projects");
     add("Samples: programs, plots, pictures", now.assets / "samples");
     for (const fs::path& drive : plugged_drives()) {

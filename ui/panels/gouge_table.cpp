@@ -19,7 +19,7 @@ using plan::BlockBite;
 
 constexpr std::array<widgets::Column, 6> gouge_columns{{{"Line", "", 0.8F, true},
                                                         {"Body", "", 1.0F, false},
-                                                        {"too deep by", "mm", 1.0F, true},
+                                                        {"Depth", "mm", 1.0F, true},
                                                         {"x", "mm", 1.0F, true},
                                                         {"y", "mm", 1.0F, true},
                                                         {"z", "mm", 1.0F, true}}};
@@ -41,12 +41,12 @@ std::string gouge_cell(const BlockBite& bite, int column) {
 
 void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.project.tool.cutter == toolpath::CutterKind::point) {
-        ui.note("The tool is a point, which fits everywhere. Toolpath > Tool chooses a cutter.");
+        ui.note("The tool is a point and cannot gouge. Select a cutter in Toolpath > Tool.");
         return;
     }
     const auto cut = now.plan ? now.plan->plan.cut : nullptr;
     if (!cut) {
-        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        ui.note(now.failure().empty() ? "Computing \u2026" : now.failure());
         return;
     }
     widgets::TableView view;
@@ -60,9 +60,7 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return fmt::format("{}_{}", bite.by_holder ? "holder" : "cutter", bite.block);
     };
     const std::string nothing =
-        "No block brings the cutter deeper than the gouge limit, or the holder into the "
-        "part: " +
-        plan::checked_text(now.plan->project) + ".";
+        "No gouges above the limit and no holder collisions: " + plan::checked_text(now.plan->project) + ".";
     view.when_empty = nothing;
     const auto trajectory = now.trajectory();
     view.height = table_height(ui, view.rows);

@@ -46,8 +46,8 @@ void draw_mix(Ui& ui, ActionQueue& ask, const project::EllipticInput& input) {
         ui,
         ask,
         "combination",
-        "Combined as",
-        "Choose how the reasons are combined",
+        "Combination",
+        "Change how the weight terms are combined",
         project::combinations(),
         mix.combination,
         [](Project& p, grid::Combination c) { p.grid.elliptic.mix.combination = c; });
@@ -68,7 +68,7 @@ std::string short_name(const std::string& link) {
 
 /// What each link of the whole chain left the best grid with.
 void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links, bool turns) {
-    ui.note("Best grid after each link: largest / mean to curve, mm / largest axis deviation, deg");
+    ui.note("Best grid after each stage: max. error, mm / mean error, mm / max. axis deviation, deg");
     for (std::size_t n = 0; n < links.size(); ++n) {
         const grid::ImproverLink& link = links[n];
         ui.value(fmt::format("link_{}", n),
@@ -83,12 +83,12 @@ void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links, bool turns
 void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::GridInput& input) {
     ui.note(with_full_stop(plan::memory_sentence(method, input)));
     if (input.elliptic.any_memory || plan::memory_fault(method, input, free_memory())) {
-        if (const auto on = ui.toggle("any_memory",
-                                      "Take the memory",
-                                      input.elliptic.any_memory,
-                                      "It is made even where it takes more than half of what is free")) {
-            ask.edit("Change whether much memory is taken",
-                     [v = *on](Project& p) { p.grid.elliptic.any_memory = v; });
+        if (const auto on =
+                ui.toggle("any_memory",
+                          "Allow high memory",
+                          input.elliptic.any_memory,
+                          "Compute the grid even if it needs more than half of the free memory")) {
+            ask.edit("Change the memory limit", [v = *on](Project& p) { p.grid.elliptic.any_memory = v; });
         }
     }
 }
@@ -117,7 +117,7 @@ std::string status_text(const plan::WatchedAdaptation& watched) {
         return name + ": not started";
     }
     const bool stands = !watched.playing && watched.state->status == grid::ImproverStatus::running;
-    return name + (stands ? ", stopped before its end: " : ": ") + watched.state->note;
+    return name + (stands ? ", stopped early: " : ": ") + watched.state->note;
 }
 
 /// The one that is watched stands out; where none is, that of the program.
@@ -178,12 +178,12 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
                                        ask,
                                        "direction",
                                        "Tracks",
-                                       "Turn the tracks",
+                                       "Change the track direction",
                                        project::track_directions(),
                                        now.project.grid.direction,
                                        [](Project& p, grid::TrackDirection d) { p.grid.direction = d; });
     const auto [options, index] = options_of(project::grid_methods(), now.project.grid.method);
-    if (const auto chosen = ui.choice("method", "Program uses", index, options)) {
+    if (const auto chosen = ui.choice("method", "Program grid", index, options)) {
         ask.run("grid.use_" + std::string(project::grid_methods()[static_cast<std::size_t>(*chosen)].id));
     }
     if (!plan::follows_nodes(now.project.toolpath.strategy)) {
@@ -192,7 +192,7 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
 }
 
 void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("watch", "Watch it adapt");
+    const auto section = ui.section("watch", "Grid optimisation");
     if (!section) {
         return;
     }
@@ -218,7 +218,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       catalogue_,
                       "grid.redistribute",
                       method_button_rank(now, GridMethod::redistribution),
-                      "1-D shares");
+                      "Redistribute (1-D)");
         action_button(ui,
                       now,
                       ask,
@@ -228,7 +228,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       "Harmonic map");
     }
     if (!now.watched) {
-        ui.note("Starts from the uniform grid and shows every step in the view.");
+        ui.note("The optimisation starts from the uniform grid; the view shows every step.");
         return;
     }
     {
@@ -246,12 +246,12 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
     if (const auto& state = now.watched->state) {
         if (now.watched->method != GridMethod::redistribution) { // which is done in one go
-            ui.value("rounds", "Rounds done", fmt::format("{}", state->round));
+            ui.value("rounds", "Rounds completed", fmt::format("{}", state->round));
             ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
             ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
         }
-        ui.value("before", "To curve, start", length_text(state->start.mean), "mm");
-        ui.value("now", "To curve, now", length_text(state->now.mean), "mm");
+        ui.value("before", "Mean error, start", length_text(state->start.mean), "mm");
+        ui.value("now", "Mean error, now", length_text(state->now.mean), "mm");
         const WatchedLabels labels = watched_labels(state->status);
         ui.value("best", labels.best, length_text(state->of_best.mean), "mm");
         ui.value("gain", labels.change, change_text(state->start.mean, state->of_best.mean));
@@ -260,8 +260,8 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
                      labels.axis,
                      angle_text(state->start.axis_max) + " \u2192 " + angle_text(state->of_best.axis_max),
                      "deg",
-                     "Largest angle between tool axis and normal on the way: of the start \u2192 of the best "
-                     "grid");
+                     "Largest angle between tool axis and surface normal along the path: start grid \u2192 "
+                     "best grid");
         }
         if (const std::string note = watched_note(*state); !note.empty()) {
             ui.note(note);
@@ -284,7 +284,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       catalogue_,
                       "grid.use_" + std::string(row.id),
                       widgets::Rank::normal,
-                      "Use it for the program");
+                      "Use for the program");
     }
     if (const auto& state = now.watched->state; state && !state->warning.empty()) {
         (void)widgets::banner(ui, "warning", {widgets::Severity::warning, state->warning, {}});
@@ -341,7 +341,7 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         ask,
         "weight",
         "Weight",
-        "Choose the weight",
+        "Change the weight",
         project::weight_sources(),
         input.weight,
         [](Project& p, project::WeightSource w) { p.grid.elliptic.weight = w; });
@@ -356,15 +356,16 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
                 "w =",
                 input.expression,
                 [](std::string_view typed) { return fault_of_expression(typed); },
-                "Positive where cells should be small; of u, v, i, j, x, y, z, nx, ny, nz, k1, k2, err")) {
+                "Expression in u, v, i, j, x, y, z, nx, ny, nz, k1, k2, err; positive, large where cells "
+                "should be small")) {
             ask.edit("Change the weight's expression",
                      [t = *text](Project& p) { p.grid.elliptic.expression = t; });
         }
     }
     if (ui.toggle("show_weight",
-                  "Weight in the view",
+                  "Show weight",
                   now.session.layers_now().weight,
-                  "Colours the surface by the weight, as the adaptation begins with it")) {
+                  "Colour the surface by the weight at the start of the adaptation")) {
         ask.run("view.layer_weight");
     }
     for (const auto& setting : project::elliptic_numbers()) {
@@ -376,10 +377,10 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
         }
     }
     if (const auto on = ui.toggle("sliding",
-                                  "Boundary slides",
+                                  "Sliding boundary",
                                   input.sliding_boundary,
-                                  "Boundary nodes may move along their side; corners stay")) {
-        ask.edit("Change how the boundary is held",
+                                  "Boundary nodes may move along their edge; corners stay fixed")) {
+        ask.edit("Change the boundary condition",
                  [v = *on](Project& p) { p.grid.elliptic.sliding_boundary = v; });
     }
     if (!harmonic) {
@@ -388,7 +389,7 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
             ask,
             "solver",
             "Solver",
-            "Choose who moves the nodes",
+            "Change the solver",
             project::elliptic_solvers(),
             input.solver,
             [](Project& p, grid::EllipticMethod solver) { p.grid.elliptic.solver = solver; });

@@ -10,7 +10,7 @@ using widgets::Permission;
 
 Permission can_command(const ControllerView& machine) {
     return machine.can.command ? at_rest(machine)
-                               : Permission::refused("This machine takes no single lines.");
+                               : Permission::refused("This machine does not accept single commands.");
 }
 
 void command(ActionQueue& ask, std::string line) {

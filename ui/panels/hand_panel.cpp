@@ -28,7 +28,7 @@ using widgets::Rank;
 
 constexpr std::array<double, 5> jog_steps{0.0, 0.01, 0.1, 1.0, 10.0};
 constexpr std::array<widgets::Option, 5> jog_step_options{
-    {{"hold", "Held", {}, "Moves as long as it is held"},
+    {{"hold", "Cont.", {}, "Continuous: moves while the button is held"},
      {"0_01", "0.01"},
      {"0_1", "0.1"},
      {"1", "1"},
@@ -51,7 +51,7 @@ Permission can_jog_axis(const Workbench& now, char axis) {
     }
     const std::string_view some = now.controller.can.jog_axes;
     if (!some.empty() && some.find(axis) == std::string_view::npos) {
-        return Permission::refused("This machine jogs " + std::string(some) + " alone.");
+        return Permission::refused("This machine can only jog " + std::string(some) + ".");
     }
     const bool jogging = now.controller.status.activity == drivers::Activity::jog;
     return jogging ? Permission{} : at_rest(now.controller);
@@ -75,20 +75,20 @@ std::pair<std::string, widgets::Tone> position_words(const ControllerView& machi
     const std::string& pressed = status.inputs.limits;
     const bool doubt = !status.position_doubt.empty();
     if (status.link_lost) {
-        return {"As last told: the link is lost.", Tone::danger};
+        return {"The link is lost: last reported position.", Tone::danger};
     }
     if (!pressed.empty()) {
-        return {(doubt ? "Limit switch " + pressed + "; in doubt: home or confirm."
+        return {(doubt ? "Limit switch " + pressed + "; not verified: home or confirm."
                        : "Limit switch pressed: " + pressed),
                 Tone::danger};
     }
     if (machine.can.told_place) {
-        return doubt ? std::pair{"In doubt: read it at the machine, and enter it.", Tone::warning}
-               : status.position_known ? std::pair{"As it was told: it does not tell it.", Tone::muted}
-                                       : std::pair{"Assumed: it does not tell it.", Tone::muted};
+        return doubt ? std::pair{"Not verified: read and enter the position.", Tone::warning}
+               : status.position_known ? std::pair{"Entered manually, not reported.", Tone::muted}
+                                       : std::pair{"Assumed, not reported.", Tone::muted};
     }
-    return doubt ? std::pair{"In doubt: home the machine or confirm it.", Tone::warning}
-                 : std::pair{"As the machine tells it.", Tone::muted};
+    return doubt ? std::pair{"Position not verified: home or confirm it.", Tone::warning}
+                 : std::pair{"Reported by the controller.", Tone::muted};
 }
 
 /// Collects what is held down in this frame.
@@ -197,7 +197,7 @@ void pad_wishes(const Workbench& now, Wish& wish, std::vector<double>& before) {
 void HandPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_position(ui, now, ask);
     if (now.arm_connected()) {
-        ui.note("Jogs, taught points and programs of an arm are in the Arm workspace.");
+        ui.note("Jogging, taught points and arm programs are in the Arm workspace.");
         action_button(ui, now, ask, catalogue_, "view.arm", Rank::normal, "Arm workspace");
         return;
     }
@@ -212,7 +212,7 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
         return;
     }
     if (machine.status.position.size() != count || count == 0) {
-        ui.note("The machine has not told where it is.");
+        ui.note("The machine has not reported its position.");
         return;
     }
     const kinematics::AxisPositions work = machine.status.work_position();
@@ -256,12 +256,14 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
             if (ui.button("zero_" + letter,
                           letter + " = 0",
                           can,
-                          {{}, Rank::normal, -1.0F, "Makes this place the zero of the work system"})) {
+                          {{}, Rank::normal, -1.0F, "Set the current position as work zero of this axis"})) {
                 command(ask, line);
             }
         }
-        if (ui.button(
-                "zero_all", "All", can, {{}, Rank::normal, -1.0F, "Makes this place the zero of all axes"})) {
+        if (ui.button("zero_all",
+                      "All",
+                      can,
+                      {{}, Rank::normal, -1.0F, "Set the current position as work zero of all axes"})) {
             command(ask, all);
         }
     }
@@ -295,34 +297,41 @@ void HandPanel::draw_hands(Ui& ui, const Workbench& now, ActionQueue& ask) const
                                        "Step",
                                        static_cast<int>(chosen_step - jog_steps.begin()),
                                        jog_step_options,
-                                       "mm or degrees of one press")) {
+                                       "Jog increment, mm or degrees per press")) {
         ask.show([step = jog_steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
             session.hand.step = step;
         });
     }
     hand_number(ui,
                 ask,
-                {"speed", "Speed", "mm/min", "Of X, Y and Z by hand", 1.0, 20000.0, no_default, 0},
+                {"speed", "Speed", "mm/min", "Jog speed of X, Y and Z", 1.0, 20000.0, no_default, 0},
                 hand.speed_mm_per_min,
                 &actions::HandSettings::speed_mm_per_min);
     const bool turns = std::ranges::any_of(now.controller.axes, is_rotary);
     if (turns) {
         hand_number(ui,
                     ask,
-                    {"turn", "Turning", "\u00b0/min", "Of rotary axes by hand", 1.0, 20000.0, no_default, 0},
+                    {"turn",
+                     "Rotary speed",
+                     "\u00b0/min",
+                     "Jog speed of the rotary axes",
+                     1.0,
+                     20000.0,
+                     no_default,
+                     0},
                     hand.turn_deg_per_min,
                     &actions::HandSettings::turn_deg_per_min);
     }
     const actions::Action& arm = catalogue_.find("machine.arm_keys");
-    if (const auto on = ui.toggle("keys", "By keys", hand.keys_armed, arm.info().tip, arm.permission(now))) {
+    if (const auto on = ui.toggle("keys", "Keyboard", hand.keys_armed, arm.info().tip, arm.permission(now))) {
         ask.run("machine.arm_keys");
     }
     const actions::Action& pad = catalogue_.find("machine.arm_gamepad");
-    if (const auto on = ui.toggle("pad", "By gamepad", hand.pad_armed, pad.info().tip, pad.permission(now))) {
+    if (const auto on = ui.toggle("pad", "Gamepad", hand.pad_armed, pad.info().tip, pad.permission(now))) {
         ask.run("machine.arm_gamepad");
     }
     if (hand.pad_armed) {
-        ui.note(now.gamepad ? "Hold a bumper: left stick X and Y, right stick Z, cross the rotary axes."
+        ui.note(now.gamepad ? "Hold a bumper. Left stick: X and Y; right stick: Z; D-pad: rotary axes."
                             : "No gamepad is connected.");
     }
 }

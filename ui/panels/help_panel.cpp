@@ -18,13 +18,13 @@ using widgets::ReadingKind;
 constexpr std::array<HelpPage, 4> page_order{
     HelpPage::workspace, HelpPage::keys, HelpPage::commands, HelpPage::about};
 constexpr std::array<widgets::Option, 4> help_topics{{{"workspace", "This workspace"},
-                                                      {"keys", "Keys"},
-                                                      {"commands", "Commands of a PMAC"},
+                                                      {"keys", "Shortcuts"},
+                                                      {"commands", "PMAC commands"},
                                                       {"about", "About"}}};
 
 /// Of whatever has one, as the menus have it.
 std::vector<ReadingBlock> keys_of(const actions::Catalogue& catalogue) {
-    std::vector<ReadingBlock> rows{{ReadingKind::head_row, {"Key", "What", "Menu"}}};
+    std::vector<ReadingBlock> rows{{ReadingKind::head_row, {"Key", "Action", "Menu"}}};
     for (const auto& action : catalogue.all()) {
         const actions::ActionInfo& info = action->info();
         if (!info.shortcut.empty()) {
@@ -33,24 +33,22 @@ std::vector<ReadingBlock> keys_of(const actions::Catalogue& catalogue) {
             rows.push_back({ReadingKind::row, {keys, std::string(info.title), std::string(info.menu)}});
         }
     }
-    rows.push_back(
-        {ReadingKind::paragraph,
-         {"Everything else is found by a few letters (Ctrl+K), or in the menus. Keys that jog a machine "
-          "are told with its workspace."}});
+    rows.push_back({ReadingKind::paragraph,
+                    {"Find all other commands with the command search (Ctrl+K) or in the menus. Keys for "
+                     "jogging are described with their workspaces."}});
     return rows;
 }
 
 std::vector<ReadingBlock> about_page() {
     return {{ReadingKind::heading, {"Millwright " + std::string(project::version())}},
             {ReadingKind::paragraph,
-             {"From a surface, a plot or a picture to a machine at work: toolpaths with the error that the "
-              "machine "
-              "really makes, programs, controllers and their emulators, a robot arm, a CORDIC processor."}},
+             {"From a surface, a plot or a picture to a machined part: toolpaths with the actual error of "
+              "the machine, programs, controllers and their emulators, a robot arm, a CORDIC processor."}},
             {ReadingKind::paragraph,
-             {"Free software under the GNU General Public License, version 3 or later. It comes without any "
-              "warranty: look at the machine before you move it."}},
+             {"Free software under the GNU General Public License, version 3 or later, without any warranty. "
+              "Inspect the machine before you move it."}},
             {ReadingKind::paragraph,
-             {"The whole manual is the folder docs of the source; these pages are a part of it."}}};
+             {"The complete manual is in the docs folder of the source code; these pages are part of it."}}};
 }
 
 std::vector<ReadingBlock> page(HelpPage wanted, actions::Workspace workspace, const actions::Catalogue& all) {

@@ -87,7 +87,7 @@ void draw_faces(Ui& ui, ActionQueue& ask, const exchange::CadModel& model, const
         choose_import(ask, changed);
     }
     for (const std::string& reason : model.left_out) {
-        ui.note("Left out: " + reason);
+        ui.note("Not imported: " + reason);
     }
 }
 
@@ -106,8 +106,8 @@ void draw_unit(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
         options.push_back(units[n].option);
         index = exactly_equal(units[n].mm, choice.mm_per_unit) ? static_cast<int>(n) : index;
     }
-    if (const auto chosen =
-            ui.segmented("unit", "Unit", index, options, "The file of a mesh or of points does not tell")) {
+    if (const auto chosen = ui.segmented(
+            "unit", "Unit", index, options, "Length unit; mesh and point files do not specify it")) {
         ImportChoice changed = choice;
         changed.mm_per_unit = units[static_cast<std::size_t>(*chosen)].mm;
         choose_import(ask, changed);
@@ -116,7 +116,7 @@ void draw_unit(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
 
 void draw_side(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
     const std::array<Option, 7> options{
-        {{"found", "As it shows", {}, "The mean normal, or +z where a mesh is closed", {}},
+        {{"found", "Automatic", {}, "Direction of the mean normal, or +z for a closed mesh", {}},
          {"up", "+z", {}, "", {}},
          {"down", "-z", {}, "", {}},
          {"right", "+x", {}, "", {}},
@@ -127,7 +127,7 @@ void draw_side(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
         Vec3::Zero(), {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
     const auto now = std::ranges::find(sides, choice.along.value_or(Vec3::Zero()));
     const auto index = static_cast<int>(now - sides.begin());
-    if (const auto chosen = ui.choice("along", "Side", index, options, "The side that is fitted")) {
+    if (const auto chosen = ui.choice("along", "Side", index, options, "Side of the mesh to fit")) {
         ImportChoice changed = choice;
         changed.along.reset();
         if (*chosen > 0) {
@@ -140,7 +140,7 @@ void draw_side(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
 void draw_degrees(Ui& ui, ActionQueue& ask, const ImportChoice& choice, const project::FitDegrees& degrees) {
     const auto field = [&](const char* id, const char* label, int project::FitDegrees::*which) {
         const widgets::FieldInfo info{
-            id, label, "", "Of the Bezier patch that is fitted", 1.0, exchange::max_fit_degree, 5.0, 0};
+            id, label, "", "Degree of the fitted Bezier patch", 1.0, exchange::max_fit_degree, 5.0, 0};
         if (const auto value = ui.integer(degrees.*which, info)) {
             ImportChoice changed = choice;
             changed.degrees = degrees;
@@ -155,9 +155,9 @@ void draw_degrees(Ui& ui, ActionQueue& ask, const ImportChoice& choice, const pr
 void draw_cloud(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
     if (const auto cloud =
             ui.toggle("cloud",
-                      "Fit as a cloud",
+                      "Fit point cloud",
                       choice.cloud,
-                      "A fair patch near the points, in place of a surface through their rows")) {
+                      "Fit a smooth patch near the points instead of a surface through the rows of points")) {
         ImportChoice changed = choice;
         changed.cloud = *cloud;
         choose_import(ask, changed);
@@ -166,10 +166,11 @@ void draw_cloud(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
 
 /// Meshes are always fitted by one.
 void draw_one_patch(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
-    if (const auto fit = ui.toggle("fit",
-                                   "Fit one patch",
-                                   choice.degrees.has_value(),
-                                   "One patch near the whole surface in place of its own patches")) {
+    if (const auto fit =
+            ui.toggle("fit",
+                      "Fit single patch",
+                      choice.degrees.has_value(),
+                      "Fit one patch to the whole surface instead of using the original patches")) {
         ImportChoice changed = choice;
         changed.degrees = *fit ? std::optional(project::FitDegrees{}) : std::nullopt;
         choose_import(ask, changed);
@@ -200,13 +201,13 @@ void draw_points_off(Ui& ui, const project::PointFit& points) {
     ui.value("rows",
              "Points",
              points.rows > 0 ? fmt::format("{} x {}", points.rows, points.columns)
-                             : fmt::format("{} in a cloud", points.points.size()));
-    ui.value("max",
-             "Largest deviation",
-             deviation_text(points.deviation.max),
-             "mm",
-             fmt::format("The largest distance of a point from the surface: of the point in line {}",
-                         points.worst_line()));
+                             : fmt::format("{} (cloud)", points.points.size()));
+    ui.value(
+        "max",
+        "Largest deviation",
+        deviation_text(points.deviation.max),
+        "mm",
+        fmt::format("Largest distance of a point from the surface (point in line {})", points.worst_line()));
     ui.value("mean", "Mean deviation", deviation_text(points.deviation.mean), "mm");
     ui.value("rms", "RMS deviation", deviation_text(points.deviation.rms), "mm");
 }
@@ -222,7 +223,7 @@ void draw_found(Ui& ui, const ImportResult& found) {
         return;
     }
     if (!found.surface) {
-        ui.note("Choose a face: click it in the view, or in the list.");
+        ui.note("Select a face: click it in the view or in the list.");
         return;
     }
     ui.value("patches", "Patches", std::to_string(found.surface->surface.patches.size()));
@@ -233,12 +234,12 @@ void draw_found(Ui& ui, const ImportResult& found) {
                  "Largest deviation",
                  deviation_text(fit->deviation.max),
                  "mm",
-                 "The largest distance of a point of the mesh or face from the patch");
+                 "Largest distance from a point of the mesh or face to the patch");
         ui.value("patch_max",
-                 "Largest, of the patch",
+                 "Largest, reverse",
                  deviation_text(fit->deviation.patch_max),
                  "mm",
-                 "The largest distance of a point of the patch from the mesh or face");
+                 "Largest distance from a point of the patch to the mesh or face");
         ui.value("mean", "Mean deviation", deviation_text(fit->deviation.mean), "mm");
         ui.value("rms", "RMS deviation", deviation_text(fit->deviation.rms), "mm");
     }
@@ -255,7 +256,7 @@ void draw_file(Ui& ui, const ImportResult& found) {
     ui.value("name", "File", found.file.filename().string());
     const project::ImportSource& source = *found.source;
     if (source.model) {
-        ui.value("unit", "Unit of the file", source.model->unit.empty() ? "mm" : source.model->unit);
+        ui.value("unit", "File unit", source.model->unit.empty() ? "mm" : source.model->unit);
         return;
     }
     if (source.points) {

@@ -59,14 +59,14 @@ void level_field(Ui& ui,
 
 /// As for all pens, or a side of its own.
 void side_field(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) {
-    std::vector<widgets::Option> options{{"as_all", "As under Cutter", {}, {}}};
+    std::vector<widgets::Option> options{{"as_all", "Same as Cutter", {}, {}}};
     int at = 0;
     const auto sides = project::cutter_sides();
     for (const project::Choice<plot::CutterSide>& side : sides) {
         at = now.plot.levels()[n].side == side.value ? static_cast<int>(options.size()) : at;
         options.push_back({side.id, side.label, {}, side.tip});
     }
-    if (const auto chosen = ui.choice("side", "Goes", at, options)) {
+    if (const auto chosen = ui.choice("side", "Cutter side", at, options)) {
         std::optional<plot::CutterSide> side;
         if (*chosen > 0) {
             side = sides[static_cast<std::size_t>(*chosen) - 1].value;
@@ -83,8 +83,9 @@ void level_fields(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n)
     const Level level = now.plot.levels()[n];
     const auto scope = ui.scope("level");
     ui.gap();
-    if (const auto on = ui.toggle("enabled", "Cut it", level.enabled, "Else its strokes stay")) {
-        edit_levels(ask, now, "Change what is cut", [n, on = *on](std::vector<Level>& levels) {
+    if (const auto on =
+            ui.toggle("enabled", "Enabled", level.enabled, "Off: the strokes of this level are not cut")) {
+        edit_levels(ask, now, "Enable or disable a level", [n, on = *on](std::vector<Level>& levels) {
             levels.at(n).enabled = on;
         });
     }
@@ -96,12 +97,19 @@ void level_fields(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n)
     }
     side_field(ui, now, ask, n);
     const auto line = ui.row(2);
-    if (ui.button(
-            "again", "Cut once more", {}, {{}, widgets::Rank::normal, 0.0F, "A second level of this pen"})) {
-        edit_levels(ask, now, "Cut a pen once more", [n](auto& levels) { project::repeat_level(levels, n); });
+    if (ui.button("again",
+                  "Duplicate level",
+                  {},
+                  {{}, widgets::Rank::normal, 0.0F, "Add a second level for this pen"})) {
+        edit_levels(ask, now, "Duplicate a level", [n](auto& levels) { project::repeat_level(levels, n); });
     }
-    if (ui.button(
-            "remove", "Remove", {}, {{}, widgets::Rank::quiet, 0.0F, "A pen's only level is switched off"})) {
+    if (ui.button("remove",
+                  "Remove",
+                  {},
+                  {{},
+                   widgets::Rank::quiet,
+                   0.0F,
+                   "Remove this level; if it is the only level of its pen, it is disabled instead"})) {
         edit_levels(ask, now, "Remove a level", [n](auto& levels) { project::remove_level(levels, n); });
     }
 }

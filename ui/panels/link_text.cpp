@@ -18,12 +18,12 @@ std::string link_figures(const grid::ImproverLink& link, bool turns) {
 std::string link_tip(const grid::ImproverLink& link, bool turns) {
     const grid::ErrorSummary& end = link.reached;
     const std::string axis = turns ? fmt::format(", axis {} deg", fixed(to_degrees(end.axis_max), 2)) : "";
-    return fmt::format("{}: {} / {} mm{} at its end{}.",
+    return fmt::format("{}: {} / {} mm{} at the end of this stage{}.",
                        link.name,
                        fixed(end.max, 4),
                        fixed(end.mean, 4),
                        axis,
-                       link.refused.empty() ? "" : ", not taken: " + link.refused);
+                       link.refused.empty() ? "" : ", rejected: " + link.refused);
 }
 
 } // namespace millwright::panels

@@ -81,17 +81,17 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
             ask.show([](actions::Session& session) { session.file.find_wanted = false; });
         }
         if (const auto text =
-                ui.search_field("find", "Find", wanted_, "Words of the program; Enter finds the next")) {
+                ui.search_field("find", "Find", wanted_, "Search text; Enter finds the next match")) {
             *text == wanted_ && !wanted_.empty() ? go_on(1, now, ask) : look_for(*text, now, ask);
         }
     }
-    const Permission can = wanted_.empty() ? Permission::refused("Type what to find first.") : Permission{};
+    const Permission can = wanted_.empty() ? Permission::refused("Enter a search text first.") : Permission{};
     ui.beside();
-    if (ui.icon_button("previous", icons::chevron_up, "The place before (Ctrl+Shift+G)", can)) {
+    if (ui.icon_button("previous", icons::chevron_up, "Previous match (Ctrl+Shift+G)", can)) {
         go_on(-1, now, ask);
     }
     ui.beside();
-    if (ui.icon_button("next", icons::chevron_down, "The next place (Ctrl+G)", can)) {
+    if (ui.icon_button("next", icons::chevron_down, "Next match (Ctrl+G)", can)) {
         go_on(1, now, ask);
     }
     if (now.session.file.find_next != 0) {
@@ -108,7 +108,7 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const widgets::FieldInfo line{"line",
                                   "Line",
                                   wanted_.empty() ? std::string_view(of_all) : std::string_view(),
-                                  "Type a number to go to that line",
+                                  "Go to line",
                                   1.0,
                                   static_cast<double>(std::max<std::ptrdiff_t>(lines_->count(), 1)),
                                   std::numeric_limits<double>::quiet_NaN(),
@@ -166,8 +166,8 @@ void ListingPanel::go_on(int direction, const Workbench& now, ActionQueue& ask) 
 void ListingPanel::draw_lines(Ui& ui, const Workbench& now, ActionQueue& ask) {
     follow(now);
     if (lines_ == nullptr) {
-        ui.note(now.in_file() ? "The file is being opened \u2026"
-                              : "No program yet. Open a G-code file (Ctrl+O), or drop one on the window.");
+        ui.note(now.in_file() ? "Opening the file \u2026"
+                              : "No program is open. Open a G-code file (Ctrl+O) or drop one on the window.");
         return;
     }
     widgets::ListingView view;

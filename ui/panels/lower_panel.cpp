@@ -32,7 +32,7 @@ struct Tab {
 constexpr std::array<Tab, 7> making{{{LowerTab::plots, {"plots", "Error along the path", icons::plot}},
                                      {LowerTab::motion, {"motion", "Feed and axes", icons::timer}},
                                      {LowerTab::listing, {"listing", "Listing", icons::program}},
-                                     {LowerTab::compare, {"compare", "Side by side", icons::table}},
+                                     {LowerTab::compare, {"compare", "Comparison", icons::table}},
                                      {LowerTab::gouges, {"gouges", "Gouges", icons::warning}},
                                      {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                      {LowerTab::log, {"log", "Log", icons::info}}}};
@@ -139,7 +139,7 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::vector<PlottedPath> paths = plotted_paths(now);
     if (paths.empty()) {
-        ui.note(now.shown() ? "No path of the project is on screen." : "No path yet.");
+        ui.note(now.shown() ? "No path of the project is displayed." : "No path yet.");
         return;
     }
     std::vector<ErrorOverPath> errors;
@@ -171,7 +171,7 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
     if (now.job.name.empty()) {
-        ui.note("No job has been sent yet. Machine > Run the program (F9).");
+        ui.note("No job has been run yet. Use Machine > Run the program (F9).");
         return;
     }
     if (now.job.report) {
@@ -181,7 +181,7 @@ void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
     }
     if (now.job.outcome) {
-        ui.value("end", "Ended", to_text(now.job.outcome->end));
+        ui.value("end", "Result", to_text(now.job.outcome->end));
         ui.text(now.job.outcome->sentence);
         ui.note("Log: " + now.job.outcome->log_file.string());
     }
@@ -192,7 +192,7 @@ void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
 
 void LowerPanel::draw_log(Ui& ui, const Workbench& now) const {
     if (now.session.log.empty()) {
-        ui.note("Nothing has been said yet.");
+        ui.note("The log is empty.");
     }
     for (auto line = now.session.log.rbegin(); line != now.session.log.rend(); ++line) {
         ui.text(*line);

@@ -24,12 +24,12 @@ namespace millwright::panels {
 namespace {
 
 constexpr std::array<double, 6> machine_speeds{1.0, 5.0, 20.0, 100.0, 1000.0, 0.0};
-constexpr std::array<widgets::Option, 6> machine_speed_options{{{"x1", "1 x real time"},
+constexpr std::array<widgets::Option, 6> machine_speed_options{{{"x1", "1 x (real time)"},
                                                                 {"x5", "5 x"},
                                                                 {"x20", "20 x"},
                                                                 {"x100", "100 x"},
                                                                 {"x1000", "1000 x"},
-                                                                {"unlimited", "as fast as possible"}}};
+                                                                {"unlimited", "maximum speed"}}};
 
 int speed_index(double speed) {
     for (std::size_t n = 0; n < machine_speeds.size(); ++n) {
@@ -49,11 +49,11 @@ bool waits_for_a_link(const Workbench& now) {
 std::string checked_sentence(const Workbench& now, const std::string& name) {
     const bool another =
         now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
-    return fmt::format(
-        "Checked: axes and travel are within those of {}{}. Feeds beyond its axes are slowed.{}",
-        name,
-        another ? ", the machine of the workbench" : "",
-        another ? " Those of the connected one are checked before it moves." : "");
+    return fmt::format("Check passed: axes and travel are within the limits of {}{}. Feed rates above the "
+                       "axis limits are reduced.{}",
+                       name,
+                       another ? ", the machine of the project" : "",
+                       another ? " The limits of the connected machine are checked before the start." : "");
 }
 
 /// 1/min that the program shown begins with, on a machine that has no words for its spindle.
@@ -100,7 +100,7 @@ void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
     const auto section =
-        ui.section("position", now.follows_job() ? "Position of the machine" : "Position on the timeline");
+        ui.section("position", now.follows_job() ? "Machine position" : "Position at timeline");
     if (section) {
         axis_positions(ui, now);
     }
@@ -115,7 +115,7 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
     if (found == 0) {
         ui.note(opened.motion && opened.machine ? checked_sentence(now, opened.machine->name())
-                                                : "Checked: the program can be read.");
+                                                : "Check passed: no syntax errors.");
         return;
     }
     const Diagnostic& first = !opened.errors.empty()   ? opened.errors.front()
@@ -137,7 +137,7 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                                           "Virtual machine",
                                           speed_index(now.session.machine_speed),
                                           machine_speed_options,
-                                          "How fast the virtual machine's time passes")) {
+                                          "Simulation speed of the virtual machine")) {
             ask.show([speed = machine_speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
                 session.machine_speed = speed;
             });
@@ -162,7 +162,7 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
                   waits_for_a_link(now) ? widgets::Rank::normal : widgets::Rank::primary,
                   begin.on ? fmt::format("Run from line {}", begin.line) : std::string("Run"));
     if (waits_for_a_link(now)) {
-        ui.note("Until the chosen machine is connected, the virtual machine runs it.");
+        ui.note("Not connected: Run simulates on the virtual machine.");
     }
     {
         const drivers::DriverStatus& status = now.controller.status;
@@ -181,14 +181,13 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
     ui.keep_clear(ui.path("machine_emergency_stop"));
     if (const auto rpm = spindle_by_hand(now)) {
-        (void)widgets::banner(
-            ui,
-            "spindle_by_hand",
-            {widgets::Severity::warning,
-             fmt::format("This machine is told nothing of its spindle: switch it on by hand "
-                         "before it runs, {:.0f} 1/min.",
-                         *rpm),
-             {}});
+        (void)widgets::banner(ui,
+                              "spindle_by_hand",
+                              {widgets::Severity::warning,
+                               fmt::format("This machine has no spindle control: start the spindle manually "
+                                           "at {:.0f} rpm before you run the program.",
+                                           *rpm),
+                               {}});
     }
     if (const widgets::Permission axes = actions::axes_ready(now); !axes.allowed) {
         (void)widgets::banner(ui, "axes", {widgets::Severity::warning, axes.reason, {}});
@@ -201,7 +200,7 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
 void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     if (!now.job.name.empty() && !now.job_is_shown()) { // begun from the queue
         ui.value("of",
-                 now.job.running ? "Running" : "Last job of",
+                 now.job.running ? "Running" : "Last job",
                  std::filesystem::path(now.job.project).filename().string());
     }
     if (now.job.running && now.job.report) {
@@ -209,7 +208,7 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         ui.value("state", "State", to_text(report.driver.state));
         const std::optional<double> left = job_time_left(now, report);
         ui.value("elapsed", "Elapsed", clock_time(report.elapsed));
-        ui.value("left", "Left", left ? clock_time(std::max(0.0, *left)) : "not known");
+        ui.value("left", "Remaining", left ? clock_time(std::max(0.0, *left)) : "unknown");
         if (report.driver.sent_blocks > report.driver.executed_blocks) {
             ui.value("sent", "Blocks sent", fmt::format("{}", report.driver.sent_blocks));
         }
@@ -217,7 +216,7 @@ void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask)
         if (report.answers && report.line > 0 &&
             report.driver.block > block) { // the last that is known is behind
             ui.value("confirmed", "Blocks confirmed", fmt::format("{}", block));
-            ui.value("line", "Line", fmt::format("about {}", report.line));
+            ui.value("line", "Running", fmt::format("line ~{}", report.line));
             block = report.driver.block;
         }
         if (ui.progress("progress", fmt::format("Block {} of {}", block, report.blocks), report.fraction())) {

@@ -207,9 +207,9 @@ std::vector<ReadingBlock> manual_of(actions::Workspace workspace) {
     const Page& page = pages.at(static_cast<std::size_t>(workspace));
     const std::string_view text = embedded_page(page.file);
     auto blocks = reading_of(page.heading.empty() ? text : section_of(text, page.heading), "docs/user");
-    expects(!blocks.empty(), "the manual has a page of every workspace");
+    expects(!blocks.empty(), "the manual has a page for every workspace");
     blocks.push_back({ReadingKind::paragraph,
-                      {"Pages that are named docs/\u2026 are files of the source's folder docs."}});
+                      {"Pages named docs/\u2026 are files in the docs folder of the source code."}});
     return blocks;
 }
 

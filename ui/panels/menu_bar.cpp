@@ -86,8 +86,8 @@ constexpr std::array<Submenu, 4> submenus{
       "Path shown",
       "view.show_uniform",
       [](std::string_view id) { return id.starts_with("view.show_"); }},
-     {"look_from", "Look from", "view.from_above", is_of_side},
-     {"program_from", "Program from", "grid.use_uniform", [](std::string_view id) {
+     {"look_from", "View direction", "view.from_above", is_of_side},
+     {"program_from", "Program grid", "grid.use_uniform", [](std::string_view id) {
           return id.starts_with("grid.use_");
       }}}};
 
@@ -172,13 +172,12 @@ void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     constexpr float named = 130.0F;
     const float room = ui.rest().w - ui.px(gap_to_stop);
     const auto width = ui.width(room);
-    const bool asked =
-        room < ui.px(named)
-            ? ui.icon_button("search", icons::search, "Every action by a few letters (Ctrl+K)")
-            : ui.button("search",
-                        "Search  Ctrl+K",
-                        {},
-                        {icons::search, widgets::Rank::normal, -1.0F, "Every action by a few letters"});
+    const bool asked = room < ui.px(named)
+                           ? ui.icon_button("search", icons::search, "Search commands (Ctrl+K)")
+                           : ui.button("search",
+                                       "Search  Ctrl+K",
+                                       {},
+                                       {icons::search, widgets::Rank::normal, -1.0F, "Search commands"});
     if (asked) {
         ask.run("view.search");
     }

@@ -30,7 +30,7 @@ std::string buffer_text(const pmac::SharedMemoryStream& stream) {
 
 MotionFilePanel::MotionFilePanel(const actions::Catalogue& catalogue)
     : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::motion_file>(
-                                 "Write a motion file", "motion file")) {}
+                                 "Edit the motion file", "motion file")) {}
 
 void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int motion_plot_columns = 900;
 constexpr std::array<widgets::Option, 2> motion_plot_choices{
-    {{"feed", "Feed and what limits it"}, {"axes", "Axis velocities"}}};
+    {{"feed", "Feed rate and limits"}, {"axes", "Axis velocities"}}};
 
 } // namespace
 
@@ -43,7 +43,7 @@ const MotionSeries& MotionPlots::series(const Workbench& now) {
 void MotionPlots::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const MotionSeries& all = series(now);
     if (all.time.empty()) {
-        ui.note("No motion yet.");
+        ui.note("No motion is planned yet.");
         return;
     }
     if (!all.axes.empty()) {
@@ -61,7 +61,7 @@ void MotionPlots::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     widgets::PlotView view;
     view.x_label = "time";
     view.x_unit = "s";
-    view.y_label = shown_ == Shown::feed ? "feed" : "share of the axis limit";
+    view.y_label = shown_ == Shown::feed ? "feed" : "utilisation of the axis limit";
     view.y_unit = shown_ == Shown::feed ? "mm/min" : "%";
     view.series = lines;
     view.cursor_x = now.time();

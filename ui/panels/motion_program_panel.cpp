@@ -9,7 +9,7 @@ using widgets::Rank;
 
 MotionProgramPanel::MotionProgramPanel(const actions::Catalogue& catalogue)
     : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::program>(
-                                 "Write a motion program", "motion program")) {}
+                                 "Edit the motion program", "motion program")) {}
 
 void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {
@@ -23,11 +23,12 @@ void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const auto& faults = now.arm.program().faults();
     if (now.arm.program().busy()) {
-        ui.words("Being simulated \u2026", widgets::Tone::muted);
+        ui.words("Simulating \u2026", widgets::Tone::muted);
     } else {
         fault_line(ui,
                    faults,
-                   "The card's language: LINEAR, ABS, TM500, X10 Y-5 \u2026 in degrees; ; begins a comment.");
+                   "Commands of the card: LINEAR, ABS, TM500, X10 Y-5 \u2026, angles in degrees; a semicolon "
+                   "starts a comment.");
     }
     editor_.draw(ui, now, ask, faults);
 }

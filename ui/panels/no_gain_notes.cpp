@@ -13,7 +13,7 @@ std::vector<std::string> no_gain_notes(const Workbench& now) {
         const auto found = now.evaluation(method);
         if (method != plan::program_grid(now.project) && found &&
             found->outcome.status == grid::ImproverStatus::no_gain && !found->outcome.note.empty()) {
-            notes.push_back(fmt::format("{}, as uniform: {}",
+            notes.push_back(fmt::format("{}, same as uniform: {}",
                                         project::row_of(project::grid_methods(), method).label,
                                         found->outcome.note));
         }

@@ -24,7 +24,7 @@ void norm_plot(widgets::Ui& ui, const std::vector<grid::IterationNorm>& norms) {
         values.push_back(at.norm);
     }
     const std::array series{widgets::Series{.label = "Norm", .x = iterations, .y = values}};
-    ui.note("Norm after every iteration. A jump is the start of a round.");
+    ui.note("Residual norm after each iteration. A jump marks the start of a round.");
     (void)widgets::line_plot(ui,
                              "norms",
                              {.x_label = "Iteration",

@@ -23,7 +23,7 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.gap();
     const std::vector<OutlineRow> rows = outline_rows(now);
     constexpr std::array<widgets::Column, 2> columns{
-        {{"Stage", "", 0.9F, false}, {"mean error", "", 1.1F, true}}};
+        {{"Stage", "", 0.9F, false}, {"Mean error", "", 1.1F, true}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(rows);
@@ -41,9 +41,8 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
     }
     if (std::ranges::any_of(rows, &OutlineRow::so_far)) {
-        ui.note(
-            "~ so far: measured coarsely, or on the grid from before the last change. The figures at the end "
-            "can be others.");
+        ui.note("~ Preliminary: measured coarsely, or on the grid before the last change. The final values "
+                "can differ.");
     }
     for (const GridMethod method : project::every_grid_method) {
         const auto evaluation = now.evaluation(method);

@@ -33,10 +33,10 @@ std::string error_of(const Workbench& now, GridMethod method) {
         return "failed";
     }
     if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {
-        return "as uniform";
+        return "= uniform";
     }
     if (!evaluation) {
-        return plan::is_left_out(now.project, method) ? "left out" : "...";
+        return plan::is_left_out(now.project, method) ? "skipped" : "...";
     }
     return mean_text(*evaluation);
 }

@@ -26,7 +26,7 @@ void degree_fields(Ui& ui, ActionQueue& ask, const geometry::ControlNet& net, in
         const widgets::FieldInfo info{ids[n],
                                       labels[n],
                                       "",
-                                      "A higher degree gives more control points to the same shape",
+                                      "Raise the degree: more control points, same shape",
                                       static_cast<double>(degrees[n]),
                                       static_cast<double>(geometry::max_degree),
                                       std::numeric_limits<double>::quiet_NaN(),
@@ -49,21 +49,23 @@ int edited_patch(const Workbench& now) {
 }
 
 void PatchFields::draw_split(Ui& ui, ActionQueue& ask, int patch) {
-    const widgets::FieldInfo info{"at",
-                                  "Split at",
-                                  "",
-                                  "Parameter of the line along which the patch becomes two; the shape stays",
-                                  project::narrowest_split,
-                                  1.0 - project::narrowest_split,
-                                  0.5,
-                                  3};
+    const widgets::FieldInfo info{
+        "at",
+        "Split parameter",
+        "",
+        "Parameter (0..1) of the line at which the patch is split in two; the shape does not change",
+        project::narrowest_split,
+        1.0 - project::narrowest_split,
+        0.5,
+        3};
     if (const auto at = ui.number(split_at_, info)) {
         split_at_ = *at;
     }
     const auto row = ui.row(2);
     const auto button = [&](const char* id, const char* name, Parameter parameter) {
-        const std::string tip = fmt::format("Two patches that meet at {} = {:.4g}", name, split_at_);
-        if (ui.button(id, fmt::format("Split at {}", name), {}, {{}, widgets::Rank::normal, -1.0F, tip})) {
+        const std::string tip =
+            fmt::format("Split into two patches that meet at {} = {:.4g}", name, split_at_);
+        if (ui.button(id, fmt::format("Split in {}", name), {}, {{}, widgets::Rank::normal, -1.0F, tip})) {
             reshape(ask, "Split the patch", [patch, parameter, at = split_at_](project::Project& draft) {
                 draft = project::with_split(std::move(draft), patch, parameter, at);
             });
@@ -81,7 +83,7 @@ void PatchFields::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto& patches = now.project.surface.patches;
     const int patch = edited_patch(now);
     if (patches.size() > 1) {
-        ui.value("which", "Patch", fmt::format("{} of {}, counted from 0", patch, patches.size()));
+        ui.value("which", "Patch", fmt::format("{} of {}, numbered from 0", patch, patches.size()));
     }
     degree_fields(ui, ask, patches[static_cast<std::size_t>(patch)], patch);
     draw_split(ui, ask, patch);

@@ -33,9 +33,9 @@ named(const actions::Workbench& now, std::shared_ptr<const plan::Evaluation> pat
     const bool of_grid = std::ranges::any_of(project::every_grid_method, [&](project::GridMethod method) {
         return now.evaluation(method) == path;
     });
-    name += of_grid && path->outcome.status == grid::ImproverStatus::no_gain ? " (as uniform)" : "";
-    name += path == now.program_path() ? ", the program's path" : "";
-    name += actions::is_so_far(*path) ? " (so far)" : "";
+    name += of_grid && path->outcome.status == grid::ImproverStatus::no_gain ? " (same as uniform)" : "";
+    name += path == now.program_path() ? ", program path" : "";
+    name += actions::is_so_far(*path) ? " (preliminary)" : "";
     return {std::move(path), std::move(name)};
 }
 

@@ -81,7 +81,7 @@ void PicturePane::mark(const Cell& corner, ActionQueue& ask) {
     }
     const Cell other = *std::exchange(first_, std::nullopt);
     change_region(ask,
-                  "Mark a region",
+                  "Select a region",
                   region_between(other.row, other.column, corner.row, corner.column, shown_->picture));
 }
 
@@ -109,25 +109,26 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const auto& region = now.plot.settings().picture.region;
         if (ui.button("whole",
                       "Whole picture",
-                      region ? widgets::Permission{} : widgets::Permission::refused("All of it is cut."),
-                      {{}, widgets::Rank::normal, -1.0F, "Forgets the region that is cut"})) {
+                      region ? widgets::Permission{}
+                             : widgets::Permission::refused("The whole picture is already selected."),
+                      {{}, widgets::Rank::normal, -1.0F, "Clear the region and cut the whole picture"})) {
             first_.reset();
             change_region(ask, "Cut the whole picture", std::nullopt);
         }
         if (ui.button("size",
-                      fills_width_ ? "Fit the pane" : "Fill the width",
+                      fills_width_ ? "Fit to pane" : "Fit to width",
                       {},
                       {{},
                        widgets::Rank::normal,
                        -1.0F,
-                       fills_width_ ? "Shows the whole map" : "A larger map, which scrolls"})) {
+                       fills_width_ ? "Show the whole map" : "Larger map with scrolling"})) {
             fills_width_ = !fills_width_;
         }
-        ui.note(
-            first_ ? "Click the opposite corner of the region."
-            : side > 1
-                ? fmt::format("A cell is the mean of {0} x {0} pixels. Click two corners of a region.", side)
-                : "Click two corners of the region that is to be cut.");
+        ui.note(first_     ? "Click the opposite corner of the region."
+                : side > 1 ? fmt::format("Each cell is the mean of {0} x {0} pixels. Click two opposite "
+                                         "corners to select a region.",
+                                         side)
+                           : "Click two opposite corners to select the region to cut.");
     }
     widgets::HeatMapView view;
     view.title = "G(i,j)";
@@ -141,7 +142,7 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.same_scale = true;
     view.height = map_height(ui);
     view.colours = gray_colour;
-    view.when_empty = "The picture has one row or column only.";
+    view.when_empty = "The picture has only one row or column.";
     view.readout = [this](std::size_t column, std::size_t row) {
         const int i = shown_->picture.height - 1 - static_cast<int>(row);
         const int j = static_cast<int>(column);

@@ -28,14 +28,15 @@ using widgets::FieldInfo;
 using widgets::Option;
 
 constexpr std::array<Option, 3> units{
-    {{"nominal", "0.025 mm", {}, "HP's nominal unit, and that of the thesis of 2006"},
-     {"table", "0.02488 mm", {}, "The unit that explains the errors of the thesis on the decoder"},
-     {"own", "Another", {}, "As the rows below say"}}};
+    {{"nominal", "0.025 mm", {}, "HP's nominal plotter unit, also used by the 2006 thesis"},
+     {"table", "0.02488 mm", {}, "The unit that explains the errors in the decoder thesis"},
+     {"own", "Custom", {}, "Custom unit, set below"}}};
 constexpr std::array<Option, 2> machines{
-    {{"forming-table", "Forming table", {}, "480 x 550 x 150 mm, as in the thesis of 2006"},
-     {"router-xyz", "Router", {}, "A faster router of three axes"}}};
-constexpr std::array<Option, 2> posts{{{"linuxcnc-xyz", "LinuxCNC", {}, "Tool changes, arcs as they come"},
-                                       {"grbl", "Grbl", {}, "Of the words that Grbl 1.1 knows"}}};
+    {{"forming-table", "Forming table", {}, "Forming table, 480 x 550 x 150 mm, as in the 2006 thesis"},
+     {"router-xyz", "Router", {}, "Faster three-axis router"}}};
+constexpr std::array<Option, 2> posts{
+    {{"linuxcnc-xyz", "LinuxCNC", {}, "LinuxCNC, with tool changes and arcs"},
+     {"grbl", "Grbl", {}, "Only words that Grbl 1.1 supports"}}};
 
 void change_plot_settings(ActionQueue& ask, std::string_view what, std::function<void(PlotSettings&)> set) {
     ask.edit("Change " + std::string(what),
@@ -81,7 +82,7 @@ void choice(Ui& ui,
 
 void unit_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
     const int at = now.hpgl.unit == plot::nominal_unit ? 0 : now.hpgl.unit == plot::table_unit ? 1 : 2;
-    if (const auto chosen = ui.choice("unit", "Plotter", at, units); chosen && *chosen < 2) {
+    if (const auto chosen = ui.choice("unit", "Plotter unit", at, units); chosen && *chosen < 2) {
         const plot::PlotterUnit unit = *chosen == 0 ? plot::nominal_unit : plot::table_unit;
         change_plot_settings(
             ask, "Plotter unit", [unit](PlotSettings& settings) { settings.hpgl.unit = unit; });
@@ -90,13 +91,13 @@ void unit_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
 }
 
 void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
-    const auto section = ui.section("reading", "Reading", false);
+    const auto section = ui.section("reading", "HPGL import", false);
     if (!section) {
         return;
     }
     numbers(ui, ask, now, {"arc_tolerance_mm"});
     choice<plot::FillMode>(
-        ui, ask, "fill", "Filled", project::fill_modes(), now.hpgl.fill, [](Project& draft, auto fill) {
+        ui, ask, "fill", "Filled areas", project::fill_modes(), now.hpgl.fill, [](Project& draft, auto fill) {
             draft.plot.settings.hpgl.fill = fill;
         });
     toggle(ui,
@@ -104,12 +105,12 @@ void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
            "dashes",
            "Dashes",
            now.hpgl.dashes,
-           "Line types are dashed; else solid",
+           "On: draw dashed line types; off: draw all lines solid",
            [](PlotSettings& s, bool on) { s.hpgl.dashes = on; });
     choice<plot::LineEnds>(ui,
                            ask,
                            "line_ends",
-                           "Line ends are",
+                           "Line breaks",
                            project::line_ends(),
                            now.hpgl.line_ends,
                            [](Project& draft, auto ends) { draft.plot.settings.hpgl.line_ends = ends; });
@@ -118,17 +119,20 @@ void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
            "strict",
            "Strict",
            now.hpgl.strictness == plot::Strictness::strict,
-           "The first thing that is wrong ends the reading",
+           "Stop reading at the first error",
            [](PlotSettings& s, bool on) {
                s.hpgl.strictness = on ? plot::Strictness::strict : plot::Strictness::tolerant;
            });
 }
 
 void tip_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
-    choice<plot::TipKind>(
-        ui, ask, "tip", "Tool", project::tip_kinds(), now.tip.kind, [](Project& draft, plot::TipKind kind) {
-            draft.plot.settings.tip.kind = kind;
-        });
+    choice<plot::TipKind>(ui,
+                          ask,
+                          "tip",
+                          "Tool type",
+                          project::tip_kinds(),
+                          now.tip.kind,
+                          [](Project& draft, plot::TipKind kind) { draft.plot.settings.tip.kind = kind; });
     if (now.tip.kind != plot::TipKind::point) {
         numbers(ui, ask, now, {"tip_diameter_mm"});
     }
@@ -179,7 +183,7 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     choice<plot::TurnPolicy>(ui,
                              ask,
                              "turns",
-                             "At corners",
+                             "Turn policy",
                              project::turn_policies(),
                              set.tracing.turns,
                              [](Project& draft, auto turns) { draft.plot.settings.tracing.turns = turns; });
@@ -191,13 +195,13 @@ void trace_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
 void relief_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const plan::PlotResult* made) {
     numbers(ui, ask, set, {"step_over_mm"});
     if (!set.step_over && made != nullptr && made->step_over > 0.0) {
-        ui.note(fmt::format("0 goes by the tool: {:.3f} mm.", made->step_over));
+        ui.note(fmt::format("Auto (from tool): {:.3f} mm.", made->step_over));
     }
     numbers(ui, ask, set, {"merge_mm"});
     if (const auto section = ui.section("roughing", "Roughing", false)) {
         numbers(ui, ask, set, {"depth_per_pass_mm", "allowance_mm", "rough_step_over_mm"});
     }
-    if (const auto section = ui.section("frame", "Cut it out", false)) {
+    if (const auto section = ui.section("frame", "Cut out of stock (frame)", false)) {
         numbers(ui,
                 ask,
                 set,
@@ -214,9 +218,9 @@ void dot_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set) {
     toggle(ui,
            ask,
            "join_dots",
-           "Join",
+           "Join dots",
            set.join_dots,
-           "Neighbours in a row become one cut",
+           "Join neighbouring dots of a row into one cut",
            [](PlotSettings& s, bool on) { s.join_dots = on; });
 }
 
@@ -228,7 +232,8 @@ void carving_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pla
            "clear_floor",
            "Clear floor",
            set.clear_floor,
-           "Where outlines are wider than the bit reaches; else it is left for an end mill, but for its edge",
+           "Clear areas that are wider than the bit can cut. Off: only their edges are cut, the rest is left "
+           "for an end mill",
            [](PlotSettings& s, bool on) { s.clear_floor = on; });
     if (set.clear_floor) {
         numbers(ui, ask, set, {"step_over_mm"});
@@ -236,13 +241,12 @@ void carving_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pla
     numbers(ui, ask, set, {"carving_tolerance_mm", "close_gaps_mm"});
     if (made != nullptr && made->carved) {
         const plot::CarvingFigures& carved = *made->carved;
-        ui.value("deepest", "Deepest", fmt::format("{:.3f}", carved.deepest), "mm");
+        ui.value("deepest", "Max. depth", fmt::format("{:.3f}", carved.deepest), "mm");
         if (carved.floor_area > 0.0) {
-            ui.value("floor", "Floor", fmt::format("{:.4g}", carved.floor_area), "mm\u00b2");
-            ui.value("floor_left", "Floor left", fmt::format("{:.4g}", carved.floor_left), "mm\u00b2");
+            ui.value("floor", "Floor area", fmt::format("{:.4g}", carved.floor_area), "mm\u00b2");
+            ui.value("floor_left", "Floor uncut", fmt::format("{:.4g}", carved.floor_left), "mm\u00b2");
         }
-        ui.value(
-            "deviation", "Beyond outlines", fmt::format("{:.4f}", std::max(0.0, carved.deviation)), "mm");
+        ui.value("deviation", "Overcut", fmt::format("{:.4f}", std::max(0.0, carved.deviation)), "mm");
     }
 }
 
@@ -254,7 +258,7 @@ double usual_depth(PictureUse use) {
 
 void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const plan::PlotResult* made) {
     choice<PictureUse>(
-        ui, ask, "use", "Becomes", project::picture_uses(), set.use, [](Project& draft, PictureUse use) {
+        ui, ask, "use", "Operation", project::picture_uses(), set.use, [](Project& draft, PictureUse use) {
             PlotSettings& settings = draft.plot.settings;
             const bool untouched = !(std::abs(settings.depth - usual_depth(settings.use)) > 0.0);
             settings.depth = untouched ? usual_depth(use) : settings.depth;
@@ -266,7 +270,7 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pla
     numbers(ui, ask, set, {"width_mm"});
     if (made != nullptr && made->picture_size.x() > 0.0) {
         ui.note(fmt::format("{}{:.2f} x {:.2f} mm.",
-                            set.size.width ? "" : "0 goes by the pixels: ",
+                            set.size.width ? "" : "Auto (from image resolution): ",
                             made->picture_size.x(),
                             made->picture_size.y()));
     }
@@ -277,10 +281,13 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pla
                            project::gray_rules(),
                            set.picture.gray,
                            [](Project& draft, auto rule) { draft.plot.settings.picture.gray = rule; });
-    toggle(
-        ui, ask, "invert", "Invert", set.picture.invert, "Dark becomes bright", [](PlotSettings& s, bool on) {
-            s.picture.invert = on;
-        });
+    toggle(ui,
+           ask,
+           "invert",
+           "Invert",
+           set.picture.invert,
+           "Swap dark and bright",
+           [](PlotSettings& s, bool on) { s.picture.invert = on; });
     numbers(ui, ask, set, {"gray_steps"});
     if (set.use == PictureUse::outlines) {
         trace_fields(ui, ask, set);
@@ -343,7 +350,7 @@ void drawing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     choice<project::DrawingUse>(ui,
                                 ask,
                                 "use",
-                                "Becomes",
+                                "Operation",
                                 project::drawing_uses(),
                                 set.drawing_use,
                                 [](Project& draft, project::DrawingUse use) {
@@ -380,13 +387,12 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         const std::shared_ptr<const plan::PlotResult> made = now.plot.latest();
         picture_fields(ui, ask, now.plot.settings(), made.get());
     } else if (const auto made = now.plot.latest(); made && made->points) {
-        ui.note(
-            "Points of a table: it plays them as they are, one per period. A program of them has the feeds "
-            "that are set under Work.");
+        ui.note("Points for an XYZ table: the table plays them unchanged, one per period. A program made "
+                "from them uses the feed rates set under Work.");
     } else if (project::is_path_file(now.plot.file())) {
-        ui.note("A path that was made before: it is cut as it stands.");
+        ui.note("A path file: it is cut unchanged.");
     } else if (project::is_gcode_file(now.plot.file())) {
-        ui.note("A G-code program: it is cut as it stands, with its heights and feeds.");
+        ui.note("A G-code program: it is cut unchanged, with its own heights and feed rates.");
         numbers(ui, ask, now.plot.settings(), {"chord_length_mm"});
     } else {
         drawing_fields(ui, now, ask);
@@ -396,8 +402,8 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     const plot::StrokePlan& plan = set.strokes;
-    const widgets::Permission shaping =
-        unless_path(now, "What has a path of its own is cut as it stands: this counts for drawings.");
+    const widgets::Permission shaping = unless_path(
+        now, "Files with their own path are cut unchanged. This setting applies to drawings only.");
     if (const auto section = ui.section("cutter", "Cutter")) {
         numbers(ui, ask, set, {"tool_mm"}); // how wide it cuts is seen of path files, too
         const auto permitted = ui.permitted(shaping);
@@ -405,7 +411,7 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             ui,
             ask,
             "side",
-            "Goes",
+            "Cutter side",
             project::cutter_sides(),
             plan.side,
             [](Project& draft, plot::CutterSide side) { draft.plot.settings.strokes.side = side; });
@@ -424,9 +430,9 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         toggle(ui,
                ask,
                "cross",
-               "Crossed",
+               "Crosshatch",
                plan.hatch_cross,
-               "Once more at right angles",
+               "Add a second hatch at a right angle",
                [](PlotSettings& s, bool on) { s.strokes.hatch_cross = on; });
         numbers(ui, ask, set, {"contours_mm"});
     }
@@ -435,9 +441,9 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         toggle(ui,
                ask,
                "order",
-               "Shorten",
+               "Optimise order",
                plan.order,
-               "Reorders and reverses strokes",
+               "Reorder and reverse strokes to shorten the travel",
                [](PlotSettings& s, bool on) { s.strokes.order = on; });
         numbers(ui, ask, set, {"link_mm"});
         toggle(ui,
@@ -445,7 +451,7 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                "inside",
                "Stay inside",
                plan.link_inside,
-               "Links cross no closed stroke",
+               "Links do not cross closed strokes",
                [](PlotSettings& s, bool on) { s.strokes.link_inside = on; });
     }
 }
@@ -458,11 +464,11 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     {
         const bool has_feeds = stands_as_it_is(now) && !project::is_point_file(now.plot.file());
-        const auto permitted =
-            ui.permitted(has_feeds ? widgets::Permission::refused("The file has its own speeds and heights.")
-                                   : widgets::Permission{});
-        speed_of_all(ui, ask, set, "feed_mm_per_min", "Along strokes and rows, of all pens");
-        speed_of_all(ui, ask, set, "plunge_mm_per_min", "Into the work, of all pens");
+        const auto permitted = ui.permitted(
+            has_feeds ? widgets::Permission::refused("The file has its own feed rates and heights.")
+                      : widgets::Permission{});
+        speed_of_all(ui, ask, set, "feed_mm_per_min", "Feed rate along strokes and rows, for all pens");
+        speed_of_all(ui, ask, set, "plunge_mm_per_min", "Plunge feed rate, for all pens");
         numbers(ui, ask, set, {"safe_height_mm"});
     }
     numbers(ui, ask, set, {"plate_mm"});
@@ -472,16 +478,16 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         toggle(ui,
                ask,
                "through",
-               "Through",
+               "Cut through",
                set.through,
-               "The path may go deeper than the plate",
+               "The path may be deeper than the plate thickness",
                [](PlotSettings& s, bool on) { s.through = on; });
     }
     spindle_field(ui, now, ask);
     numbers(ui, ask, set, {"origin_x_mm", "origin_y_mm"});
     numbers(ui, ask, set, {"change_x_mm", "change_y_mm", "change_z_mm"});
     name_choice(ui, ask, "machine", "Machine", machines, set.machine, &PlotSettings::machine);
-    name_choice(ui, ask, "post", "Control", posts, set.post, &PlotSettings::post);
+    name_choice(ui, ask, "post", "Controller", posts, set.post, &PlotSettings::post);
 }
 
 void light_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {

@@ -81,14 +81,14 @@ void compare(Ui& ui, const plan::PlotResult& made, double planner_s, bool curren
         {{"", "", 1.3F, false}, {"Planned", "", 1.0F, true}, {"As drawn", "", 1.0F, true}}};
     constexpr std::array<const char*, 6> ids{"drawn", "between", "runs", "thesis", "feeds", "planner"};
     const std::array<std::array<std::string, 3>, 6> cells{
-        {{"Draws, m", metres(planned.cut_length), metres(drawn.cut_length)},
-         {"In the air, m", metres(planned.travel_length), metres(drawn.travel_length)},
+        {{"Cut length, m", metres(planned.cut_length), metres(drawn.cut_length)},
+         {"Travel, m", metres(planned.travel_length), metres(drawn.travel_length)},
          {"Lifts", fmt::format("{}", planned.runs), fmt::format("{}", drawn.runs)},
-         {"By the thesis", plot::time_for_people(planned.seconds), plot::time_for_people(drawn.seconds)},
-         {"Thesis, your feeds",
+         {"Time, thesis", plot::time_for_people(planned.seconds), plot::time_for_people(drawn.seconds)},
+         {"At your feeds",
           plot::time_for_people(planned.seconds_at_feeds),
           plot::time_for_people(drawn.seconds_at_feeds)},
-         {"By the planner",
+         {"Time, planner",
           planned_time(planner_s),
           planned_time(made.drawn_seconds.value_or(made.cut_as_drawn ? planner_s : 0.0))}}};
     widgets::TableView view;
@@ -157,13 +157,14 @@ void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto chosen = ui.choice("sample", "Samples", at, options); chosen && *chosen > 0) {
         ask.open_file(samples_[static_cast<std::size_t>(*chosen) - 1]);
     }
-    action_button(ui, now, ask, catalogue_, "file.open", widgets::Rank::normal, "Open a plot or picture ...");
+    action_button(
+        ui, now, ask, catalogue_, "file.open", widgets::Rank::normal, "Open plot or picture \u2026");
 }
 
 void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_source(ui, now, ask);
     if (now.plot.file().empty()) {
-        ui.note("Or drop one on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, a path file, or G-code.");
+        ui.note("Or drop a file on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, a path file or G-code.");
         return;
     }
     say_what_is_wrong(ui, now);
@@ -198,7 +199,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
     if (!made || made->failure) {
         return;
     }
-    const auto section = ui.section("figures", "Before it is sent");
+    const auto section = ui.section("figures", "Estimate");
     if (!section) {
         return;
     }
@@ -208,7 +209,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
         compare(ui, *made, planned, current);
     }
     ui.value("way",
-             "Way, with lifts",
+             "Travel incl. lifts",
              current ? metres(made->lengths.cut + made->lengths.travel) : unknown,
              current ? "m" : "");
     ui.value("planner",
@@ -219,7 +220,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
 
 /// Of a table that is played to, or was.
 void PlotPanel::draw_table_place(Ui& ui, const Workbench& now, const Vec3& tip) const {
-    const auto section = ui.section("position", "Where the tool is");
+    const auto section = ui.section("position", "Tool position");
     if (!section) {
         return;
     }
@@ -246,7 +247,7 @@ void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
     if (!now.in_file()) {
         return;
     }
-    const auto section = ui.section("position", "Where the tool is");
+    const auto section = ui.section("position", "Tool position");
     if (!section) {
         return;
     }
@@ -262,7 +263,7 @@ void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
     if (now.opened->motion) {
         const motion::Trajectory& way = *now.opened->motion->trajectory;
         ui.value("gone",
-                 "Has gone",
+                 "Travelled",
                  fmt::format("{} of {}", metres(way.part_length_at(now.time())), metres(way.part_length())),
                  "m");
     }
@@ -270,17 +271,17 @@ void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
 
 void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.plot.file().empty()) {
-        ui.note("Nothing is open yet. Choose a sample at the left to see how it goes.");
+        ui.note("No file is open. Select a sample on the left to get started.");
         return;
     }
     if (now.plot.given_up()) {
         (void)widgets::banner(ui,
                               "given_up",
                               {widgets::Severity::warning,
-                               "Cancelled: nothing was worked out with these settings, and what is drawn is "
-                               "of those before.",
+                               "Cancelled: nothing was computed with these settings. The view shows the "
+                               "result of the previous settings.",
                                {}});
-        if (ui.button("again", "Work it out", {}, {icons::reset, widgets::Rank::normal, -1.0F, {}})) {
+        if (ui.button("again", "Compute", {}, {icons::reset, widgets::Rank::normal, -1.0F, {}})) {
             ask.plot([](actions::PlotBench& bench) { bench.read_again(); });
         }
     }
@@ -292,21 +293,19 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     {
         const auto line = ui.row(2);
-        action_button(ui, now, ask, catalogue_, "plot.flat", widgets::Rank::normal, "Above");
-        action_button(ui, now, ask, catalogue_, "plot.space", widgets::Rank::normal, "Space");
+        action_button(ui, now, ask, catalogue_, "plot.flat", widgets::Rank::normal, "Top view");
+        action_button(ui, now, ask, catalogue_, "plot.space", widgets::Rank::normal, "Isometric");
     }
     if (now.plot.latest() && now.plot.latest()->shown_picture) {
-        if (const auto on = ui.toggle("picture",
-                                      "Picture below",
-                                      now.session.picture_shown,
-                                      "The picture itself, with the path over it")) {
+        if (const auto on = ui.toggle(
+                "picture", "Show picture", now.session.picture_shown, "Show the picture under the path")) {
             ask.run("plot.picture");
         }
     }
     if (const auto on = ui.toggle("light",
-                                  "Against the light",
+                                  "Backlit preview",
                                   now.session.against_light,
-                                  "The light that goes through the finished plate")) {
+                                  "Show the light transmitted through the finished plate")) {
         ask.run("plot.light");
     }
     if (now.session.against_light) {
@@ -329,7 +328,7 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
                                                       {"Plunge", "mm/min", 1.0F, true},
                                                       {"Pass depth", "mm", 1.1F, true},
                                                       {"Spindle", "1/min", 1.0F, true},
-                                                      {"Kind", "", 0.8F, false}}};
+                                                      {"Type", "", 0.8F, false}}};
     std::vector<plot::CuttingValues> values;
     for (const plot::Material& material : materials) {
         values.push_back(material.values(diameter));
@@ -364,20 +363,21 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ui.note(fmt::format("For a tool of {:.2f} mm. {}", diameter, sources_of(values[*chosen])));
     } else {
         ui.note(fmt::format(
-            "For a tool of {:.2f} mm. A click takes the values; their sources stand here then.", diameter));
+            "For a tool of {:.2f} mm. Click a row to use its values; their sources are then listed here.",
+            diameter));
     }
 }
 
 void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
     const auto made = now.plot.latest();
     if (!made) {
-        ui.note("Nothing of it has been read yet.");
+        ui.note("No file has been read yet.");
         return;
     }
     if (made->failure) {
         (void)widgets::banner(ui, "what_is_wrong", {widgets::Severity::warning, to_text(*made->failure), {}});
     } else if (made->notices.empty()) {
-        ui.note("Nothing was wrong in it.");
+        ui.note("No problems were found.");
     }
     for (const Diagnostic& notice : made->notices) {
         ui.text(to_text(notice));

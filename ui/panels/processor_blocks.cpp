@@ -55,7 +55,7 @@ std::string signal_names(ControlSignals controls) {
             names += (names.empty() ? "" : ", ") + std::string(cordic::to_text(control));
         }
     }
-    return names.empty() ? "no signal" : names;
+    return names.empty() ? "no signals" : names;
 }
 
 std::string address_label(const cordic::Microprogram& program, int address) {
@@ -107,11 +107,7 @@ std::vector<std::string> pipeline_lines(const Processor& processor) {
 }
 
 std::string_view cycle_name(const cordic::BusPins& pins) {
-    return pins.ale    ? "gives the address"
-           : pins.psen ? "fetches"
-           : pins.rd   ? "reads"
-           : pins.wr   ? "writes"
-                       : "at rest";
+    return pins.ale ? "address" : pins.psen ? "fetch" : pins.rd ? "read" : pins.wr ? "write" : "idle";
 }
 
 std::string flag(std::string_view name, bool on) {

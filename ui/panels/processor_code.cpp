@@ -46,8 +46,8 @@ void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         tab_ = static_cast<Tab>(*chosen);
     }
     std::array<widgets::Option, 2> clicks{
-        {{"breakpoint", "Breakpoint", {}, "A click sets a breakpoint, another one clears it"},
-         {"run_to", "Run to", {}, "A click runs until that line is executed next"}}};
+        {{"breakpoint", "Breakpoint", {}, "Click a line to set or clear a breakpoint"},
+         {"run_to", "Run to", {}, "Click a line to run until it is executed next"}}};
     const ProcessorBench& bench = now.processor;
     if (bench.failure()) {
         clicks[1].permission = widgets::Permission::refused("The processor cannot execute this program.");
@@ -59,7 +59,7 @@ void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     {
         const auto labels = ui.label_share(0.24F);
-        if (const auto chosen = ui.segmented("click", "A click", static_cast<int>(click_), clicks)) {
+        if (const auto chosen = ui.segmented("click", "Click", static_cast<int>(click_), clicks)) {
             click_ = static_cast<Click>(*chosen);
         }
     }

@@ -32,18 +32,18 @@ using cordic::Register;
 constexpr int thesis_steps = 29;
 
 constexpr std::array<widgets::Option, 3> number_kind_options{
-    {{"f32", "f32", {}, "IEEE binary32, the presumed hardware"},
-     {"f64", "f64", {}, "IEEE binary64, as the thesis's own experiments"},
+    {{"f32", "f32", {}, "IEEE binary32, the presumed hardware format"},
+     {"f64", "f64", {}, "IEEE binary64, as in the experiments of the thesis"},
      {"fixed",
       "Fixed",
       {},
-      "Two's complement: as many bits before and behind the point as chosen, 8 to 64 in all"}}};
+      "Two's complement fixed point with the integer and fraction bits set below, 8 to 64 bits in total"}}};
 constexpr std::array<NumberKind, 3> number_kinds{
     NumberKind::binary32, NumberKind::binary64, NumberKind::fixed};
 
 constexpr std::array<double, 4> step_rates{20.0, 200.0, 5000.0, 0.0};
 constexpr std::array<widgets::Option, 4> step_rate_options{
-    {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "All"}}};
+    {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "Max."}}};
 
 void choose_processor(ActionQueue& ask, const ProcessorChoice& choice) {
     ask.processor([choice](ProcessorBench& bench) { bench.set(choice); });
@@ -53,7 +53,7 @@ std::string halt_text(const ProcessorBench& bench) {
     if (bench.failure()) {
         const bool is_written =
             bench.choice().source == ProcessorSource::assembler || bench.choice().own_microprogram;
-        return is_written ? "Has errors" : "Not for this processor";
+        return is_written ? "Has errors" : "Not executable";
     }
     if (bench.running()) {
         return "Running";
@@ -66,8 +66,8 @@ std::string halt_text(const ProcessorBench& bench) {
     }
     return state.clocks.total == 0                    ? "Reset"
            : bench.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
-           : bench.halt() == cordic::Halt::limit      ? "Not come to yet: once more goes on"
-                                                      : "Stands between two clocks";
+           : bench.halt() == cordic::Halt::limit      ? "Not reached yet: repeat to continue"
+                                                      : "Paused";
 }
 
 /// Of a run that is not at the end of its program.
@@ -76,10 +76,10 @@ std::string followed_text(const ProcessorBench& bench) {
     if (report.stop != cordic::Stop::none) {
         return "Stops: " + std::string(cordic::to_text(report.stop)) + ".";
     }
-    return fmt::format("{} of {} set-points are followed: {}",
+    return fmt::format("{} of {} set-points computed: {}",
                        report.published,
                        bench.set_points(),
-                       bench.follows() ? "the rest comes." : "more takes too long.");
+                       bench.follows() ? "computing the rest." : "the rest takes too long.");
 }
 
 std::string late_text(std::int64_t late, std::int64_t stitches) {
@@ -105,13 +105,15 @@ constexpr std::array<std::string_view, 5> source_actions{"processor.thesis_arc",
                                                          "processor.assembler"};
 
 constexpr widgets::FieldInfo integer_field{
-    "integer", "Integer bits", {}, "Before the point, the sign among them", 1.0, 32.0};
-constexpr widgets::FieldInfo fraction_field{"fraction", "Fraction bits", {}, "Behind the point", 0.0, 62.0};
-constexpr widgets::FieldInfo steps_field{"iterations", "Iterations", {}, "Of each CORDIC pass", 4.0, 48.0};
+    "integer", "Integer bits", {}, "Bits before the binary point, including the sign", 1.0, 32.0};
+constexpr widgets::FieldInfo fraction_field{
+    "fraction", "Fraction bits", {}, "Bits after the binary point", 0.0, 62.0};
+constexpr widgets::FieldInfo steps_field{
+    "iterations", "Iterations", {}, "Iterations per CORDIC pass", 4.0, 48.0};
 constexpr widgets::FieldInfo tolerance_field{"tolerance",
                                              "Chord tolerance",
                                              "mm",
-                                             "Farthest that the path may be from its arc",
+                                             "Maximum distance between the path and its arc",
                                              1e-5,
                                              10.0,
                                              cordic_machine::usual_chord_tolerance,
@@ -119,19 +121,19 @@ constexpr widgets::FieldInfo tolerance_field{"tolerance",
 constexpr widgets::FieldInfo clock_field{"clock",
                                          "Clock",
                                          "kHz",
-                                         "Of the processor. A set-point is late that takes longer to compute "
-                                         "than the motion before it",
+                                         "Clock frequency of the processor. A set-point is late if its "
+                                         "computation takes longer than the preceding motion",
                                          1e-3,
                                          1e6,
                                          8000.0,
                                          3};
 constexpr widgets::FieldInfo needle_field{
     "needle",
-    "Needle",
+    "Needle speed",
     "rpm",
-    "Of a sewing machine that takes each set-point as a stitch. It is computed during the stitch before, and "
-    "moved to in the 2/3 of a turn in which the needle is up, by a screw of 20 mm a turn that turns 3000 "
-    "times a minute at most",
+    "Speed of a sewing machine that uses each set-point as one stitch. The set-point is computed during the "
+    "preceding stitch; the move takes place during the 2/3 of a revolution in which the needle is up, with a "
+    "screw of 20 mm lead at no more than 3000 rpm",
     1.0,
     1e6,
     3000.0,
@@ -178,16 +180,18 @@ void draw_format(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
 
 void draw_iterations(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
     const bool classic = choice.iterations > 0;
-    if (const auto on = ui.toggle("classic",
-                                  "Classic sequence",
-                                  classic,
-                                  "Shifts 0, 1, 2 ... in place of the thesis's 29, and one multiplication")) {
+    if (const auto on =
+            ui.toggle("classic",
+                      "Classic sequence",
+                      classic,
+                      "Shifts 0, 1, 2 ... and one multiplication instead of the 29 shifts of the thesis")) {
         ProcessorChoice wanted = choice;
         wanted.iterations = *on ? thesis_steps : 0;
         choose_processor(ask, wanted);
     }
-    const auto allowed =
-        classic ? widgets::Permission{} : widgets::Permission::refused("The thesis's sequence has 29.");
+    const auto allowed = classic
+                             ? widgets::Permission{}
+                             : widgets::Permission::refused("The sequence of the thesis has 29 iterations.");
     const int steps = classic ? choice.iterations : thesis_steps;
     if (const auto value = widgets::slider(ui, steps, steps_field, allowed)) {
         ProcessorChoice wanted = choice;
@@ -198,10 +202,11 @@ void draw_iterations(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
 
 /// Of the thesis's own model.
 void draw_peculiarities(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask) {
-    if (const auto on = ui.toggle("thesis_direction",
-                                  "Thesis direction",
-                                  choice.thesis_direction,
-                                  "G2 counter-clockwise, as the thesis's model; else as ISO 6983 says")) {
+    if (const auto on =
+            ui.toggle("thesis_direction",
+                      "Thesis direction",
+                      choice.thesis_direction,
+                      "On: G2 counter-clockwise, as in the model of the thesis; off: as in ISO 6983")) {
         ProcessorChoice wanted = choice;
         wanted.thesis_direction = *on;
         choose_processor(ask, wanted);
@@ -209,7 +214,7 @@ void draw_peculiarities(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask)
     if (const auto on = ui.toggle("matlab_zero",
                                   "MATLAB sign(0)",
                                   choice.matlab_zero,
-                                  "No turn where the angle is 0: lengths along X are then short by 21.6 %")) {
+                                  "No rotation at angle 0: lengths along X are then 21.6 % too short")) {
         ProcessorChoice wanted = choice;
         wanted.matlab_zero = *on;
         choose_processor(ask, wanted);
@@ -245,8 +250,8 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
         const auto found = std::ranges::find(step_rates, bench.choice().clocks_a_second);
         const auto index = found == step_rates.end() ? 0 : static_cast<int>(found - step_rates.begin());
         const auto labels = ui.label_share(0.18F);
-        if (const auto chosen = ui.segmented(
-                "speed", "Clocks", index, step_rate_options, "How fast Run goes, to be watched")) {
+        if (const auto chosen =
+                ui.segmented("speed", "Clocks", index, step_rate_options, "Clocks per second during Run")) {
             ProcessorChoice choice = bench.choice();
             choice.clocks_a_second = step_rates[static_cast<std::size_t>(*chosen)];
             choose_processor(ask, choice);
@@ -263,7 +268,7 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
 void ProcessorPanel::draw_lower(Ui& ui, const Workbench& now, ActionQueue& ask) {
     using actions::LowerTab;
     constexpr std::array<LowerTab, 3> shown{LowerTab::plots, LowerTab::assembler, LowerTab::microprogram};
-    const std::array<widgets::Option, 3> options{{{"drawings", "Drawings", widgets::icons::plot},
+    const std::array<widgets::Option, 3> options{{{"drawings", "Plots", widgets::icons::plot},
                                                   {"assembler", "Assembler", widgets::icons::file},
                                                   {"microprogram", "Microprogram", widgets::icons::program}}};
     const LowerTab tab = now.session.lower_tab_now();
@@ -292,7 +297,7 @@ void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("format", "Program and numbers");
+    const auto section = ui.section("format", "Program and number format");
     if (!section) {
         return;
     }
@@ -325,7 +330,7 @@ void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask)
         const cordic::Image& image = now.processor.image();
         const int iterations = image.made_for.iterations;
         ui.value("says",
-                 "The text is for",
+                 "Source format",
                  fmt::format("{}, {}",
                              cordic::to_text(image.format),
                              counted(iterations == 0 ? thesis_steps : iterations, "step")));
@@ -333,7 +338,7 @@ void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask)
 }
 
 void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("errors", "Errors of the whole program");
+    const auto section = ui.section("errors", "Errors (whole program)");
     if (!section) {
         return;
     }
@@ -345,8 +350,7 @@ void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
     constexpr double micrometres = 1e3;
     const bool stopped = report.stop != cordic::Stop::none && report.stop != cordic::Stop::halted;
     if (now.processor.choice().source == ProcessorSource::assembler) {
-        ui.text(stopped ? followed_text(now.processor)
-                        : "Assembler text names no exact path to compare with.");
+        ui.text(stopped ? followed_text(now.processor) : "Assembly source has no exact path for comparison.");
         return;
     }
     ui.value("position", "Position", fmt::format("{:.4g}", micrometres * report.position_error), "\u00b5m");
@@ -402,7 +406,7 @@ void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
 }
 
 void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("times", "In time");
+    const auto section = ui.section("times", "Timing");
     if (!section) {
         return;
     }
@@ -416,7 +420,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
     const cordic::RunReport& report = now.processor.report();
     ui.value("late", "Late set-points", fmt::format("{} of {}", report.late.size(), report.published));
     ui.value("fastest",
-             "None up to",
+             "Feed limit",
              report.fastest ? fmt::format("{:.0f}", to_mm_per_min(*report.fastest)) : "-",
              "mm/min");
     if (const auto value = ui.number(choice.needle_rpm, needle_field)) {
@@ -430,7 +434,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
 }
 
 void ProcessorPanel::draw_clocks(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("spent", "Clocks by what they were spent on");
+    const auto section = ui.section("spent", "Clocks by operation");
     if (!section) {
         return;
     }

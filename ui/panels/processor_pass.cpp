@@ -20,7 +20,7 @@ using cordic::Mode;
 constexpr std::array<CoordinateSystem, 3> pass_systems{
     CoordinateSystem::circular, CoordinateSystem::linear, CoordinateSystem::hyperbolic};
 constexpr std::array<widgets::Option, 3> pass_system_options{
-    {{"circular", "Circular", {}, "m = 1: cosine and sine; length and direction"},
+    {{"circular", "Circular", {}, "m = 1: cosine and sine; magnitude and angle"},
      {"linear", "Linear", {}, "m = 0: product; quotient"},
      {"hyperbolic", "Hyperbolic", {}, "m = -1: cosh and sinh; square root and atanh"}}};
 constexpr std::array<widgets::Option, 2> pass_mode_options{
@@ -28,16 +28,10 @@ constexpr std::array<widgets::Option, 2> pass_mode_options{
      {"vectoring", "Vectoring", {}, "CORDIC-V: y goes to 0"}}};
 
 constexpr double most_input = 1e6;
-constexpr widgets::FieldInfo pass_x{"x", "x", {}, "Before the pass", -most_input, most_input, 1.0, 6};
-constexpr widgets::FieldInfo pass_y{"y", "y", {}, "Before the pass", -most_input, most_input, 0.0, 6};
-constexpr widgets::FieldInfo pass_z{"z",
-                                    "z",
-                                    {},
-                                    "Before the pass: rad, in the linear system a plain number",
-                                    -most_input,
-                                    most_input,
-                                    0.5,
-                                    6};
+constexpr widgets::FieldInfo pass_x{"x", "x", {}, "Input value", -most_input, most_input, 1.0, 6};
+constexpr widgets::FieldInfo pass_y{"y", "y", {}, "Input value", -most_input, most_input, 0.0, 6};
+constexpr widgets::FieldInfo pass_z{
+    "z", "z", {}, "Input value, rad; dimensionless in the linear system", -most_input, most_input, 0.5, 6};
 
 const char* pass_formula(CoordinateSystem m, Mode mode) {
     const bool rotates = mode == Mode::rotation;
@@ -63,10 +57,10 @@ void draw_left(Ui& ui, Mode mode, const cordic::SinglePass& pass) {
             left.push_back(std::abs(mode == Mode::rotation ? step.z : step.y));
         }
     }
-    const std::array<widgets::Series, 1> series{{{"left", steps, left, 0, false}}};
+    const std::array<widgets::Series, 1> series{{{"residual", steps, left, 0, false}}};
     widgets::PlotView view;
     view.x_label = "step";
-    view.y_label = mode == Mode::rotation ? "z left" : "y left";
+    view.y_label = mode == Mode::rotation ? "residual z" : "residual y";
     view.y_is_log = true;
     view.series = series;
     view.height = ui.px(140.0F);
@@ -76,7 +70,7 @@ void draw_left(Ui& ui, Mode mode, const cordic::SinglePass& pass) {
 } // namespace
 
 void ProcessorPass::draw(Ui& ui, const actions::ProcessorChoice& choice) {
-    const auto section = ui.section("pass", "One CORDIC pass");
+    const auto section = ui.section("pass", "Single CORDIC pass");
     if (!section) {
         return;
     }
@@ -94,9 +88,12 @@ void ProcessorPass::draw_input(Ui& ui) {
     }
     const auto can_fold = m_ == CoordinateSystem::circular
                               ? widgets::Permission{}
-                              : widgets::Permission::refused("Folding is for the circular system.");
-    if (const auto on =
-            ui.toggle("folds", "Fold", folds_, "Pre before the pass, and Post behind a rotation", can_fold)) {
+                              : widgets::Permission::refused("Folding applies to the circular system only.");
+    if (const auto on = ui.toggle("folds",
+                                  "Fold",
+                                  folds_,
+                                  "Quadrant folding: Pre before the pass, Post after a rotation",
+                                  can_fold)) {
         folds_ = *on;
     }
     const auto edit = [&](double& number, const widgets::FieldInfo& info) {
@@ -125,7 +122,7 @@ void ProcessorPass::draw_result(Ui& ui, const actions::ProcessorChoice& choice) 
         ui.value("z_out", "z after", fmt::format("{:.9g}", pass.z));
         const bool rotates = mode_ == Mode::rotation;
         ui.value("error", rotates ? "Error of (x, y)" : "Error of x", fmt::format("{:.3g}", pass.error));
-        ui.value("z_error", rotates ? "Left of z" : "Error of z", fmt::format("{:.3g}", pass.z_error));
+        ui.value("z_error", rotates ? "Residual z" : "Error of z", fmt::format("{:.3g}", pass.z_error));
         draw_left(ui, mode_, pass);
     } catch (const Error& error) {
         ui.text(to_text(error.diagnostic()));

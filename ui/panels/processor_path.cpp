@@ -137,7 +137,7 @@ void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
         ui, place, fmt::format("Path: {} of {}", done, counted(now.processor.set_points(), "point")));
     const widgets::Canvas canvas = widgets::canvas(ui, "path", inside, 0);
     if (path.empty()) {
-        return say(ui, inside, "No set-point.");
+        return say(ui, inside, "No set-points.");
     }
     const render::PixelSize size{std::max(1, static_cast<int>(inside.w)),
                                  std::max(1, static_cast<int>(inside.h))};
@@ -189,14 +189,14 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const double worst = now.processor.report().position_error;
     const std::span<const std::size_t> late = now.processor.report().late;
-    const Rect inside = below_title(
-        ui,
-        place,
-        late.empty() ? std::string("Off the exact path")
-                     : fmt::format("Off the exact path; {} late", counted(late.size(), "set-point")));
+    const Rect inside =
+        below_title(ui,
+                    place,
+                    late.empty() ? std::string("Path deviation")
+                                 : fmt::format("Path deviation; {} late", counted(late.size(), "set-point")));
     (void)widgets::canvas(ui, "map", inside, 0);
     if (path.empty()) {
-        return say(ui, inside, "No set-point.");
+        return say(ui, inside, "No set-points.");
     }
     constexpr float legend_width = 92.0F;
     const Rect drawing{inside.x, inside.y, inside.w - ui.px(legend_width), inside.h};
@@ -220,11 +220,11 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
         }
     }
     widgets::LegendView legend;
-    legend.title = "Apart";
+    legend.title = "Deviation";
     legend.unit = "\u00b5m";
     legend.high = high / unit;
     legend.map = [](double t) { return to_widget_colour(render::sample(render::ColorMap::viridis, t)); };
-    legend.tip = "Distance of each set-point from where exact arithmetic has it";
+    legend.tip = "Distance of each set-point from its position in exact arithmetic";
     (void)widgets::legend(ui,
                           "legend",
                           {inside.right() - ui.px(legend_width),

@@ -105,7 +105,7 @@ void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place
     const Rect inside = below_title(ui, place, pass_title(trace));
     (void)widgets::canvas(ui, "vector", inside, 0);
     if (trace.points.empty()) {
-        return say(ui, inside, "Step until a pass begins.");
+        return say(ui, inside, "Step until a CORDIC pass starts.");
     }
     const widgets::Palette& colours = ui.colours();
     Sketch sketch(ui, inside);
@@ -133,14 +133,14 @@ void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place
     sketch.path(ends, widgets::faded(colours.series[1], 0.8), 1.0F);
     sketch.arrow(middle, ends.back(), colours.accent, 2.5F);
     sketch.text({inside.x + ui.px(6.0F), inside.bottom() - ui.px(20.0F), inside.w, ui.px(18.0F)},
-                fmt::format("left {:.3g}\u00b0", to_degrees(trace.points.back().angle_error)),
+                fmt::format("remaining {:.3g}\u00b0", to_degrees(trace.points.back().angle_error)),
                 colours.text,
                 widgets::TextAlign::left,
                 widgets::TextFont::small);
 }
 
 void ProcessorPlots::draw_errors(Ui& ui, const Workbench& now, const Rect& place) const {
-    const Rect inside = below_title(ui, place, "What is left to turn");
+    const Rect inside = below_title(ui, place, "Remaining angle");
     const cordic::IterationTrace trace = now.processor.debugger().iterations();
     std::vector<double> steps;
     std::vector<double> errors;
@@ -157,12 +157,12 @@ void ProcessorPlots::draw_errors(Ui& ui, const Workbench& now, const Rect& place
     view.y_unit = "\u00b0";
     view.y_is_log = true;
     const std::array<widgets::Series, 2> series{
-        {{"left", steps, errors, 0, false},
-         {"angle of the step", angles.steps, angles.degrees, ui.colours().muted, false}}};
+        {{"remaining", steps, errors, 0, false},
+         {"step angle", angles.steps, angles.degrees, ui.colours().muted, false}}};
     view.series =
         steps.empty() ? std::span<const widgets::Series>() : std::span<const widgets::Series>(series);
     view.height = inside.h;
-    view.when_empty = "No step yet.";
+    view.when_empty = "No steps yet.";
     const Rect next = ui.rest();
     ui.move_by(inside.x - next.x, inside.y - next.y);
     const auto width = ui.width(inside.w);

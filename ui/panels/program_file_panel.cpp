@@ -21,8 +21,8 @@ namespace millwright::panels {
 namespace {
 
 constexpr std::array<widgets::Option, 2> dialects{
-    {{"linuxcnc", "LinuxCNC", {}, "RS-274/NGC as LinuxCNC 2.9 reads it"},
-     {"grbl", "Grbl 1.1", {}, "The subset of Grbl, with its own refusals"}}};
+    {{"linuxcnc", "LinuxCNC", {}, "RS-274/NGC as interpreted by LinuxCNC 2.9"},
+     {"grbl", "Grbl 1.1", {}, "The Grbl 1.1 subset, with the errors that Grbl reports"}}};
 
 std::string path_mode_text(program::PathMode mode) {
     switch (mode) {
@@ -64,7 +64,7 @@ struct PlannedHere {
 std::string limit_text(const motion::Cause& limit, const program::Program& program) {
     switch (limit.limit) {
     case motion::Limit::standing:
-        return "stands still";
+        return "standstill";
     case motion::Limit::programmed_feed:
         return "programmed feed";
     case motion::Limit::corner:
@@ -87,7 +87,7 @@ std::string limit_text(const motion::Cause& limit, const program::Program& progr
 void ProgramFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_file(ui, now, ask);
     draw_faults(ui, now, ask);
-    if (const auto section = ui.section("position", "Axes at this line")) {
+    if (const auto section = ui.section("position", "Axis positions at this line")) {
         axis_positions(ui, now);
     }
     draw_modal(ui, now);
@@ -104,17 +104,17 @@ void ProgramFilePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask)
     ui.value("lines", "Lines", opened.text ? fmt::format("{}", opened.text->lines.count()) : "\u2026");
     ui.value("moves", "Moves", fmt::format("{}", std::max<std::int64_t>(opened.path.point_count() - 1, 0)));
     const bool known = opened.execution != nullptr;
-    ui.value("length", "Way of the tip", known ? fixed(opened.length, 1) : "\u2026", known ? "mm" : "");
+    ui.value("length", "Tool-tip travel", known ? fixed(opened.length, 1) : "\u2026", known ? "mm" : "");
     ui.value("time",
              opened.motion ? "Planned time" : "Nominal time",
              known ? clock_time(actions::duration_of(opened)) : "\u2026");
     if (!opened.no_motion.empty()) {
         ui.note(opened.no_motion);
     } else if (opened.cancelled) {
-        ui.note("The reading was cancelled: only its beginning is shown.");
+        ui.note("Reading was cancelled: only the first part of the program is shown.");
     }
     const auto row = ui.row(2);
-    action_button(ui, now, ask, catalogue_, "file.read_again", widgets::Rank::normal, "Read again");
+    action_button(ui, now, ask, catalogue_, "file.read_again", widgets::Rank::normal, "Reload");
     action_button(ui, now, ask, catalogue_, "file.close_program", widgets::Rank::normal, "Close");
 }
 
@@ -138,11 +138,14 @@ void ProgramFilePanel::draw_choices(Ui& ui, const Workbench& now, ActionQueue& a
                                       "Machine",
                                       static_cast<int>(at - machines_.begin()),
                                       options,
-                                      "Whose axes and limits the program is shown and planned for")) {
+                                      "Machine whose axes and limits are used for display and planning")) {
         read_with({choice.dialect, machines_[static_cast<std::size_t>(*chosen)]});
     }
-    if (const auto chosen =
-            ui.choice("dialect", "Read as", static_cast<int>(choice.dialect), dialects, "Whose rules hold")) {
+    if (const auto chosen = ui.choice("dialect",
+                                      "Dialect",
+                                      static_cast<int>(choice.dialect),
+                                      dialects,
+                                      "G-code dialect of the program")) {
         read_with({static_cast<gcode::Dialect>(*chosen), choice.machine});
     }
 }
@@ -162,8 +165,7 @@ void ProgramFilePanel::draw_faults(Ui& ui, const Workbench& now, ActionQueue& as
     if (!section) {
         return;
     }
-    constexpr std::array<widgets::Column, 2> columns{
-        {{"Line", "", 1.0F, true}, {"What is wrong", "", 5.0F, false}}};
+    constexpr std::array<widgets::Column, 2> columns{{{"Line", "", 1.0F, true}, {"Error", "", 5.0F, false}}};
     constexpr float rows_shown = 6.0F;
     widgets::TableView view;
     view.columns = columns;
@@ -184,20 +186,20 @@ void ProgramFilePanel::draw_faults(Ui& ui, const Workbench& now, ActionQueue& as
 }
 
 void ProgramFilePanel::draw_modal(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("modal", "In force at this line");
+    const auto section = ui.section("modal", "Active modes (G/M)");
     const auto place = now.file_place();
     if (!section) {
         return;
     }
     if (!place) {
-        ui.note(now.opened->finished ? "The program has no lines." : "The file is being read \u2026");
+        ui.note(now.opened->finished ? "The program has no lines." : "Reading the file \u2026");
         return;
     }
     const gcode::ModalView state = now.opened->execution->state_after(place->step);
     ui.value("line", "Line", fmt::format("{}", place->line));
     if (now.opened->motion) {
         const PlannedHere here(*now.opened, now.time());
-        ui.value("speed", "Speed now", fixed(here.speed_mm_per_min, 0), "mm/min");
+        ui.value("speed", "Current speed", fixed(here.speed_mm_per_min, 0), "mm/min");
         ui.value("limit", "Limited by", here.limit);
     }
     ui.value("motion", "Motion", g_word(state.motion));
@@ -205,18 +207,18 @@ void ProgramFilePanel::draw_modal(Ui& ui, const Workbench& now) const {
     ui.value("spindle", "Spindle", spindle_text(state));
     ui.value("coolant", "Coolant", coolant_text(state));
     ui.value("tool", "Tool", state.tool > 0 ? fmt::format("T{}", state.tool) : "none");
-    ui.value("distance", "Distances", state.incremental ? "G91 incremental" : "G90 absolute");
+    ui.value("distance", "Distance mode", state.incremental ? "G91 incremental" : "G90 absolute");
     ui.value("units", "Units", state.unit == gcode::LengthUnit::inch ? "G20 inch" : "G21 mm");
     ui.value("plane", "Plane", plane_text(state.plane));
-    ui.value("system", "System", coordinate_system_text(state.coordinate_system));
-    ui.value("offset", "Its offset", offset_text(state.g5x_offset));
+    ui.value("system", "Work offset", coordinate_system_text(state.coordinate_system));
+    ui.value("offset", "Offset value", offset_text(state.g5x_offset));
     ui.value("g92", "G92 offset", offset_text(state.g92_offset));
     ui.value("tool_offset", "Tool offset", offset_text(state.tool_offset));
     if (state.rotation_deg < 0.0F || state.rotation_deg > 0.0F) {
         ui.value("rotation", "Rotation", fixed(static_cast<double>(state.rotation_deg), 3), "deg");
     }
-    ui.value("cutter", "Cutter radius", cutter_text(state.cutter));
-    ui.value("path_mode", "Corners", path_mode_text(state.path_mode));
+    ui.value("cutter", "Cutter comp.", cutter_text(state.cutter));
+    ui.value("path_mode", "Path control", path_mode_text(state.path_mode));
 }
 
 } // namespace millwright::panels

@@ -18,7 +18,7 @@ void ProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_settings(ui, now, ask);
     draw_summary(ui, now, ask);
     draw_block(ui, now);
-    if (const auto section = ui.section("position", "Axes at this block")) {
+    if (const auto section = ui.section("position", "Axis positions at this block")) {
         axis_positions(ui, now);
     }
 }
@@ -37,8 +37,8 @@ void ProgramPanel::draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask)
     choice_field<project::LinkInput>(ui,
                                      ask,
                                      "link",
-                                     "Track to track",
-                                     "Choose how tracks are linked",
+                                     "Track linking",
+                                     "Change the track links",
                                      project::links(),
                                      now.project.program.link,
                                      [](project::Project& p, project::LinkInput l) { p.program.link = l; });
@@ -52,7 +52,7 @@ void ProgramPanel::draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) 
     const auto program = now.program();
     const auto trajectory = now.trajectory();
     if (!program || !trajectory) {
-        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        ui.note(now.failure().empty() ? "Computing \u2026" : now.failure());
         return;
     }
     ui.value("machine", "Machine", program->machine);
@@ -60,12 +60,12 @@ void ProgramPanel::draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) 
     const std::string mark = path && actions::is_so_far(*path) ? "~ " : "";
     ui.value("blocks", "Blocks", fmt::format("{}{}", mark, program->block_count()));
     ui.value("time", "Estimated time", mark + clock_time(trajectory->duration()));
-    ui.value("length", "Way of the tip", mark + fixed(trajectory->part_length(), 1), "mm");
+    ui.value("length", "Tool-tip travel", mark + fixed(trajectory->part_length(), 1), "mm");
     action_button(ui, now, ask, catalogue_, "file.write_program");
 }
 
 void ProgramPanel::draw_block(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("block", "This block");
+    const auto section = ui.section("block", "Current block");
     const auto program = now.program();
     const auto trajectory = now.trajectory();
     if (!section || !program || !trajectory || program->blocks.empty()) {
@@ -78,12 +78,12 @@ void ProgramPanel::draw_block(Ui& ui, const Workbench& now) const {
     }
     ui.value("limit", "Limited by", limit_text(trajectory->limit_of(n), *program));
     if (block.kind == program::BlockKind::feed) {
-        ui.value("feed", "Feed on the part", fixed(to_mm_per_min(block.feed), 0), "mm/min");
+        ui.value("feed", "Feed rate", fixed(to_mm_per_min(block.feed), 0), "mm/min");
     }
     const auto shown = now.program_path();
     const auto move = static_cast<std::size_t>(block.path_point - 1);
     if (shown && block.path_point > 0 && move < shown->field.moves.size()) {
-        ui.value("error", "Error of this move", length_text(shown->field.moves[move].closest), "mm");
+        ui.value("error", "Move error", length_text(shown->field.moves[move].closest), "mm");
         ui.value("axis", "Axis deviation", angle_text(shown->field.moves[move].axis), "deg");
     }
 }

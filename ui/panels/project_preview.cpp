@@ -29,7 +29,7 @@ std::string surface_text(const project::SurfaceInput& surface) {
         presets.begin(), presets.end(), [&](const auto& known) { return known.id == surface.preset; });
     const auto& net = surface.patches.front();
     return fmt::format("{}, degree {}, {}",
-                       preset == presets.end() ? "Own shape" : preset->title,
+                       preset == presets.end() ? "Custom shape" : preset->title,
                        net.rows - 1,
                        net.columns - 1);
 }
@@ -108,9 +108,7 @@ void ProjectPreview::draw(Ui& ui, const fs::path& file) {
         read(file);
     }
     draw_picture(ui);
-    show(ui,
-         surface_ ? target_.texture() : 0,
-         file_.empty() ? "Choose a project to see what is in it." : words_);
+    show(ui, surface_ ? target_.texture() : 0, file_.empty() ? "Select a project to preview it." : words_);
 }
 
 void ProjectPreview::show(Ui& ui, std::uintptr_t texture, std::string_view words) {

@@ -41,7 +41,8 @@ int waiting_count(const Workbench& now) {
 
 std::string what_happened(const QueuedJob& job) {
     const bool unread = !job.has_program && job.state != QueueState::done;
-    return job.sentence.empty() && unread ? "Its program is to be read again before it runs." : job.sentence;
+    return job.sentence.empty() && unread ? "The program must be read again before the job runs."
+                                          : job.sentence;
 }
 
 } // namespace
@@ -56,7 +57,7 @@ void QueuePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.queue_problem) {
         (void)widgets::banner(ui, "problem", {widgets::Severity::warning, to_text(*now.queue_problem), {}});
         if (ui.button(
-                "retry", "Try again", {}, {icons::redo, Rank::quiet, -1.0F, "Reads the queue's file"})) {
+                "retry", "Try again", {}, {icons::redo, Rank::quiet, -1.0F, "Read the queue file again"})) {
             ask.queue([](JobQueue&) {});
         }
         return;
@@ -67,20 +68,21 @@ void QueuePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const QueuedJob* job = chosen(now);
-    const Permission none = Permission::refused("Click a job first.");
+    const Permission none = Permission::refused("Select a job first.");
     const int place = job != nullptr ? waiting_place(now, job->id) : -1;
     const Permission waits = job == nullptr ? none
-                             : place < 0 ? Permission::refused("Only a job that waits can be put elsewhere.")
-                                         : Permission{};
-    const Permission removable = job == nullptr                      ? none
-                                 : job->state == QueueState::running ? Permission::refused("It is running.")
-                                                                     : Permission{};
+                             : place < 0    ? Permission::refused("Only waiting jobs can be moved.")
+                                            : Permission{};
+    const Permission removable = job == nullptr ? none
+                                 : job->state == QueueState::running
+                                     ? Permission::refused("The job is running.")
+                                     : Permission{};
     const Permission held = job == nullptr                   ? none
                             : job->state == QueueState::held ? Permission{}
-                                                             : Permission::refused("It is not held.");
+                                                             : Permission::refused("The job is not held.");
     const auto row = ui.row(8, ui.px(96.0F));
     action_button(ui, now, ask, catalogue_, "queue.run_next", Rank::primary, "Run next");
-    action_button(ui, now, ask, catalogue_, "queue.add", Rank::normal, "Add this");
+    action_button(ui, now, ask, catalogue_, "queue.add", Rank::normal, "Add program");
     const auto on_chosen = [&](std::string_view id,
                                std::string_view label,
                                const Permission& can,
@@ -92,36 +94,39 @@ void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) co
     };
     const Permission openable = job == nullptr || waits.allowed || held.allowed
                                     ? (job == nullptr ? none : Permission{})
-                                    : Permission::refused("Only a job that waits or is held is begun.");
-    if (ui.button("open",
-                  "Open program",
-                  openable,
-                  {{},
-                   Rank::normal,
-                   -1.0F,
-                   "Reads the job's program again, for the machine that is connected. Nothing moves"})) {
+                                    : Permission::refused("Only waiting or held jobs can be started.");
+    if (ui.button(
+            "open",
+            "Open program",
+            openable,
+            {{},
+             Rank::normal,
+             -1.0F,
+             "Read the program of the job again for the connected machine. The machine does not move"})) {
         ask.open_queued(job->id);
     }
     on_chosen("earlier",
-              "Earlier",
-              waits.allowed && place == 0 ? Permission::refused("It is the first that waits.") : waits,
-              "Before the job above it",
+              "Move up",
+              waits.allowed && place == 0 ? Permission::refused("This is the first waiting job.") : waits,
+              "Move before the previous job",
               [to = place - 1](JobQueue& queue, QueuedJobId which) { queue.move(which, to); });
     on_chosen("later",
-              "Later",
+              "Move down",
               waits.allowed && place + 1 == waiting_count(now)
-                  ? Permission::refused("It is the last that waits.")
+                  ? Permission::refused("This is the last waiting job.")
                   : waits,
-              "Behind the job below it",
+              "Move after the next job",
               [to = place + 1](JobQueue& queue, QueuedJobId which) { queue.move(which, to); });
     on_chosen("release",
               "Release",
               held,
-              "After looking at the machine: the job waits again, from its beginning",
+              "After inspecting the machine: return the job to the queue, to run from its start",
               [](JobQueue& queue, QueuedJobId which) { queue.release(which); });
-    on_chosen("remove", "Remove", removable, "Out of the queue", [](JobQueue& queue, QueuedJobId which) {
-        queue.remove(which);
-    });
+    on_chosen("remove",
+              "Remove",
+              removable,
+              "Remove the job from the queue",
+              [](JobQueue& queue, QueuedJobId which) { queue.remove(which); });
     action_button(ui, now, ask, catalogue_, "queue.remove_done", Rank::normal, "Clear done");
 }
 
@@ -130,7 +135,7 @@ void QueuePanel::draw_table(Ui& ui, const Workbench& now) {
                                                       {"State", "", 0.8F, false},
                                                       {"Blocks", "", 0.8F, true},
                                                       {"From line", "", 0.8F, true},
-                                                      {"What happened", "", 5.0F, false}}};
+                                                      {"Status", "", 5.0F, false}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(now.queue);
@@ -149,7 +154,7 @@ void QueuePanel::draw_table(Ui& ui, const Workbench& now) {
     const QueuedJob* job = chosen(now);
     view.chosen = job == nullptr ? -1 : job - now.queue.data();
     view.height = ui.rest().h;
-    view.when_empty = "No job waits. \u201cAdd this\u201d puts the program that is shown here.";
+    view.when_empty = "The queue is empty. \u201cAdd program\u201d adds the displayed program.";
     if (const auto row = widgets::table(ui, "jobs", view)) {
         chosen_ = now.queue[static_cast<std::size_t>(*row)].id;
     }

@@ -20,7 +20,7 @@ constexpr std::array<Option, 3> serial_parities{
 constexpr std::array<Option, 2> serial_stops{{{"one", "1", {}, {}}, {"two", "2", {}, {}}}};
 
 constexpr std::array<Option, 3> endings{
-    {{"lf", "Line feed", {}, {}}, {"crlf", "CR and line feed", {}, {}}, {"cr", "CR", {}, {}}}};
+    {{"lf", "LF (line feed)", {}, {}}, {"crlf", "CR + LF", {}, {}}, {"cr", "CR", {}, {}}}};
 constexpr std::array<std::string_view, 3> ending_bytes{"\n", "\r\n", "\r"};
 
 } // namespace
@@ -41,7 +41,7 @@ std::optional<std::string> serial_fields(widgets::Ui& ui, const std::string& add
     if (!now) {
         return std::nullopt;
     }
-    const auto section = ui.section("serial", "Serial line", false);
+    const auto section = ui.section("serial", "Serial port settings", false);
     if (!section) {
         return std::nullopt;
     }
@@ -71,7 +71,7 @@ std::optional<std::string> serial_fields(widgets::Ui& ui, const std::string& add
 std::optional<std::string> ending_field(widgets::Ui& ui, const std::string& ending) {
     const auto* const at = std::ranges::find(ending_bytes, ending);
     const auto chosen =
-        ui.choice("ending", "Ends with", static_cast<int>(at - ending_bytes.begin()), endings);
+        ui.choice("ending", "Line ending", static_cast<int>(at - ending_bytes.begin()), endings);
     return chosen ? std::optional<std::string>(ending_bytes[static_cast<std::size_t>(*chosen)])
                   : std::nullopt;
 }

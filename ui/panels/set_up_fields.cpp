@@ -29,13 +29,13 @@ using toolpath::SetUpGoal;
 using toolpath::SetUpParameter;
 
 constexpr std::array<widgets::Option, 2> goals{
-    {{"error", "Error", "", "Mean distance of the true tip from the surface curve"},
-     {"travel", "Travel", "", "Way of the linear axes over the whole path"}}};
+    {{"error", "Error", "", "Minimise the mean distance of the actual tool tip from the surface curve"},
+     {"travel", "Travel", "", "Minimise the travel of the linear axes over the whole path"}}};
 constexpr std::array<widgets::Option, 4> parameters{
-    {{"a", "a", "", "Across the table"},
-     {"b", "b", "", "Along the table"},
-     {"c", "c", "", "Above the table"},
-     {"turn", "turn", "", "About the vertical, before it is placed"}}};
+    {{"a", "a", "", "Part offset across the table"},
+     {"b", "b", "", "Part offset along the table"},
+     {"c", "c", "", "Part height above the table"},
+     {"turn", "turn", "", "Part rotation about the vertical axis, applied before the offset"}}};
 
 /// Another one where both would be the same: a map has two.
 SetUpParameter other_than(SetUpParameter taken, SetUpParameter wanted) {
@@ -75,12 +75,12 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     choose_set_up<SetUpGoal>(
         ui, ask, "goal", "Least", set.goal, goals, [](SetUpStudySettings& s, SetUpGoal g) { s.goal = g; });
     choose_set_up<SetUpParameter>(
-        ui, ask, "across", "Map across", set.across, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
+        ui, ask, "across", "Map X axis", set.across, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
             s.across = p;
             s.up = other_than(p, s.up);
         });
     choose_set_up<SetUpParameter>(
-        ui, ask, "up", "Map up", set.up, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
+        ui, ask, "up", "Map Y axis", set.up, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
             s.up = p;
             s.across = other_than(p, s.across);
         });
@@ -88,9 +88,9 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                   ask,
                   set.reach,
                   {"reach",
-                   "Shift a, b",
+                   "Search range a, b",
                    "mm",
-                   "How far from the middle of the table, both ways",
+                   "Search range around the table centre, in both directions",
                    1.0,
                    1000.0,
                    60.0,
@@ -100,9 +100,9 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                   ask,
                   set.height_reach,
                   {"height_reach",
-                   "Shift c",
+                   "Search range c",
                    "mm",
-                   "How far from the machine's own height, both ways",
+                   "Search range around the default height of the machine, in both directions",
                    1.0,
                    1000.0,
                    80.0,
@@ -112,20 +112,21 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                   ask,
                   to_degrees(set.turn_reach),
                   {"turn_reach",
-                   "Turn",
+                   "Search range turn",
                    "deg",
-                   "How far the part may be turned, both ways; 0: not at all",
+                   "Search range of the part rotation, in both directions; 0: no rotation",
                    0.0,
                    180.0,
                    0.0,
                    1},
                   [](SetUpStudySettings& s, double v) { s.turn_reach = from_degrees(v); });
     constexpr double most_places = 101.0;
-    set_up_number(ui,
-                  ask,
-                  set.places,
-                  {"places", "Places each way", "", "Of the map", 2.0, most_places, 21.0, 0},
-                  [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
+    set_up_number(
+        ui,
+        ask,
+        set.places,
+        {"places", "Map samples", "", "Samples per direction of the map", 2.0, most_places, 21.0, 0},
+        [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
 }
 
 void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUpResult& found) {
@@ -166,9 +167,10 @@ std::string edge_text(const Workbench& now, const plan::SetUpResult& found) {
     }
     plan::Workpiece then = *now.plan->plan.workpiece;
     then.machine = then.machine.with_workpiece_offset(toolpath::offset_of(found.now));
-    return plan::edge_sentence(found.study->search,
-                               plan::set_up_box(then, found.settings),
-                               {"Shift a, b", "Shift a, b", "Shift c", "Turn"});
+    return plan::edge_sentence(
+        found.study->search,
+        plan::set_up_box(then, found.settings),
+        {"Search range a, b", "Search range a, b", "Search range c", "Search range turn"});
 }
 
 void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUpResult& found) {
@@ -184,30 +186,30 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::S
     map_field(ui, now, ask, found);
     const toolpath::SetUpSearch& search = found.study->search;
     const bool by_error = found.settings.goal == SetUpGoal::error;
-    ui.note(fmt::format("{} of a uniform grid of {} x {} nodes{}:",
-                        by_error ? "Mean distance to the curve" : "Way of the linear axes",
+    ui.note(fmt::format("{} for a uniform grid of {} x {} nodes{}:",
+                        by_error ? "Mean distance to the surface curve" : "Travel of the linear axes",
                         found.settings.nodes,
                         found.settings.nodes,
-                        by_error ? ", not that to the surface in the outline" : ""));
+                        by_error ? " (the outline shows the distance to the surface)" : ""));
     ui.value("start",
-             "Where it stood",
+             "Start position",
              cost_text(search.start.cost),
              "mm",
-             "What the path costs with the part where it was when the search began");
+             "Value at the part position at which the search started");
     ui.value("best",
-             "At the best place",
+             "Best position",
              cost_text(search.best.cost) +
                  (std::isfinite(search.start.cost)
                       ? "  (" + change_text(search.start.cost, search.best.cost) + ")"
                       : std::string()),
              "mm");
     if (by_error) {
-        ui.value(
-            "axis",
-            "Axis deviation",
-            axis_text(search.start.axis_max) + " \u2192 " + axis_text(search.best.axis_max),
-            "deg",
-            "Largest angle between tool axis and normal on the way, where it stood \u2192 at the best place");
+        ui.value("axis",
+                 "Axis deviation",
+                 axis_text(search.start.axis_max) + " \u2192 " + axis_text(search.best.axis_max),
+                 "deg",
+                 "Largest angle between tool axis and surface normal along the path: start position \u2192 "
+                 "best position");
     }
     const std::string edge = edge_text(now, found);
     if (!edge.empty()) {
@@ -215,18 +217,18 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::S
     }
     const toolpath::SetUpPlace place = now.set_up_place();
     ui.value("place",
-             "Marked a, b, c",
+             "Selected a, b, c",
              fmt::format("{}, {}, {}", fixed(place[0], 1), fixed(place[1], 1), fixed(place[2], 1)),
              "mm");
     if (found.settings.turn_reach > 0.0 || std::abs(place[3]) > 0.0) {
-        ui.value("place_turn", "Marked turn", fixed(to_degrees(place[3]), 1), "deg");
+        ui.value("place_turn", "Selected rotation", fixed(to_degrees(place[3]), 1), "deg");
     }
 }
 
 } // namespace
 
 void set_up_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
-    const auto section = ui.section("set_up_search", "Best place on the table", false);
+    const auto section = ui.section("set_up_search", "Best position on table", false);
     if (!section) {
         return;
     }
@@ -239,7 +241,7 @@ void set_up_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions
     if (now.set_up) {
         result_fields(ui, now, ask, *now.set_up);
     } else {
-        ui.note("Searches the place of the part where its error or the machine's travel is least.");
+        ui.note("Search for the part position with the smallest error or the shortest machine travel.");
     }
 }
 

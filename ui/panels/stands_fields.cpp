@@ -29,7 +29,7 @@ widgets::Permission can_say(const drivers::DriverStatus& status) {
         return widgets::Permission::refused("The link is lost: reconnect first.");
     }
     if (status.state == DriverState::alarm) {
-        return widgets::Permission::refused("There is an alarm: look at the machine, then unlock it first.");
+        return widgets::Permission::refused("Alarm: inspect the machine, then unlock it.");
     }
     const bool rests = status.state == DriverState::idle || status.state == DriverState::stopped;
     return rests ? widgets::Permission{} : widgets::Permission::refused("The machine is moving.");
@@ -46,12 +46,12 @@ bool asks_where_it_stands(const actions::ControllerView& machine) {
 void stands_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto scope = ui.scope("stands");
     const actions::ControllerView& machine = now.controller;
-    ui.note("It does not tell where it stands. Read it at the machine:");
+    ui.note("This machine does not report its position. Read it at the machine and enter it:");
     const std::vector<double> values = entered(now);
     for (std::size_t n = 0; n < machine.axes.size(); ++n) {
         const std::string letter(1, machine.axes[n].letter);
         const bool turns = machine.axes[n].kind == AxisKind::rotary;
-        const widgets::FieldInfo info{letter, letter, turns ? "\u00b0" : "mm", "In machine coordinates"};
+        const widgets::FieldInfo info{letter, letter, turns ? "\u00b0" : "mm", "Machine coordinates"};
         if (const auto value = ui.number(values[n], info)) {
             ask.show([values, n, value = *value](actions::Session& session) {
                 session.hand.stands = values;
@@ -59,7 +59,7 @@ void stands_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             });
         }
     }
-    if (ui.button("there", "It stands there", can_say(machine.status))) {
+    if (ui.button("there", "Confirm position", can_say(machine.status))) {
         kinematics::AxisPositions place(std::ssize(machine.axes));
         for (std::size_t n = 0; n < values.size(); ++n) {
             const bool turns = machine.axes[n].kind == AxisKind::rotary;

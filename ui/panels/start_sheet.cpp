@@ -41,7 +41,7 @@ std::string travel_text(const MachineLimits::Axis* axis) {
     if (axis != nullptr && axis->travel) {
         return fmt::format("travel {} long", axis_value_text(axis->letter, *axis->travel));
     }
-    return "travel not known";
+    return "travel unknown";
 }
 
 bool stands_still(const Survey::Range& range, const std::optional<double>& start) {
@@ -62,16 +62,15 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
         const double most = std::max(range.max, start.value_or(range.max));
         const auto& limits = check.wish->limits.axes;
         const auto limit = std::ranges::find(limits, axis.letter, &MachineLimits::Axis::letter);
-        ui.value(
-            std::string(1, axis.letter),
-            fmt::format("{} extents", axis.letter),
-            fmt::format("{} to {} {}; {}",
-                        axis_value_text(axis.letter, least),
-                        axis_value_text(axis.letter, most),
-                        is_rotary_letter(axis.letter) ? "\u00b0" : "mm",
-                        travel_text(limit == limits.end() ? nullptr : &*limit)),
-            {},
-            "Machine coordinates, from where the machine stands, by the work offset that is in force now");
+        ui.value(std::string(1, axis.letter),
+                 fmt::format("{} extents", axis.letter),
+                 fmt::format("{} to {} {}; {}",
+                             axis_value_text(axis.letter, least),
+                             axis_value_text(axis.letter, most),
+                             is_rotary_letter(axis.letter) ? "\u00b0" : "mm",
+                             travel_text(limit == limits.end() ? nullptr : &*limit)),
+                 {},
+                 "Extents in machine coordinates from the current position, with the active work offset");
     }
 }
 
@@ -79,15 +78,13 @@ void draw_spindle_and_tool(Ui& ui, const Survey& survey, const drivers::DriverSt
     ui.value("spindle",
              "Spindle",
              survey.greatest_spindle_rpm > 0.0 ? fmt::format("up to {:.0f} rpm", survey.greatest_spindle_rpm)
-                                               : std::string("no speed is programmed"));
+                                               : std::string("no speed programmed"));
     std::string tools;
     for (const int tool : survey.tools) {
         tools += fmt::format("{}T{}", tools.empty() ? "" : ", ", tool);
     }
-    tools = tools.empty() ? "the program calls none" : tools;
-    ui.value("tool",
-             "Tool",
-             status.tool > 0 ? fmt::format("{}; T{} is in the spindle", tools, status.tool) : tools);
+    tools = tools.empty() ? "no tool called" : tools;
+    ui.value("tool", "Tool", status.tool > 0 ? fmt::format("{}; T{} in spindle", tools, status.tool) : tools);
 }
 
 void draw_check_result(Ui& ui,
@@ -109,7 +106,7 @@ void draw_answer(Ui& ui, const drivers::CommandAnswer& answer) {
     using State = drivers::CommandAnswer::State;
     using widgets::Severity;
     if (answer.state == State::pending) {
-        ui.note("The controller is reading the program in check mode \u2026");
+        ui.note("The controller is checking the program in check mode \u2026");
         return;
     }
     const std::size_t end = answer.text.find('\n');
@@ -157,7 +154,7 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
             draw_extents(ui, *now.start_check);
             draw_spindle_and_tool(ui, now.start_check->survey, status);
         } else {
-            ui.note("The program is being checked \u2026");
+            ui.note("Checking the program \u2026");
         }
     }
     if (!status.position_doubt.empty()) {
@@ -178,7 +175,7 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.session.start_answer > 0 && status.answer.number == now.session.start_answer) {
         draw_answer(ui, status.answer);
         if (now.start_check && now.start_check->tool_stops > 0) {
-            ui.note("The check leaves out the tool changes (M6): Millwright makes them.");
+            ui.note("The check skips the tool changes (M6), which Millwright performs.");
         }
     }
     ui.gap();

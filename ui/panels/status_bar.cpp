@@ -57,13 +57,13 @@ void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optio
         if (ui.progress("work",
                         (stopping ? "Cancelling: " : "") + now.activity.text,
                         now.activity.fraction,
-                        stopping ? widgets::Permission::refused("It ends with its next step.")
+                        stopping ? widgets::Permission::refused("The work stops after the current step.")
                                  : widgets::Permission{})) {
             ask.run("work.cancel");
         }
     } else {
         ui.words(now.failure().empty() ? "Ready"
-                 : now.program()       ? "A compared grid failed: see the outline"
+                 : now.program()       ? "A comparison grid failed: see the outline"
                                        : "No program: see the outline",
                  widgets::Tone::muted);
     }

@@ -35,7 +35,7 @@ void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
         (void)widgets::banner(
             ui,
             "no_cutter",
-            {widgets::Severity::warning, "A point leaves no scallop: choose a cutter under Tool.", {}});
+            {widgets::Severity::warning, "A point leaves no scallops: select a cutter under Tool.", {}});
     }
 }
 
@@ -51,7 +51,7 @@ void kept_tolerance(Ui& ui, const Workbench& now) {
 } // namespace
 
 std::string so_far_note(const plan::Evaluation& evaluation) {
-    return actions::is_so_far(evaluation) ? " So far: measured coarsely; the exact figures can say otherwise."
+    return actions::is_so_far(evaluation) ? " Preliminary: measured coarsely; the exact values can differ."
                                           : "";
 }
 
@@ -61,17 +61,18 @@ std::string grid_note(const Workbench& now) {
         const std::string crossing =
             now.plan ? plan::crossing_remark(now.plan->project, now.plan->plan) : std::string();
         return crossing.empty()
-                   ? fmt::format("Over the nodes of the grid: {}.",
+                   ? fmt::format("Grid used: {}.",
                                  project::row_of(project::grid_methods(), project.grid.method).label)
                    : crossing + so_far_note(*now.program_path());
     }
     switch (project.toolpath.strategy) {
     case StrategyInput::constant_scallop:
-        return "The grid gives the number of points of a track alone; how it was made does not matter.";
+        return "Only the number of points per track is taken from the grid; the grid method has no effect.";
     case StrategyInput::fewest_points:
-        return "The grid gives the number of tracks alone; how it was made does not matter.";
+        return "Only the number of tracks is taken from the grid; the grid method has no effect.";
     default:
-        return "The grid gives its numbers of tracks and points alone; how it was made does not matter.";
+        return "Only the numbers of tracks and points are taken from the grid; the grid method has no "
+               "effect.";
     }
 }
 
@@ -105,12 +106,12 @@ void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                  "Points",
                  fmt::format("{}{}", mark, path->toolpath.points.size()),
                  "",
-                 "Of the whole path, with those that the sequencing adds");
+                 "Number of points of the whole path, including those added by the sequencing");
         ui.value("length",
                  "Length",
                  mark + fixed(path->path_length, 1),
                  "mm",
-                 "Of the tip's way, tracks and cross moves");
+                 "Tool-tip travel, tracks and cross moves");
     }
 }
 

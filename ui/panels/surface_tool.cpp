@@ -25,11 +25,11 @@ using viewport::DragStage;
 using viewport::SurfaceToolKind;
 
 constexpr std::array<widgets::Option, 3> tools{
-    {{"none", "None", "", "The mouse points at the path", {}},
-     {"brush", "Brush", "", "Paints the weight: drag over the surface", {}},
-     {"outline", "Outline", "", "Draws the region of adaptation: click its corners", {}}}};
-constexpr std::array<widgets::Option, 2> strokes{{{"paint", "Paint", "", "Cells become smaller there", {}},
-                                                  {"erase", "Erase", "", "Rubs out what was painted", {}}}};
+    {{"none", "None", "", "The mouse selects positions on the path", {}},
+     {"brush", "Brush", "", "Paint the weight: drag over the surface", {}},
+     {"outline", "Outline", "", "Draw the adaptation region: click its corners", {}}}};
+constexpr std::array<widgets::Option, 2> strokes{
+    {{"paint", "Paint", "", "Make cells smaller here", {}}, {"erase", "Erase", "", "Erase the paint", {}}}};
 
 /// A corner may be moved while another change has taken it away.
 bool has_corner(const grid::Region& region, int corner) {
@@ -43,17 +43,15 @@ void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const project::StrategyInput strategy = now.project.toolpath.strategy;
     const project::GridMethod method = now.project.grid.method;
     if (!plan::follows_nodes(strategy)) {
-        (void)widgets::banner(
-            ui,
-            "own_points",
-            {widgets::Severity::warning,
-             fmt::format(
-                 "The program's path ({}) chooses its own points and follows no grid: what you paint or "
-                 "outline does not change it.",
-                 plan::strategy_text(now.project)),
-             {}});
-        if (ui.button("use_zigzag", "Use a zigzag over the grid")) {
-            ask.edit("Use a zigzag over the grid",
+        (void)widgets::banner(ui,
+                              "own_points",
+                              {widgets::Severity::warning,
+                               fmt::format("The program path ({}) does not use the nodes of a grid: paint "
+                                           "and outline have no effect on it.",
+                                           plan::strategy_text(now.project)),
+                               {}});
+        if (ui.button("use_zigzag", "Use zigzag over the grid")) {
+            ask.edit("Use zigzag over the grid",
                      [](Project& p) { p.toolpath.strategy = project::StrategyInput::zigzag; });
         }
         return;
@@ -61,14 +59,13 @@ void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (plan::uses_weight(method)) {
         return;
     }
-    (void)widgets::banner(
-        ui,
-        "no_weight",
-        {widgets::Severity::warning,
-         fmt::format("The program uses {}, which follows neither paint nor outline: they change the elliptic "
-                     "grid and the harmonic map alone.",
-                     project::row_of(project::grid_methods(), method).label),
-         {}});
+    (void)widgets::banner(ui,
+                          "no_weight",
+                          {widgets::Severity::warning,
+                           fmt::format("The program grid is {}, which ignores paint and outline: they affect "
+                                       "only the elliptic grid and the harmonic map.",
+                                       project::row_of(project::grid_methods(), method).label),
+                           {}});
     const auto row = ui.row(2);
     if (ui.button("use_elliptic", "Use elliptic grid")) {
         ask.run("grid.use_elliptic");
@@ -91,18 +88,17 @@ void faint_paint(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (input.mix.painted >= seen * range) {
         return;
     }
-    (void)widgets::banner(
-        ui,
-        "faint",
-        {widgets::Severity::info,
-         fmt::format("Paint adds at most {:.3g} (its share) to a weight that goes from {:.3g} "
-                     "to {:.3g}: it is hardly seen, and hardly counts.",
-                     input.mix.painted,
-                     weight->low,
-                     weight->high),
-         {}});
-    if (ui.button("raise_paint", "Let it count as much")) {
-        ask.edit("Raise the share of the paint", [range, high = weight->high](Project& p) {
+    (void)widgets::banner(ui,
+                          "faint",
+                          {widgets::Severity::info,
+                           fmt::format("Paint adds at most {:.3g} (its share) to a weight between {:.3g} and "
+                                       "{:.3g}, so it has little effect and is hardly visible.",
+                                       input.mix.painted,
+                                       weight->low,
+                                       weight->high),
+                           {}});
+    if (ui.button("raise_paint", "Increase paint share")) {
+        ask.edit("Increase the paint share", [range, high = weight->high](Project& p) {
             grid::MixSettings& mix = p.grid.elliptic.mix;
             mix.painted = std::min(std::ceil(range), largest_share);
             mix.high = std::max(mix.high, std::ceil(high + mix.painted)); // both have room
@@ -115,29 +111,23 @@ void brush_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (const auto chosen = ui.segmented("stroke", "Stroke", tool.erases ? 1 : 0, strokes)) {
         ask.show([erases = *chosen == 1](Session& session) { session.surface_tool.erases = erases; });
     }
-    const widgets::FieldInfo radius{"radius",
-                                    "Radius",
-                                    "mm",
-                                    "Of the brush on the surface, as a distance in space",
-                                    0.1,
-                                    1000.0,
-                                    10.0,
-                                    1};
+    const widgets::FieldInfo radius{
+        "radius", "Radius", "mm", "Brush radius, measured as a straight distance", 0.1, 1000.0, 10.0, 1};
     if (const auto value = ui.number(tool.radius_mm, radius)) {
         ask.show([v = *value](Session& session) { session.surface_tool.radius_mm = v; });
     }
     const widgets::FieldInfo strength{
-        "strength", "Strength", "", "Share of the way to the full value with each dab", 0.01, 1.0, 0.5, 2};
+        "strength", "Strength", "", "Fraction of the full value applied per dab", 0.01, 1.0, 0.5, 2};
     if (const auto value = ui.number(tool.strength, strength)) {
         ask.show([v = *value](Session& session) { session.surface_tool.strength = v; });
     }
     faint_paint(ui, now, ask);
     const auto& painted = now.project.grid.elliptic.painted;
     if (ui.button("clear_paint",
-                  "Clear the paint",
+                  "Clear paint",
                   painted ? widgets::Permission{}
-                          : widgets::Permission::refused("Nothing has been painted."))) {
-        ask.edit("Clear the paint", [](Project& p) { p.grid.elliptic.painted.reset(); });
+                          : widgets::Permission::refused("There is no paint to clear."))) {
+        ask.edit("Clear paint", [](Project& p) { p.grid.elliptic.painted.reset(); });
     }
 }
 
@@ -145,13 +135,13 @@ void outline_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::vector<Vec2>& draft = now.session.surface_tool.draft;
     const grid::Region& region = now.project.grid.elliptic.region;
     if (!draft.empty()) {
-        ui.note(fmt::format("{}. Click on the surface for more, on the first one to close the outline; "
-                            "Esc drops it.",
-                            counted(draft.size(), "corner")));
+        ui.note(fmt::format(
+            "{}. Click the surface to add corners, the first corner to close the outline; Esc cancels.",
+            counted(draft.size(), "corner")));
         return;
     }
-    ui.note(region.everywhere() ? "Click corners on the surface; the grid adapts inside of them alone."
-                                : "Drag corners, or click beside them to draw another outline.");
+    ui.note(region.everywhere() ? "Click corners on the surface: the grid adapts only inside the outline."
+                                : "Drag the corners, or click elsewhere to draw another outline.");
     number_fields<grid::Region>(ui, ask, project::region_numbers(), region, [](Project& p) -> grid::Region& {
         return p.grid.elliptic.region;
     });
@@ -184,7 +174,7 @@ void surface_tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const SurfaceToolKind kind = now.session.surface_tool.kind;
-    if (const auto chosen = ui.segmented("tool", "In hand", static_cast<int>(kind), tools)) {
+    if (const auto chosen = ui.segmented("tool", "Active tool", static_cast<int>(kind), tools)) {
         constexpr std::array<const char*, 3> ids{"grid.no_tool", "grid.brush", "grid.outline"};
         ask.run(ids[static_cast<std::size_t>(*chosen)]);
     }
@@ -238,7 +228,7 @@ void obey(const viewport::CloseOutline&, const Workbench& now, ActionQueue& ask)
         return;
     }
     const auto close = [outline = draft](Project& p) { p.grid.elliptic.region.outline = outline; };
-    ask.edit("Draw the region of adaptation", close);
+    ask.edit("Draw the adaptation region", close);
     Project drawn = now.project;
     close(drawn);
     if (faults_of(drawn).empty()) { // else it is told why not, and the corners stay

@@ -30,12 +30,12 @@ using widgets::Rect;
 
 // In the order of their enumerators.
 constexpr std::array<widgets::Option, 2> modes{
-    {{"segments", "On each segment", {}, "A whole number of them, as in the thesis"},
-     {"path", "On whole paths", {}, "The rest is carried over corners"}}};
-constexpr std::array<widgets::Option, 4> roundings{{{"down", "Rounded down", {}, {}},
-                                                    {"nearest", "To the nearest", {}, {}},
-                                                    {"up", "Rounded up", {}, {}},
-                                                    {"exact", "Exact, a shorter last one", {}, {}}}};
+    {{"segments", "Per segment", {}, "Whole number of steps on each segment, as in the thesis"},
+     {"path", "Per path", {}, "The remainder of a step is carried over corners"}}};
+constexpr std::array<widgets::Option, 4> roundings{{{"down", "Round down", {}, {}},
+                                                    {"nearest", "Round to nearest", {}, {}},
+                                                    {"up", "Round up", {}, {}},
+                                                    {"exact", "Exact, shorter last step", {}, {}}}};
 
 void change_table_choice(ActionQueue& ask, std::function<void(TableChoice&)> what) {
     ask.plot([what = std::move(what)](actions::PlotBench& bench) {
@@ -54,11 +54,11 @@ std::string_view play_state_text(PlayState state) {
     case PlayState::holding:
         return "held";
     case PlayState::done:
-        return "every point was sent";
+        return "all points sent";
     case PlayState::stopped:
         return "stopped";
     case PlayState::emergency_stop:
-        return "stopped at once";
+        return "emergency stop";
     }
     return {};
 }
@@ -112,9 +112,9 @@ std::vector<std::array<std::string, 2>> read_out(const actions::TableView& table
             {"Z", fixed(now.position.z(), 3) + " mm"},
             {"Table", std::string(play_state_text(now.state))},
             {"Points", fmt::format("{} of {}", now.points, table.total)},
-            {"Late, mean", delay_text(now.jitter.mean)},
-            {"99 % below", delay_text(now.jitter.p99)},
-            {"Latest", delay_text(now.jitter.most)}};
+            {"Mean delay", delay_text(now.jitter.mean)},
+            {"99 % delay", delay_text(now.jitter.p99)},
+            {"Max. delay", delay_text(now.jitter.most)}};
 }
 
 void draw_read_out(Ui& ui, const actions::TableView& table, const Rect& box) {
@@ -159,17 +159,17 @@ void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
     }
     maybe(ui,
           ask,
-          {"travel_velocity", "In the air", "mm/s", "0: as along the path", 0.0, 1000.0, 0.0, 2},
+          {"travel_velocity", "Travel speed", "mm/s", "0: same as along the path", 0.0, 1000.0, 0.0, 2},
           points.travel_velocity,
           &DecodeSettings::travel_velocity);
     maybe(ui,
           ask,
-          {"plunge_velocity", "Up and down", "mm/s", "0: as along the path", 0.0, 1000.0, 0.0, 2},
+          {"plunge_velocity", "Plunge speed", "mm/s", "0: same as along the path", 0.0, 1000.0, 0.0, 2},
           points.plunge_velocity,
           &DecodeSettings::plunge_velocity);
     if (points.mode == DecodeMode::segments) {
         if (const auto rounding =
-                ui.choice("rounding", "Their number", static_cast<int>(points.rounding), roundings)) {
+                ui.choice("rounding", "Step count", static_cast<int>(points.rounding), roundings)) {
             change_table_choice(ask, [rounding = *rounding](TableChoice& c) {
                 c.decoding.rounding = static_cast<SampleRounding>(rounding);
             });
@@ -178,7 +178,7 @@ void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
     }
     maybe(ui,
           ask,
-          {"acceleration", "Acceleration", "mm/s2", "At the most; 0: no limit", 0.0, 1e6, 0.0, 1},
+          {"acceleration", "Acceleration", "mm/s2", "Maximum acceleration; 0: no limit", 0.0, 1e6, 0.0, 1},
           points.acceleration,
           &DecodeSettings::acceleration);
     maybe(ui,
@@ -186,7 +186,7 @@ void point_fields(Ui& ui, const DecodeSettings& points, ActionQueue& ask) {
           {"jerk",
            "Jerk",
            "mm/s3",
-           "At the most, with a limit of the acceleration; 0: no limit",
+           "Maximum jerk, used with an acceleration limit; 0: no limit",
            0.0,
            1e9,
            0.0,
@@ -201,19 +201,24 @@ void record_fields(Ui& ui, const drivers::RecordFormat& record, ActionQueue& ask
     if (!section) {
         return;
     }
-    if (const auto pattern = ui.text_field(
-            "pattern", "Pattern", record.pattern, "As t {X} {Y} {Z} {a} {s}: axes, speed, acceleration")) {
+    if (const auto pattern =
+            ui.text_field("pattern",
+                          "Pattern",
+                          record.pattern,
+                          "Record format, such as t {X} {Y} {Z} {a} {s}: axes, acceleration, speed")) {
         change_table_choice(ask, [pattern = *pattern](TableChoice& c) { c.record.pattern = pattern; });
     }
     if (const auto relative =
-            ui.toggle("relative", "Relative", record.relative, "Records say how far, not where")) {
+            ui.toggle("relative", "Relative", record.relative, "Records contain distances, not positions")) {
         change_table_choice(ask, [relative = *relative](TableChoice& c) { c.record.relative = relative; });
     }
     if (const auto ending = ending_field(ui, record.ending)) {
         change_table_choice(ask, [ending = *ending](TableChoice& c) { c.record.ending = ending; });
     }
-    if (const auto answer = ui.text_field(
-            "answer", "Answer", record.answer, "To each record before the next is sent; empty: none")) {
+    if (const auto answer = ui.text_field("answer",
+                                          "Response",
+                                          record.answer,
+                                          "Response to each record before the next is sent; empty: none")) {
         change_table_choice(ask, [answer = *answer](TableChoice& c) { c.record.answer = answer; });
     }
 }
@@ -232,13 +237,13 @@ void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
     {
         const auto labels = ui.label_share(0.3F);
         ui.value("begins",
-                 "Begins at",
+                 "Start",
                  fmt::format("{}  {}  {}", fixed(at.x(), 2), fixed(at.y(), 2), fixed(at.z(), 2)),
                  "mm");
     }
-    ui.note(choice.record.relative
-                ? "The table has to stand there: it is told how far to go, and would cut as far beside."
-                : "The table has to stand there, or goes there at once.");
+    ui.note(choice.record.relative ? "The table must be at this point: records contain distances only, so "
+                                     "any offset shifts the whole cut."
+                                   : "The table must be at this point, or it moves there immediately.");
 }
 
 } // namespace
@@ -262,11 +267,11 @@ std::optional<Vec3> TablePane::place_of_begin(const Workbench& now) {
 
 void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const TableChoice& choice = now.plot.table_choice();
-    if (const auto port = ui.text_field("port",
-                                        "Port",
-                                        choice.port,
-                                        "A serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH; "
-                                        "empty: nothing is sent")) {
+    if (const auto port = ui.text_field(
+            "port",
+            "Port",
+            choice.port,
+            "Serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH; empty: nothing is sent")) {
         change_table_choice(ask, [port = *port](TableChoice& c) { c.port = port; });
     }
     if (const auto address = serial_fields(ui, choice.port)) {
@@ -283,17 +288,17 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     const auto made = now.plot.latest();
     const bool has_points = made && made->points; // at equal steps already
     if (!has_points) {
-        number({"velocity", "Velocity", "mm/s", "Along the path, always the same", 0.01, 1000.0, 8.0, 2},
+        number({"velocity", "Velocity", "mm/s", "Constant velocity along the path", 0.01, 1000.0, 8.0, 2},
                points.velocity,
                1.0,
                &DecodeSettings::velocity);
     }
-    number({"period", "Period", "ms", "Between two points", 0.5, 1000.0, 20.0, 1},
+    number({"period", "Period", "ms", "Time between two points", 0.5, 1000.0, 20.0, 1},
            points.period,
            1e-3,
            &DecodeSettings::period);
-    if (const auto speed =
-            ui.number(choice.speed, {"speed", "Time scale", "x", "Times real time", 0.01, 100.0, 1.0, 2})) {
+    if (const auto speed = ui.number(
+            choice.speed, {"speed", "Time scale", "x", "Factor of real time", 0.01, 100.0, 1.0, 2})) {
         change_table_choice(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
     }
     if (const auto begins = place_of_begin(now)) {
@@ -345,7 +350,7 @@ void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     } else {
         widgets::Sketch sketch(ui, {middle.x, middle.y, 2.0F * part + gap, ui.px(24.0F)});
         sketch.text(sketch.rect(),
-                    "Points at constant velocity go to the table, one per period.",
+                    "Points at constant velocity are sent to the table, one per period.",
                     ui.colours().muted);
     }
     if (table.playing) {

@@ -91,7 +91,8 @@ void TextEditor::draw_find(Ui& ui, ActionQueue& ask) {
         if (std::exchange(calls_, false)) {
             ui.focus_field(ui.path("wanted"));
         }
-        if (const auto text = ui.search_field("wanted", "Find", wanted_, "Enter finds the next place")) {
+        if (const auto text =
+                ui.search_field("wanted", "Find", wanted_, "Search text; Enter finds the next match")) {
             if (*text != wanted_) {
                 wanted_ = *text;
                 found_.reset();
@@ -102,7 +103,7 @@ void TextEditor::draw_find(Ui& ui, ActionQueue& ask) {
             }
         }
         ui.beside();
-        if (const auto text = ui.text_field("replacement", "With", replacement_, "What takes its place")) {
+        if (const auto text = ui.text_field("replacement", "With", replacement_, "Replacement text")) {
             replacement_ = *text;
         }
     }
@@ -110,7 +111,7 @@ void TextEditor::draw_find(Ui& ui, ActionQueue& ask) {
 }
 
 void TextEditor::draw_find_buttons(Ui& ui, ActionQueue& ask) {
-    const Permission can = wanted_.empty() ? Permission::refused("Type what to find first.") : Permission{};
+    const Permission can = wanted_.empty() ? Permission::refused("Enter a search text first.") : Permission{};
     const auto toggle = [&](const char* id, const char* label, bool& on, const char* tip) {
         ui.beside();
         const auto width = ui.width(ui.px(44.0F));
@@ -119,30 +120,31 @@ void TextEditor::draw_find_buttons(Ui& ui, ActionQueue& ask) {
             found_.reset();
         }
     };
-    toggle("same_case", "Aa", matching_.same_case, "Capital and small letters differ");
-    toggle("whole_words", "ab", matching_.whole_words, "Whole words only");
+    toggle("same_case", "Aa", matching_.same_case, "Match case");
+    toggle("whole_words", "ab", matching_.whole_words, "Match whole words");
     ui.beside();
-    if (ui.icon_button("previous", icons::chevron_up, "The place before (Ctrl+Shift+G)", can)) {
+    if (ui.icon_button("previous", icons::chevron_up, "Previous match (Ctrl+Shift+G)", can)) {
         go_on(-1);
     }
     ui.beside();
-    if (ui.icon_button("next", icons::chevron_down, "The next place (Ctrl+G)", can)) {
+    if (ui.icon_button("next", icons::chevron_down, "Next match (Ctrl+G)", can)) {
         go_on(1);
     }
     {
         const auto width = ui.width(ui.px(74.0F));
         ui.beside();
-        if (ui.button("replace",
-                      "Replace",
-                      can,
-                      {{}, widgets::Rank::normal, -1.0F, "The marked place, then goes to the next one"})) {
+        if (ui.button(
+                "replace",
+                "Replace",
+                can,
+                {{}, widgets::Rank::normal, -1.0F, "Replace the current match and go to the next one"})) {
             replace_one(ask);
         }
     }
     {
         const auto width = ui.width(ui.px(44.0F));
         ui.beside();
-        if (ui.button("replace_all", "All", can, {{}, widgets::Rank::normal, -1.0F, "Every place"})) {
+        if (ui.button("replace_all", "All", can, {{}, widgets::Rank::normal, -1.0F, "Replace all matches"})) {
             replace_all(ask);
         }
     }

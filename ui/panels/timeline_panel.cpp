@@ -46,7 +46,7 @@ void obey(const TimelineAsk& asked, const Workbench& now, ActionQueue& ask) {
 /// What runs though no program is opened here, as the machine tells it.
 void draw_job(Ui& ui, const jobs::JobReport& job) {
     widgets::TimelineView view;
-    view.permission = widgets::Permission::refused("A job runs: see the Machine workspace.");
+    view.permission = widgets::Permission::refused("A job is running: see the Machine workspace.");
     view.blocks = job.blocks;
     view.block = std::min(std::max(job.driver.executed_blocks, job.driver.block) + 1, job.blocks);
     view.fraction = job.fraction();
@@ -92,8 +92,8 @@ void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
     widgets::TimelineView view;
     const auto place = now.file_place();
     if (!place) {
-        view.permission = widgets::Permission::refused(now.opened->finished ? "The program moves nothing."
-                                                                            : "The file is being read.");
+        view.permission = widgets::Permission::refused(
+            now.opened->finished ? "The program contains no motion." : "Reading the file \u2026");
         (void)widgets::timeline(ui, "timeline", view);
         return;
     }
@@ -120,9 +120,10 @@ void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
     const bool long_one = made && made->path && made->path->size() > plan::most_points_at_once;
     widgets::TimelineView view;
     view.permission = widgets::Permission::refused(
-        now.plot.file().empty() ? "Nothing is open."
-        : long_one              ? "Of more than 100,000 points there is a program once it is written."
-                                : "There is no program of it yet.");
+        now.plot.file().empty() ? "No file is open."
+        : long_one
+            ? "With more than 100,000 points, the program is available only after it is written to a file."
+            : "There is no program yet.");
     (void)widgets::timeline(ui, "timeline", view);
 }
 
@@ -146,7 +147,7 @@ void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         {{"error", "mm", series_.error, 0}, {"feed", "mm/min", series_.feed_mm_per_min, 0}}};
     if (!trajectory_ || shows_import(now)) {
         view.permission = widgets::Permission::refused(
-            trajectory_ ? "What is being imported has no program yet." : "There is no program yet.");
+            trajectory_ ? "The imported surface has no program yet." : "There is no program yet.");
         (void)widgets::timeline(ui, "timeline", view);
         return;
     }

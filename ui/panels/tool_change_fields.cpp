@@ -19,10 +19,13 @@ using drivers::ToolChangeWay;
 using drivers::ToolSensor;
 
 constexpr std::array<widgets::Option, 4> way_options{
-    {{"none", "Refuse the program", {}, "Nothing of a program with M6 is sent"},
-     {"stop", "Stop and wait", {}, "You change the tool and set its zero, then it goes on"},
-     {"probe", "Measure at a sensor", {}, "The same, and the length is measured at a fixed sensor"},
-     {"macro", "Lines of a file", {}, "The same, and then the lines of a file are sent"}}};
+    {{"none", "Refuse the program", {}, "Do not run programs that contain M6"},
+     {"stop", "Stop and wait", {}, "Pause: change the tool and set its zero, then continue"},
+     {"probe",
+      "Measure at sensor",
+      {},
+      "Pause for the tool change, then measure the tool length at a fixed sensor"},
+     {"macro", "Run macro file", {}, "Pause for the tool change, then send the lines of a file"}}};
 
 void set(ActionQueue& ask, const Workbench& now, ToolChangeSettings settings) {
     ask.show([address = now.controller.choice.address, settings = std::move(settings)](
@@ -36,26 +39,26 @@ struct SensorField {
 };
 
 constexpr std::array<SensorField, 5> sensor_fields{
-    {{"sensor_x", "Sensor X", "mm", "Machine coordinates", &ToolSensor::x, -1e5, 1e5},
-     {"sensor_y", "Sensor Y", "mm", "Machine coordinates", &ToolSensor::y, -1e5, 1e5},
+    {{"sensor_x", "Sensor X", "mm", "Position in machine coordinates", &ToolSensor::x, -1e5, 1e5},
+     {"sensor_y", "Sensor Y", "mm", "Position in machine coordinates", &ToolSensor::y, -1e5, 1e5},
      {"travel_z",
-      "Travel at Z",
+      "Travel height Z",
       "mm",
-      "Machine coordinates: at this height the longest tool goes anywhere",
+      "Machine coordinates; the longest tool can move freely at this height",
       &ToolSensor::travel_z,
       -1e5,
       1e5},
      {"deepest_z",
-      "Search down to Z",
+      "Lowest probe Z",
       "mm",
-      "Machine coordinates: the search ends there with an alarm",
+      "Machine coordinates; probing stops here with an alarm",
       &ToolSensor::deepest_z,
       -1e5,
       1e5},
      {"sensor_feed",
-      "Search at",
+      "Probe feed",
       "mm/min",
-      "Of the first touch; the second goes a fifth as fast",
+      "Feed rate of the first contact; the second contact uses one fifth of it",
       &ToolSensor::feed,
       1.0,
       5000.0}}};
@@ -91,7 +94,7 @@ void tool_change_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const ToolChangeSettings settings = actions::tool_change_settings(now.session.hand, now.controller);
     const bool here = actions::tool_change_plan(now.session.hand, now.controller).has_value();
     const int way = here ? 1 + static_cast<int>(settings.plan.way) : 0;
-    if (const auto chosen = ui.choice("way", "At M6", way, way_options, "What happens at a tool change")) {
+    if (const auto chosen = ui.choice("way", "At M6", way, way_options, "Action at a tool change")) {
         ToolChangeSettings changed = settings;
         changed.here = *chosen > 0;
         changed.plan.way = *chosen > 0 ? static_cast<ToolChangeWay>(*chosen - 1) : changed.plan.way;
@@ -103,7 +106,7 @@ void tool_change_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const widgets::FieldInfo spin_up{"spin_up",
                                      "Spin-up time",
                                      "s",
-                                     "The spindle needs it to come to its speed before the tool goes down",
+                                     "Time for the spindle to reach its speed before the tool moves down",
                                      0.0,
                                      600.0,
                                      no_default,
@@ -116,10 +119,8 @@ void tool_change_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (settings.plan.way == ToolChangeWay::probe) {
         draw_sensor(ui, now, ask, settings);
     } else if (settings.plan.way == ToolChangeWay::macro) {
-        if (const auto file = ui.text_field("macro",
-                                            "File",
-                                            settings.plan.macro_file,
-                                            "G-code that is sent after the tool was changed")) {
+        if (const auto file = ui.text_field(
+                "macro", "File", settings.plan.macro_file, "G-code file to send after the tool change")) {
             ToolChangeSettings changed = settings;
             changed.plan.macro_file = *file;
             set(ask, now, changed);
@@ -130,10 +131,11 @@ void tool_change_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
 namespace {
 
 std::string_view what_a_person_can_do(const drivers::ToolChangeStatus& change) {
-    return change.held ? "Resume ends the hold."
-           : change.keeps_zero
-               ? "Change the tool. Continue measures it, goes up first, then back."
-               : "Jog, and set the zero of Z. On Continue the way back, if there is one, goes up first.";
+    return change.held         ? "Press Resume to end the hold."
+           : change.keeps_zero ? "Change the tool, then press Continue: the tool is raised and measured, "
+                                 "then returns to its position."
+                               : "Jog and set the Z zero, then press Continue. If the tool has to return, it "
+                                 "is raised first.";
 }
 
 } // namespace
@@ -143,13 +145,12 @@ bool tool_change_banner(Ui& ui, const Workbench& now) {
     if (!now.job.running || !actions::waits_for_tool(status)) {
         return false;
     }
-    const std::string why = status.message.empty() ? "The job waits for another tool." : status.message;
-    (void)widgets::banner(
-        ui,
-        "tool_change",
-        {widgets::Severity::warning,
-         fmt::format("The job waits: {}. {}", why, what_a_person_can_do(*status.tool_change)),
-         {}});
+    const std::string why = status.message.empty() ? "The job is waiting for a tool change." : status.message;
+    (void)widgets::banner(ui,
+                          "tool_change",
+                          {widgets::Severity::warning,
+                           fmt::format("Job waiting: {}. {}", why, what_a_person_can_do(*status.tool_change)),
+                           {}});
     return true;
 }
 

@@ -40,26 +40,26 @@ void bites_text(Ui& ui, const Project& project, const plan::CutStudy& cut) {
     }
     const std::ptrdiff_t of_cutter = std::ssize(cut.bites) - of_holder;
     ui.value("deepest",
-             "Deepest cut",
+             "Max. gouge",
              length_text(cut.deepest),
              "mm",
-             "How deep the cutter goes below the surface at most");
+             "Maximum depth of the cutter below the surface");
     ui.note(as_sentence(plan::checked_text(project)));
     ui.value("bites",
-             "Too deep",
+             "Gouging blocks",
              fmt::format("{}", counted(of_cutter, "block")),
              "",
-             "Blocks in which the cutter goes below the surface: the tab Gouges lists them");
+             "Blocks in which the cutter goes below the surface; listed in the Gouges tab");
     ui.value("holder_bites",
-             "Holder in the part",
+             "Holder collisions",
              fmt::format("{}", counted(of_holder, "block")),
              "",
              "Blocks in which the holder touches the part");
     ui.value("local",
-             "Does not fit",
+             "Nodes too tight",
              fmt::format("{}", counted(cut.local_gouges.size(), "node")),
              "",
-             "Places where the surface is bent more tightly than the cutter");
+             "Nodes at which the surface is curved more tightly than the cutter");
     if (!cut.bites.empty() || !cut.local_gouges.empty()) {
         (void)widgets::banner(
             ui, "gouges", {widgets::Severity::warning, "This tool gouges the part on this path.", {}});
@@ -75,7 +75,7 @@ void gain_text(Ui& ui, const Workbench& now) {
     }
     const plan::Evaluation& before = *plan.unsequenced;
     const auto both = [](const std::string& from, const std::string& to) { return from + " \u2192 " + to; };
-    ui.note("The program with the nearest angles and no point added \u2192 as chosen here:");
+    ui.note("Program with nearest angles and no added points \u2192 with the settings chosen here:");
     ui.value("both_points",
              "Points",
              both(fmt::format("{}", before.toolpath.points.size()),
@@ -117,14 +117,17 @@ void highest_left(Ui& ui, const plan::Plan& plan) {
     const double on_cut = plan.cut->scallops.max;
     if (const auto least = plan::left_at_least(plan)) {
         ui.value("scallop_max",
-                 "Highest left",
+                 "Max. scallop",
                  "at least " + length_text(*least),
                  "mm",
-                 "Where no pass comes near; how much it is there is not looked for");
-        ui.value(
-            "scallop_cut", "Where cut", length_text(on_cut), "mm", "The highest ridge left on what was cut");
+                 "Includes areas that no pass reaches; the exact height there is not computed");
+        ui.value("scallop_cut",
+                 "On machined area",
+                 length_text(on_cut),
+                 "mm",
+                 "Maximum scallop height on the machined area");
     } else {
-        ui.value("scallop_max", "Highest left", length_text(on_cut), "mm", "The highest ridge that is left");
+        ui.value("scallop_max", "Max. scallop", length_text(on_cut), "mm", "Maximum scallop height");
     }
 }
 
@@ -140,7 +143,7 @@ void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                              ask,
                              "cutter",
                              "Cutter",
-                             "Choose the cutter",
+                             "Change the cutter",
                              project::cutter_kinds(),
                              tool.cutter,
                              [](Project& p, CutterKind kind) { p.tool.cutter = kind; });
@@ -156,32 +159,32 @@ void cut_fields(Ui& ui, const Workbench& now) {
     if (now.project.tool.cutter == CutterKind::point) {
         return;
     }
-    const auto section = ui.section("cut", "What the tool leaves");
+    const auto section = ui.section("cut", "Surface finish and gouges");
     if (!section) {
         return;
     }
     if (!now.plan || !now.plan->plan.cut) {
-        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        ui.note(now.failure().empty() ? "Computing \u2026" : now.failure());
         return;
     }
     const plan::CutStudy& cut = *now.plan->plan.cut;
     highest_left(ui, now.plan->plan);
     ui.value("scallop_mean",
-             "Mean left",
+             "Mean scallop",
              length_text(cut.scallops.mean),
              "mm",
-             "The mean height that is left on what was cut");
+             "Mean scallop height on the machined area");
     ui.value("not_cut",
-             "Not cut",
+             "Not machined",
              fixed(100.0 * cut.scallops.not_cut, 1),
              "%",
-             "The share of the surface that no pass comes near");
+             "Share of the surface that no pass reaches");
     if (std::isfinite(cut.step_over)) {
         ui.value("step_over",
                  "Step-over",
                  length_text(cut.step_over),
                  "mm",
-                 "How far the tracks may be apart for the scallop that is wanted");
+                 "Maximum track distance for the required scallop height");
     }
     if (const std::string why = plan::why_higher(now.plan->project, now.plan->plan); !why.empty()) {
         (void)widgets::banner(ui, "left_higher", {widgets::Severity::warning, why + ".", {}});
@@ -200,7 +203,7 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ask,
         "goal",
         "Sequencing",
-        "Choose the sequencing",
+        "Change the sequencing",
         project::sequencing_goals(),
         input.goal,
         [](Project& p, toolpath::SequencingGoal goal) { p.sequencing.goal = goal; });
@@ -216,17 +219,17 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
                  "Points",
                  fmt::format("{}", shown->toolpath.points.size()),
                  "",
-                 "Of the path that is shown");
+                 "Points of the displayed path");
         ui.value("travel",
                  "Rotation",
                  angle_text(shown->axes.rotary_travel),
                  "deg",
-                 "The way of all rotary axes together");
+                 "Total travel of all rotary axes");
         ui.value("step",
-                 "Now at most",
+                 "Largest step",
                  angle_text(step),
                  "deg",
-                 "The largest turn of a rotary axis within one move of a track");
+                 "Largest rotation of a rotary axis within one move of a track");
         gain_text(ui, now);
         sequencing_warning(ui, now);
     }

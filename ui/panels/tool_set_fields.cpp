@@ -55,11 +55,9 @@ void tool_set_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         }
     }
     if (now.project.machine.tool_set &&
-        ui.button("file",
-                  "Constants of the machine file",
-                  {},
-                  {.tip = "Take e, OF, AB and B4 from the machine file again"})) {
-        ask.edit("Take the constants of the machine file",
+        ui.button(
+            "file", "Reset to machine file", {}, {.tip = "Restore e, OF, AB and B4 from the machine file"})) {
+        ask.edit("Reset the constants to the machine file",
                  [](project::Project& p) { p.machine.tool_set.reset(); });
     }
 }

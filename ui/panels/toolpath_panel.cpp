@@ -57,13 +57,13 @@ void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const std::string_view path = project::row_of(project::strategies(), now.project.toolpath.strategy).label;
     const auto grids = static_cast<int>(options.size());
     if (plan::has_own_path(now.project)) {
-        options.push_back({"path", path, {}, "The path that the program follows", {}});
+        options.push_back({"path", path, {}, "Path used by the program", {}});
     }
     if (const auto chosen = ui.choice("shown",
                                       "Path shown",
                                       now.shows_own_path() ? grids : index,
                                       options,
-                                      "The grids that are made; \"Program uses\" (F3) makes another")) {
+                                      "Computed grids; select \"Program grid\" (F3) to compute another")) {
         if (*chosen == grids) {
             ask.run("view.show_path");
             return;
@@ -75,13 +75,12 @@ void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 std::string_view gap_tip(const Project& project) {
     return project.toolpath.strategy == project::StrategyInput::spiral
-               ? std::string_view(
-                     "How far at most the next round is, on the surface. Two sides of each round run over "
-                     "the "
-                     "nodes across the tracks: where nodes lie far apart along a track, so do the rounds. A "
-                     "spiral over the uniform grid has no such places.")
-               : std::string_view("How far at most a place of a track is from the next track, on the "
-                                  "surface: what the cutter leaves between them grows with its square.");
+               ? std::string_view("Largest distance to the next round of the spiral, measured on the "
+                                  "surface. Two sides of each round run over the nodes across the tracks, so "
+                                  "the rounds are far apart where the nodes are far apart along a track. A "
+                                  "spiral over the uniform grid does not have this effect.")
+               : std::string_view("Largest distance from a track to the next track, measured on the surface. "
+                                  "The scallop height grows with its square.");
 }
 
 /// With the change against the uniform grid's; what is measured coarsely so far is marked.
@@ -95,31 +94,34 @@ void error_values(Ui& ui,
     const auto changed = [&](double from, double to) {
         return mark + length_text(to) + "  (" + change_text(from, to) + ")";
     };
-    ui.value(
-        "max",
-        "Largest",
-        changed(before.max, error.max),
-        "mm",
-        "The largest distance of the tip from the surface anywhere on the tracks; in brackets the change "
-        "against the uniform grid");
+    ui.value("max",
+             "Max. error",
+             changed(before.max, error.max),
+             "mm",
+             "Largest distance of the tool tip from the surface on all tracks; in brackets the change from "
+             "the uniform grid");
     ui.value("mean",
-             "Mean a move",
+             "Mean per move",
              changed(before.mean, error.mean),
              "mm",
-             "The mean of the moves' largest distances, each move counting once");
+             "Mean of the largest distance of each move; every move has the same weight");
     ui.value("lmean",
              "Mean by length",
              mark + length_text(error.lmean),
              "mm",
-             "The same, each move counting by its length: many short moves where the error is small do not "
-             "make it look small");
-    ui.value("p95", "95 % below", mark + length_text(error.p95), "mm", "95 of 100 moves are not worse");
+             "Mean of the largest distance of each move, weighted by the length of the move, so that many "
+             "short moves with small errors do not hide large ones");
+    ui.value("p95",
+             "95th percentile",
+             mark + length_text(error.p95),
+             "mm",
+             "95 % of the moves have this error or less");
     ui.value("axis",
              "Axis deviation",
              mark + angle_text(error.axis_max),
              "deg",
-             "The largest angle between the tool axis on its way and the one that is wanted there: the tip "
-             "may be true while the tool swings");
+             "Largest angle between the actual and the required tool axis along the path; the tool can swing "
+             "even if the tip is accurate");
     if (shown.track_gap) {
         ui.value("gap", "Track gap", mark + length_text(*shown.track_gap), "mm", gap_tip(project));
     }
@@ -127,8 +129,8 @@ void error_values(Ui& ui,
              "Cross moves",
              mark + length_text(shown.cross_closest.max),
              "mm",
-             "The largest distance from the surface on the moves from track to track, which the figures "
-             "above leave out");
+             "Largest distance from the surface on the moves between tracks, which the values above do not "
+             "include");
 }
 
 } // namespace
@@ -145,7 +147,7 @@ void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("error", "Error of the path");
+    const auto section = ui.section("error", "Path error");
     if (!section) {
         return;
     }
@@ -154,12 +156,18 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
     const auto shown = now.shown();
     const auto start = now.evaluation(GridMethod::uniform);
     if (!shown || !start) { // after a change the shown one comes first
-        ui.note(now.failure().empty() ? "Being computed ..." : now.failure());
+        ui.note(now.failure().empty() ? "Computing \u2026" : now.failure());
         return;
     }
     error_values(ui, now.project, *shown, *start);
-    const widgets::FieldInfo limit{
-        "limit", "Tolerance", "mm", "Moves above it are shown in the signal colour", 1e-6, 1e3, 0.5, 3};
+    const widgets::FieldInfo limit{"limit",
+                                   "Tolerance",
+                                   "mm",
+                                   "Moves with a larger error are highlighted in the signal colour",
+                                   1e-6,
+                                   1e3,
+                                   0.5,
+                                   3};
     if (const auto value = ui.number(now.session.error.limit.value_or(limit.default_value), limit)) {
         ask.show([v = *value](actions::Session& session) { session.error.limit = v; });
     }
@@ -177,9 +185,8 @@ void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) c
         options.push_back({ids[n], ids[n], {}, {}, {}});
         index = ids[n] == now.project.machine.file ? static_cast<int>(n) : index;
     }
-    if (const auto chosen =
-            ui.choice("machine", "Machine", index, options, "The machine that will cut the part")) {
-        ask.edit("Choose the machine", [id = ids[static_cast<std::size_t>(*chosen)]](Project& p) {
+    if (const auto chosen = ui.choice("machine", "Machine", index, options, "Machine used to cut the part")) {
+        ask.edit("Change the machine", [id = ids[static_cast<std::size_t>(*chosen)]](Project& p) {
             p.machine.file = id;
             p.machine.workpiece_offset.reset();
             p.machine.tool_set.reset();
@@ -187,7 +194,7 @@ void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) c
     }
     const Vec3 offset = workpiece_offset(now);
     const widgets::FieldInfo info{
-        "offset", "", "mm", "Where the part's origin lies on the table (a, b, c)", -1e4, 1e4};
+        "offset", "", "mm", "Position of the part origin on the table (a, b, c)", -1e4, 1e4};
     if (const auto value = ui.vec3("offset", "Part on table", {offset.x(), offset.y(), offset.z()}, info)) {
         ask.edit("Move the part on the table",
                  [v = *value](Project& p) { p.machine.workpiece_offset = Vec3(v[0], v[1], v[2]); });
@@ -198,18 +205,17 @@ void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) c
         ask,
         "angles",
         "Angle formulas",
-        "Choose the angle formulas",
+        "Change the angle formulas",
         project::angle_modes(),
         now.project.machine.angle_mode,
         [](Project& p, kinematics::AngleMode m) { p.machine.angle_mode = m; });
     if (now.project.machine.angle_mode != kinematics::AngleMode::consistent) {
-        (void)widgets::banner(
-            ui,
-            "faulty",
-            {widgets::Severity::warning,
-             "These formulas reproduce a fault of the original and tilt the tool wrongly. For "
-             "comparison only.",
-             {}});
+        (void)widgets::banner(ui,
+                              "faulty",
+                              {widgets::Severity::warning,
+                               "These formulas reproduce an error of the original and tilt the tool "
+                               "incorrectly. Use them for comparison only.",
+                               {}});
     }
 }
 
@@ -222,8 +228,8 @@ void ToolpathPanel::draw_singular(Ui& ui, const Workbench& now) const {
         ui.note("None on this surface.");
         return;
     }
-    ui.note("Here the normal lies along the turning axis: the table spins fast nearby, and the error is "
-            "largest.");
+    ui.note("At these points the surface normal is parallel to the rotary axis: nearby, the table rotates "
+            "fast and the error is largest.");
     int n = 1;
     for (const toolpath::SingularPoint& point : now.plan->plan.singular_points) {
         ui.value(fmt::format("p{}", n),

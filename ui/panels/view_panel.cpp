@@ -79,8 +79,8 @@ void drag_arm(const Workbench& now, ActionQueue& ask, const Event& event, Move&&
             ask.show([](actions::Session& session) {
                 actions::tell(session,
                               widgets::Severity::info,
-                              "Nothing was moved: the picture follows the connected arm. Jog it with the "
-                              "buttons at the left.");
+                              "The arm was not moved: the view follows the connected arm. Jog it with the "
+                              "buttons on the left.");
             });
         }
         return;

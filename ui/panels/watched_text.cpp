@@ -4,20 +4,19 @@ namespace millwright::panels {
 
 WatchedLabels watched_labels(grid::ImproverStatus status) {
     if (status == grid::ImproverStatus::running) {
-        return {"Best so far", "Change so far", "Axis so far"};
+        return {"Best so far", "Change so far", "Axis dev. so far"};
     }
-    return {"To curve, kept", "Change", "Axis, kept"};
+    return {"Mean error, kept", "Change", "Axis dev., kept"};
 }
 
 std::string watched_note(const grid::ImproverState& state) {
     if (state.status == grid::ImproverStatus::running) {
-        return "These figures are not the last: at its end the whole path is measured, and a grid that is "
-               "worse there than the start is not kept. The change at the end can be smaller, or none.";
+        return "These values are not final: the whole path is measured at the end, and a grid that is then "
+               "worse than the start grid is not kept. The final change can be smaller, or none.";
     }
     if (state.now.mean < state.of_best.mean) {
-        return "The grid of now has less error in the mean but is not kept: its largest error, the tool axis "
-               "or "
-               "the gap between tracks is worse than at the start.";
+        return "The current grid has a smaller mean error but is not kept: its largest error, tool axis "
+               "deviation or track gap is worse than at the start.";
     }
     return {};
 }

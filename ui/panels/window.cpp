@@ -298,13 +298,13 @@ void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
         const auto pane = ui.pane("program", place, "Program", content_of(now.session));
         listing_.draw(ui, now, ask_);
     } else if (now.session.workspace == Workspace::machine) {
-        const auto pane = ui.pane("hand", place, "By hand", content_of(now.session));
+        const auto pane = ui.pane("hand", place, "Manual control", content_of(now.session));
         machine_.draw_left(ui, now, ask_);
     } else if (now.session.workspace == Workspace::processor) {
         const auto pane = ui.pane("code", place, "Code", content_of(now.session));
         processor_.draw_code(ui, now, ask_);
     } else if (now.session.workspace == Workspace::arm) {
-        const auto pane = ui.pane("hand", place, "By hand", content_of(now.session));
+        const auto pane = ui.pane("hand", place, "Manual control", content_of(now.session));
         arm_jog_.draw(ui, now, ask_);
     } else if (now.session.workspace == Workspace::plot) {
         const auto pane = ui.pane("layers", place, "Plot & Picture", content_of(now.session));

@@ -130,7 +130,7 @@ double half_height(const Camera& camera) {
 Camera::Camera(const CameraPose& pose) : pose_(held(pose)) {
     expects(finite(pose.target) && std::isfinite(pose.distance) && std::isfinite(pose.yaw) &&
                 std::isfinite(pose.pitch),
-            "a camera's place is finite");
+            "a camera's position is finite");
     expects(pose.distance > 0.0, "a camera is away from its target");
 }
 

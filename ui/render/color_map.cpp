@@ -72,7 +72,7 @@ std::string_view name(ColorMap map) {
 }
 
 glm::vec3 sample(ColorMap map, double t) {
-    expects(!std::isnan(t), "a colour map is asked for a number");
+    expects(!std::isnan(t), "the argument of a colour map is a number");
     const Table& colors = table(map);
     const double place = std::clamp(t, 0.0, 1.0) * static_cast<double>(colors.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(place), colors.size() - 2);

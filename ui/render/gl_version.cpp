@@ -9,12 +9,12 @@ std::optional<std::string> too_old() {
     if (epoxy_is_desktop_gl() && version >= 10 * gl_major + gl_minor) {
         return std::nullopt;
     }
-    return "OpenGL 3.3 is needed, this system has " + std::to_string(version / 10) + "." +
+    return "OpenGL 3.3 is required, but this system has " + std::to_string(version / 10) + "." +
            std::to_string(version % 10);
 }
 
 std::string gl_hint() {
-    return "install the driver of your graphics card, or the software renderer (Debian: libgl1-mesa-dri)";
+    return "install the graphics driver or the software renderer (Debian: libgl1-mesa-dri)";
 }
 
 } // namespace millwright::render

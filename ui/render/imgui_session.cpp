@@ -134,7 +134,7 @@ void ImGuiSession::begin_frame() {
 }
 
 void ImGuiSession::begin_frame(const InputState& input) {
-    expects(input.seconds > 0.0F, "time goes on between frames");
+    expects(input.seconds > 0.0F, "time increases between frames");
     begin_back_ends();
     put_input(ImGui::GetIO(), input);
     ImGui::NewFrame();

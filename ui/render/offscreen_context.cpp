@@ -29,7 +29,7 @@ bool has_extension(EGLDisplay display, std::string_view extension) {
 /// The display stays open until the process ends: it is the same for everyone who asks for it.
 EGLDisplay opened_display() {
     if (!epoxy_has_egl()) { // loaded at run time: most commands do without
-        no_gl("there is no EGL");
+        no_gl("EGL is not available");
     }
     EGLDisplay display = EGL_NO_DISPLAY;
     if (has_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
@@ -43,24 +43,24 @@ EGLDisplay opened_display() {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
         display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
         if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
-            no_gl("EGL does not start");
+            no_gl("EGL cannot be initialised");
         }
     }
     if (!has_extension(display, "EGL_KHR_surfaceless_context")) {
-        no_gl("EGL cannot draw without a surface");
+        no_gl("EGL does not support surfaceless contexts");
     }
     return display;
 }
 
 EGLContext new_context(EGLDisplay display) {
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) {
-        no_gl("EGL has no OpenGL");
+        no_gl("EGL does not support OpenGL");
     }
     constexpr std::array wanted = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = EGL_NO_CONFIG_KHR;
     EGLint count = 0;
     if (eglChooseConfig(display, wanted.data(), &config, 1, &count) == EGL_FALSE || count == 0) {
-        no_gl("EGL has no OpenGL configuration");
+        no_gl("EGL offers no OpenGL configuration");
     }
     constexpr std::array attributes = {EGL_CONTEXT_MAJOR_VERSION,
                                        gl_major,
@@ -71,7 +71,7 @@ EGLContext new_context(EGLDisplay display) {
                                        EGL_NONE};
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     if (context == EGL_NO_CONTEXT) {
-        no_gl("there is no OpenGL 3.3");
+        no_gl("OpenGL 3.3 is not available");
     }
     return context;
 }
@@ -94,7 +94,7 @@ public:
 
     void make_current() const {
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-            no_gl("EGL does not accept its own context");
+            no_gl("the EGL context cannot be activated");
         }
     }
 

@@ -30,7 +30,7 @@ std::string to_png(const Picture& picture) {
     std::string bytes;
     const int stride = width * static_cast<int>(sizeof(Pixel));
     const int done = stbi_write_png_to_func(append, &bytes, width, height, 4, picture.pixels.data(), stride);
-    expects(done != 0 && !bytes.empty(), "a picture in memory becomes a PNG");
+    expects(done != 0 && !bytes.empty(), "a picture can be encoded as PNG");
     return bytes;
 }
 
@@ -48,7 +48,7 @@ Picture from_image_bytes(std::string_view bytes, const std::filesystem::path& na
     if (!decoded) {
         throw Error(std::string("cannot read the picture: ") + stbi_failure_reason(),
                     name,
-                    "PNG, JPEG and BMP files can be read");
+                    "use a PNG, JPEG or BMP file");
     }
     Picture picture = filled(size, Pixel{});
     std::memcpy(picture.pixels.data(), decoded.get(), picture.pixels.size() * sizeof(Pixel));

@@ -53,7 +53,7 @@ void check_linked(GLuint program) {
     glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
     glGetProgramInfoLog(program, length, &length, log.data());
-    throw Defect("shaders do not fit together: " + log.substr(0, static_cast<std::size_t>(length)));
+    throw Defect("shaders do not link: " + log.substr(0, static_cast<std::size_t>(length)));
 }
 
 } // namespace

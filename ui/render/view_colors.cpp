@@ -128,7 +128,7 @@ std::span<const LayerColorInfo> layer_color_infos() {
          {LayerColor::grid_u, "grid_u", "Grid lines along u"},
          {LayerColor::grid_v, "grid_v", "Grid lines along v"},
          {LayerColor::toolpath, "toolpath", "Toolpath"},
-         {LayerColor::axis_names, "axis_names", "Names of the axes"},
+         {LayerColor::axis_names, "axis_names", "Axis names"},
          {LayerColor::axis_x, "axis_x", "X axis"},
          {LayerColor::axis_y, "axis_y", "Y axis"},
          {LayerColor::axis_z, "axis_z", "Z axis"}}};

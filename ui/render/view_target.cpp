@@ -23,7 +23,7 @@ void ViewTarget::begin(const PixelSize& size, Edges edges) {
 }
 
 void ViewTarget::end() {
-    expects(picture_.has_value(), "a view's drawing has begun before it ends");
+    expects(picture_.has_value(), "drawing of a view starts before it ends");
     if (edges_ == Edges::smooth) {
         picture_->resolve();
     }

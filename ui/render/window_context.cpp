@@ -23,7 +23,7 @@ namespace {
 std::string glfw_reason() {
     const char* text = nullptr;
     glfwGetError(&text);
-    return text != nullptr ? text : "no reason given";
+    return text != nullptr ? text : "unknown reason";
 }
 
 [[noreturn]] void no_window(const std::string& why, const std::string& hint) {
@@ -39,9 +39,9 @@ public:
         // Asking before GLFW does gives a plainer sentence.
         const char* display = std::getenv("DISPLAY");
         const std::string hint =
-            "start the program in a desktop session, or use the commands that need no window";
+            "start the program in a desktop session, or use the commands that do not open a window";
         if (display == nullptr || *display == '\0') {
-            no_window("there is no display (DISPLAY is not set)", hint);
+            no_window("no display is available (DISPLAY is not set)", hint);
         }
 #ifdef GLFW_PLATFORM_X11 // since 3.4 GLFW also knows Wayland, where the loss of the display is not noticed
         glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);

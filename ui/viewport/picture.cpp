@@ -51,7 +51,7 @@ std::vector<Part> parts_of(const project::Project& project,
     }
     if (kind == ViewKind::produced) {
         if (std::string note = produced_note(part.scene); !note.empty()) {
-            throw Error(std::move(note), {}, "--view toolpath and --view error draw this path");
+            throw Error(std::move(note), {}, "use --view toolpath or --view error to draw this path");
         }
         part.caption = "Produced";
         Part designed = {.scene = part.scene, .caption = "Designed"};

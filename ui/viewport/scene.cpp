@@ -170,7 +170,7 @@ SurfaceColors surface_colors(const Scene& scene) {
 }
 
 render::ColorScale weight_colors(const Scene& scene) {
-    expects(scene.weight != nullptr, "there is a weight to be coloured");
+    expects(scene.weight != nullptr, "a weight is available for colouring");
     const plan::WeightMap& weight = *scene.weight;
     const bool constant = !(weight.high > weight.low); // its legend has a range all the same
     const double above = constant ? std::max(std::abs(weight.low), 1.0) : 0.0;
@@ -181,26 +181,26 @@ render::ColorScale weight_colors(const Scene& scene) {
 }
 
 render::ColorScale deviation_colors(const Scene& scene) {
-    expects(scene.reference != nullptr, "there are deviations to be coloured");
+    expects(scene.reference != nullptr, "deviations are available for colouring");
     const double top = round_up(std::max(scene.reference->largest, finest_scale_mm));
     return {.map = scene.error.map, .low = -top, .high = top};
 }
 
 render::ColorScale depth_colors(const Scene& scene) {
-    expects(scene.plot != nullptr && scene.plot->carved, "there are depths to be coloured");
+    expects(scene.plot != nullptr && scene.plot->carved, "depths are available for colouring");
     return {
         .map = scene.error.map, .low = 0.0, .high = std::max(scene.plot->carved->deepest, finest_scale_mm)};
 }
 
 render::ColorScale scallop_colors(const Scene& scene, const glm::vec3& over_limit) {
-    expects(scene.cut != nullptr, "there are scallops to be coloured");
+    expects(scene.cut != nullptr, "scallops are available for colouring");
     constexpr double above_most = 1.5;
     const double top = round_up(std::max(above_most * scene.cut->scallops.p95, finest_scale_mm));
     return {.map = scene.error.map, .low = 0.0, .high = top, .limit = top, .over_limit = over_limit};
 }
 
 render::ColorScale set_up_colors(const Scene& scene) {
-    expects(scene.set_up && scene.set_up->study, "there is a map to be coloured");
+    expects(scene.set_up && scene.set_up->study, "a map is available for colouring");
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
     for (const double cost : scene.set_up->study->map.costs) {

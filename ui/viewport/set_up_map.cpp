@@ -23,7 +23,7 @@ widgets::MapPlace on_map(const toolpath::SetUpMap& map, const toolpath::SetUpPla
 } // namespace
 
 std::string_view title(toolpath::SetUpGoal goal) {
-    return goal == toolpath::SetUpGoal::error ? "mean to the curve" : "way of the linear axes";
+    return goal == toolpath::SetUpGoal::error ? "mean distance to curve" : "travel of the linear axes";
 }
 
 SetUpMapView::SetUpMapView(const toolpath::SetUpMap& map,
@@ -37,7 +37,7 @@ SetUpMapView::SetUpMapView(const toolpath::SetUpMap& map,
     view.y_label = plan::name(map.up);
     view.y_unit = plan::unit(map.up);
     view.unit = "mm";
-    view.when_empty = "No place of the map is in reach.";
+    view.when_empty = "All positions of the map are out of reach.";
     view.x = x;
     view.y = y;
     view.values = map.costs;

@@ -129,16 +129,16 @@ struct Viewport::State {
         const bool flat = now().camera().pose().projection != Projection::perspective;
         const bool four = arrangement == Arrangement::four;
         bool changed = false;
-        if (button("fit", widgets::icons::fit_view, "Fit everything in the view (F)", false)) {
+        if (button("fit", widgets::icons::fit_view, "Zoom to fit (F)", false)) {
             fit();
             changed = true;
         }
-        if (button("parallel", widgets::icons::projection, "Parallel lines stay parallel (P)", flat)) {
+        if (button("parallel", widgets::icons::projection, "Orthographic / perspective (P)", flat)) {
             set_projection(flat ? Projection::perspective : Projection::orthographic);
             changed = true;
         }
         if (!paired() &&
-            button("four", widgets::icons::grid, "Four views: top, front, right and free", four)) {
+            button("four", widgets::icons::grid, "Four views: top, front, right and isometric", four)) {
             arrange(four ? Arrangement::one : Arrangement::four);
             changed = true;
         }

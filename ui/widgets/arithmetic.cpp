@@ -32,7 +32,7 @@ Evaluated refused(std::string reason) {
 
 Evaluated finite(std::string_view text, double value) {
     if (!std::isfinite(value)) {
-        return refused(fmt::format("\"{}\" has no finite value.", text));
+        return refused(fmt::format("The value of \"{}\" is not finite.", text));
     }
     return {value, {}};
 }
@@ -63,10 +63,10 @@ Evaluated in_range(Evaluated found, const FieldInfo& info) {
 Evaluated evaluate(std::string_view text, std::string_view unit) {
     const std::string_view formula = without_unit(trimmed(text), unit);
     if (formula.empty()) {
-        return refused("Type a number.");
+        return refused("Enter a number.");
     }
     if (formula.size() > longest_text) {
-        return refused("This is too long for a number.");
+        return refused("The expression is too long.");
     }
     const QuietFloats quiet;
     try {
@@ -75,7 +75,7 @@ Evaluated evaluate(std::string_view text, std::string_view unit) {
         int values = 0;
         const mu::value_type* results = parser.Eval(values);
         if (values != 1) {
-            return refused("Write a point, not a comma.");
+            return refused("Use a decimal point, not a comma.");
         }
         return finite(formula, results[0]);
     } catch (const mu::Parser::exception_type&) {

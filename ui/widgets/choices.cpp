@@ -23,7 +23,7 @@ std::string option_path(const std::string& own, const Option& option) {
 }
 
 void expect_index(const std::string& own, int now, std::span<const Option> options) {
-    expects(now >= 0 && now < std::ssize(options), "what is chosen is one of the options: " + own);
+    expects(now >= 0 && now < std::ssize(options), "the selected index is one of the options: " + own);
 }
 
 /// The rows of an open popup.

@@ -132,10 +132,11 @@ private:
     }
 
     void report(const fs::path& file, std::string_view what) {
-        diagnostics_.push_back({.place = {.file = file},
-                                .message = "font: " + std::string(what),
-                                .hint = "another font is used; install fonts-inter, fonts-dejavu-core and "
-                                        "fonts-font-awesome"});
+        diagnostics_.push_back(
+            {.place = {.file = file},
+             .message = "font: " + std::string(what),
+             .hint =
+                 "a substitute font is used; install fonts-inter, fonts-dejavu-core and fonts-font-awesome"});
     }
 
     ImFontAtlas& atlas_;
@@ -203,7 +204,7 @@ LoadedFonts load_fonts(ImFontAtlas& atlas, float scale, const FontFiles& files) 
     std::vector<Diagnostic> diagnostics = loader.diagnostics();
     if (!atlas.Build()) {
         diagnostics.push_back(
-            {.place = {}, .message = "font: no atlas can be built of these fonts", .hint = {}});
+            {.place = {}, .message = "font: no font atlas can be built from these fonts", .hint = {}});
         return {built_in_font(atlas), std::move(diagnostics)};
     }
     for (ImFont* font : {fonts.text, fonts.strong, fonts.small, fonts.digits}) {

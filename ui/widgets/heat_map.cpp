@@ -267,7 +267,7 @@ void draw_marks(Ui& ui, const Mapping& mapping, const HeatMapView& view) {
 } // namespace
 
 std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView& view) {
-    expects(view.values.size() == view.x.size() * view.y.size(), "a map has a value a column and row");
+    expects(view.values.size() == view.x.size() * view.y.size(), "a map has one value per column and row");
     const std::string own = ui.path(id);
     const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, ui.px(least_map_height));
     const Slot slot(ui, 0.0F, height);

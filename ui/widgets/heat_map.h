@@ -34,7 +34,7 @@ struct HeatMapView {
     std::function<std::string(std::size_t column, std::size_t row)> readout = {};
     bool same_scale = false; ///< x and y have one unit and are as long: the map is as wide as that makes it
     float height = 0.0F;     ///< 0: all that is left, at least 80 px at scale 1
-    std::string_view when_empty = "Nothing to show yet.";
+    std::string_view when_empty = "No data yet.";
 };
 
 /// The place that was just clicked, on the map. The mouse over it reads out the nearest value. Throws Defect

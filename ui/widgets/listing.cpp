@@ -170,7 +170,7 @@ float draw_line(Ui& ui,
 } // namespace
 
 std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const ListingView& view) {
-    expects(view.lines >= 0 && (view.lines == 0 || view.line), "a listing can tell its lines");
+    expects(view.lines >= 0 && (view.lines == 0 || view.line), "a listing provides its lines");
     const std::string own = ui.path(id);
     const float row_height = std::round(ui.look().fonts.mono->FontSize + ui.px(3.0F));
     const float height = view.height > 0.0F ? view.height : std::max(ui.rest().h, row_height);

@@ -71,7 +71,7 @@ bool reset_button(Ui& ui, const std::string& path, const Rect& field, const Fiel
     const float unit = info.unit.empty() ? 0.0F : text_width(ui.look().fonts.text, info.unit) + ui.px(6.0F);
     const float width = ui.px(reset_width);
     const Rect place{field.right() - ui.px(7.0F) - unit - width, field.y, width, field.h};
-    const std::string tip = "Back to " + fixed(info.default_value, info.decimals) +
+    const std::string tip = "Reset to " + fixed(info.default_value, info.decimals) +
                             (info.unit.empty() ? "" : " " + std::string(info.unit));
     const Press now = press(ui, path + ".reset", place, {}, tip, Reach::mouse);
     const Colour colour = now.hovered ? ui.colours().accent : faded(ui.colours().muted, 0.8);

@@ -34,7 +34,7 @@ void Places::leave() noexcept {
 void Places::record(std::string path, Seen seen) {
     expects(!path.empty() && path.back() != '/', "a widget has an id");
     const auto [at, is_new] = seen_.try_emplace(std::move(path), std::move(seen));
-    expects(is_new, "the path of a widget is used once in a frame: " + at->first);
+    expects(is_new, "the path of a widget is used once per frame: " + at->first);
 }
 
 } // namespace millwright::widgets

@@ -43,7 +43,7 @@ struct PlotView {
     std::span<const AxisTick> x_ticks = {}; ///< ascending; empty: round numbers
     bool has_key = true;                    ///< the series' labels above the plot
     float height = 0.0F;                    ///< 0: all that is left, at least 80 px at scale 1
-    std::string_view when_empty = "Nothing to plot yet.";
+    std::string_view when_empty = "No data to plot yet.";
 };
 
 /// The x that was just clicked, inside the range of x. The mouse over it reads out the values nearest in x.

@@ -63,7 +63,7 @@ void draw_list_item(Ui& ui, std::string_view text) {
 }
 
 void draw_block(Ui& ui, const ReadingBlock& block) {
-    expects(block.cells.size() == 1, "what is no row of a table has one text");
+    expects(block.cells.size() == 1, "a block other than a table row has one text");
     const std::string& text = block.cells.front();
     switch (block.kind) {
     case ReadingKind::heading:

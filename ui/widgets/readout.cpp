@@ -42,15 +42,15 @@ Colour digit_colour(const Palette& colours, AxisState state) {
 std::string_view state_tip(AxisState state) {
     switch (state) {
     case AxisState::near_limit:
-        return "Near the end of its travel.";
+        return "Near the travel limit.";
     case AxisState::beyond_limit:
-        return "Beyond its travel.";
+        return "Beyond the travel limit.";
     case AxisState::at_switch:
-        return "Its limit switch is pressed.";
+        return "The limit switch is pressed.";
     case AxisState::not_homed:
-        return "Not homed or in doubt: where it is is not known for certain.";
+        return "Not homed or not verified: the position is uncertain.";
     case AxisState::old:
-        return "As the machine told it last; where it is now is not known.";
+        return "Last reported position; the current position is unknown.";
     case AxisState::normal:
         break;
     }

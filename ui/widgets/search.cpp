@@ -263,7 +263,7 @@ void Search::type_letters(Ui& ui) {
     }
     const std::string before = letters_;
     entered_ = ImGui::InputTextWithHint(
-        "##letters", "What do you want to do?", &letters_, ImGuiInputTextFlags_EnterReturnsTrue);
+        "##letters", "Search commands and settings", &letters_, ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
     record_at(ui, ui.path("letters"), all);

@@ -30,7 +30,7 @@ struct TableView {
     std::ptrdiff_t wanted = -1; ///< brought into sight in this frame; -1: none
     std::function<bool(std::ptrdiff_t row, int column)> is_muted = {}; ///< greyed; empty: none is
     float height = 0.0F; ///< of the whole table; 0: as its rows need
-    std::string_view when_empty = "Nothing here yet.";
+    std::string_view when_empty = "No entries yet.";
 };
 
 /// The row just clicked. Where the box is too narrow for its columns it scrolls sideways; numbers are never

@@ -44,7 +44,7 @@ std::optional<TimelineAsk> speed_choice(Ui& ui, double now) {
         options.push_back({.id = "now", .label = own});
     }
     const auto width = ui.width(ui.px(speed_width));
-    const auto chosen = ui.choice("speed", "", index, options, "Speed of the playback, times real time.");
+    const auto chosen = ui.choice("speed", "", index, options, "Playback speed, as a factor of real time.");
     if (!chosen || *chosen >= std::ssize(speeds)) {
         return std::nullopt;
     }
@@ -59,15 +59,15 @@ std::optional<TimelineAsk> transport(Ui& ui, const TimelineView& view) {
         }
         ui.beside();
     };
-    button("first", icons::skip_first, "To the start", Kind::first);
-    button("back", icons::step_back, "One block back", Kind::back);
+    button("first", icons::skip_first, "Go to the start", Kind::first);
+    button("back", icons::step_back, "Previous block", Kind::back);
     if (view.is_playing) {
         button("play", icons::pause, "Pause", Kind::pause);
     } else {
         button("play", icons::play, "Play", Kind::play);
     }
-    button("step", icons::step_forward, "One block on", Kind::step);
-    button("last", icons::skip_last, "To the end", Kind::last);
+    button("step", icons::step_forward, "Next block", Kind::step);
+    button("last", icons::skip_last, "Go to the end", Kind::last);
     return ask;
 }
 
@@ -211,7 +211,7 @@ void draw_timeline_key(Ui& ui, std::span<const TimelineSeries> series) {
 } // namespace
 
 std::optional<TimelineAsk> timeline(Ui& ui, std::string_view id, const TimelineView& view) {
-    expects(std::isfinite(view.fraction) && std::isfinite(view.speed), "a timeline stands somewhere");
+    expects(std::isfinite(view.fraction) && std::isfinite(view.speed), "a timeline has a position");
     const auto scope = ui.scope(id);
     std::optional<TimelineAsk> ask = transport(ui, view);
     where(ui, view);

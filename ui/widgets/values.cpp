@@ -135,7 +135,7 @@ bool Ui::progress(std::string_view id, std::string_view text, double fraction, c
 
     const Rect button{place.right() + px(gaps::small), all.y, cancel_width, all.h};
     const Press now =
-        press(*this, own + "/cancel", button, cancel, "Stops this work; the project stays as it was.");
+        press(*this, own + "/cancel", button, cancel, "Cancel this operation; the project is not changed.");
     fill(button, now.hovered ? colours().hover : colours().raised, px(gaps::rounding));
     draw_text(*this,
               look_.fonts.text,

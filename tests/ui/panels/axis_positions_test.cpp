@@ -34,12 +34,12 @@ TEST(AxisPositions, AMachineThatStandsAtTheEndOfItsTravelIsNotBeyondIt) {
 TEST(AxisPositions, SayWhyDigitsHaveAColour) {
     std::array<AxisReading, 3> axes{
         AxisReading{"X", 0.0, "mm"}, AxisReading{"Y", 0.0, "mm"}, AxisReading{"Z", 0.0, "mm"}};
-    EXPECT_EQ(travel_words(axes).text, "Within the travel");
+    EXPECT_EQ(travel_words(axes).text, "Within travel limits");
     axes[0].state = axes[2].state = AxisState::near_limit;
-    EXPECT_EQ(travel_words(axes).text, "Near the end of the travel: X, Z");
+    EXPECT_EQ(travel_words(axes).text, "Near travel limit: X, Z");
     EXPECT_EQ(travel_words(axes).tone, widgets::Tone::warning);
     axes[1].state = AxisState::beyond_limit;
-    EXPECT_EQ(travel_words(axes).text, "Beyond the travel: Y");
+    EXPECT_EQ(travel_words(axes).text, "Beyond travel limit: Y");
     EXPECT_EQ(travel_words(axes).tone, widgets::Tone::danger);
 }
 

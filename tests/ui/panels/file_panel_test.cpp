@@ -314,7 +314,7 @@ TEST_F(FileDialog, ImportBeginsWhereTheLastSurfaceCameFrom) {
 
 TEST(AskedFile, SaysWhichKindsThereAre) {
     EXPECT_EQ(about(actions::FileQuestion::import_surface).none,
-              "No STEP, IGES, STL, OBJ or PLY files and no files of points here.");
+              "No STEP, IGES, STL, OBJ, PLY or point files in this folder.");
     const std::string kinds = ending_text(about(actions::FileQuestion::export_surface));
     for (const char* ending : {".step", ".glb", ".stl", ".obj", ".ply"}) {
         EXPECT_NE(kinds.find(ending), std::string::npos) << ending;

@@ -122,7 +122,7 @@ TEST_F(Import, OfTheProjectsPathNothingIsPlottedBesideWhatIsLookedAt) {
     EXPECT_TRUE(person_.sees("lower/error"));
     drop(written("sine.stl", surface_in("assets/projects/sine.json")));
     EXPECT_FALSE(person_.sees("lower/error"));
-    EXPECT_EQ(person_.refusal("timeline/timeline/play"), "What is being imported has no program yet.");
+    EXPECT_EQ(person_.refusal("timeline/timeline/play"), "The imported surface has no program yet.");
     person_.keep("import-no-path");
     person_.press_key(render::Key::f4); // where the project is on screen
     EXPECT_TRUE(person_.sees("lower/error"));

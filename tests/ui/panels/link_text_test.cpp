@@ -15,20 +15,21 @@ grid::ImproverLink link() {
 TEST(LinkText, HasTheToolAxisBesideTheTip) {
     EXPECT_EQ(link_figures(link(), true), "0.448 / 0.260 / 15.0");
     EXPECT_EQ(link_tip(link(), true),
-              "all nodes at once, exponent 4: 0.5123 / 0.2600 mm, axis 17.19 deg at its end.");
+              "all nodes at once, exponent 4: 0.5123 / 0.2600 mm, axis 17.19 deg at the end of this stage.");
 }
 
 TEST(LinkText, HasNoToolAxisWhereTheMachineCannotTurnIt) {
     EXPECT_EQ(link_figures(link(), false), "0.448 / 0.260 / -");
-    EXPECT_EQ(link_tip(link(), false), "all nodes at once, exponent 4: 0.5123 / 0.2600 mm at its end.");
+    EXPECT_EQ(link_tip(link(), false),
+              "all nodes at once, exponent 4: 0.5123 / 0.2600 mm at the end of this stage.");
 }
 
 TEST(LinkText, SaysWhyTheNodesWereNotTaken) {
     grid::ImproverLink refused = link();
     refused.refused = "tracks too far apart";
-    EXPECT_EQ(
-        link_tip(refused, false),
-        "all nodes at once, exponent 4: 0.5123 / 0.2600 mm at its end, not taken: tracks too far apart.");
+    EXPECT_EQ(link_tip(refused, false),
+              "all nodes at once, exponent 4: 0.5123 / 0.2600 mm at the end of this stage, rejected: tracks "
+              "too far apart.");
 }
 
 } // namespace

@@ -229,7 +229,7 @@ TEST_F(MachineLinuxCnc, ShowsFiveAxesAndJogsThoseThatItCan) {
     test::connect(person);
     person.frames(3);
     EXPECT_TRUE(person.sees("hand/position/axes/C"));
-    EXPECT_THAT(person.refusal("hand/jog/plus_A"), HasSubstr("jogs XYZ alone"));
+    EXPECT_THAT(person.refusal("hand/jog/plus_A"), HasSubstr("can only jog XYZ"));
     person.keep("machine-linuxcnc-five-axes");
 }
 

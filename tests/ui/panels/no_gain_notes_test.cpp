@@ -30,7 +30,7 @@ TEST(NoGainNotes, TellWhyAGridBesideTheProgramsIsTheUniformOne) {
     ASSERT_EQ(person.workshop().look().evaluation(GridMethod::elliptic)->outcome.status,
               grid::ImproverStatus::no_gain);
     EXPECT_THAT(no_gain_notes(person.workshop().look()),
-                ElementsAre(StartsWith("Elliptic, as uniform: No grid was better than the start grid")));
+                ElementsAre(StartsWith("Elliptic, same as uniform: No grid was better than the start grid")));
     person.keep("grid-no-gain");
     change(5, GridMethod::elliptic); // whose note is that of the program
     EXPECT_THAT(no_gain_notes(person.workshop().look()), IsEmpty());

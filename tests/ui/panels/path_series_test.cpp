@@ -74,14 +74,14 @@ protected:
 };
 
 TEST_F(PlottedPaths, AreThatOnScreenAndTheUniformOneToCompareItWith) {
-    EXPECT_THAT(names(), ElementsAre("Uniform", "Track optimiser, the program's path"));
+    EXPECT_THAT(names(), ElementsAre("Uniform", "Track optimiser, program path"));
     person_.keep("plotted-program");
     run("view.show_elliptic");
-    EXPECT_THAT(names(), ElementsAre("Uniform", "Elliptic (as uniform)"));
+    EXPECT_THAT(names(), ElementsAre("Uniform", "Elliptic (same as uniform)"));
     run("view.show_uniform");
     EXPECT_THAT(names(), ElementsAre("Uniform"));
     person_.choose("inspector/error/beside", "elliptic");
-    EXPECT_THAT(names(), ElementsAre("Elliptic (as uniform)", "Uniform"));
+    EXPECT_THAT(names(), ElementsAre("Elliptic (same as uniform)", "Uniform"));
     person_.frames();
     person_.keep("plotted-beside");
     person_.press_key(render::Key::f3);
@@ -90,17 +90,17 @@ TEST_F(PlottedPaths, AreThatOnScreenAndTheUniformOneToCompareItWith) {
 
 TEST_F(PlottedPaths, OfAGridThatIsOnlyWatchedThereIsNoneAndTheProgramsStands) {
     run("grid.adapt");
-    EXPECT_THAT(names(), ElementsAre("Uniform", "Elliptic (as uniform)"));
+    EXPECT_THAT(names(), ElementsAre("Uniform", "Elliptic (same as uniform)"));
     run("grid.chain"); // the second one that is watched has no path
-    EXPECT_THAT(names(), ElementsAre("Uniform", "Track optimiser, the program's path"));
+    EXPECT_THAT(names(), ElementsAre("Uniform", "Track optimiser, program path"));
     person_.keep("plotted-watched");
     person_.press_key(render::Key::f4);
-    EXPECT_THAT(names(), ElementsAre("Uniform", "Track optimiser, the program's path"));
+    EXPECT_THAT(names(), ElementsAre("Uniform", "Track optimiser, program path"));
     run("path.spiral");
     run("grid.adapt");
     run("grid.use_elliptic");
     ASSERT_EQ(person_.project().grid.method, GridMethod::elliptic);
-    EXPECT_THAT(names(), ElementsAre("Uniform", "Spiral, the program's path"));
+    EXPECT_THAT(names(), ElementsAre("Uniform", "Spiral, program path"));
 }
 
 TEST_F(PlottedPaths, AreMarkedSoFarAndNoneWhereAFileIsOnScreen) {
@@ -110,7 +110,7 @@ TEST_F(PlottedPaths, AreMarkedSoFarAndNoneWhereAFileIsOnScreen) {
     coarse.outcome.status = grid::ImproverStatus::running;
     plan.plan.optimised = std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
-    EXPECT_EQ(plotted_paths(now).back().name, "Track optimiser, the program's path (so far)");
+    EXPECT_EQ(plotted_paths(now).back().name, "Track optimiser, program path (preliminary)");
     const auto file = person_.folder() / "part.ngc";
     std::ofstream(file) << "G21 G90 F600\nG1 X10\nM2\n";
     person_.open(file);

@@ -71,7 +71,7 @@ TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
     EXPECT_GT(way.part_length(), 250.0); // what the plot draws, and travel
 }
 
-// "Has gone ... of" and "Way": one number, of the program that is played.
+// "Travelled" and "Travel incl. lifts": one number, of the program that is played.
 TEST(PlotWorkspace, TheWayThatIsToldIsTheOneThatIsGone) {
     PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const auto differ = [&] {
@@ -344,7 +344,7 @@ TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
     bench.person.workshop().session().workspace = Workspace::plot;
     bench.person.frames(3);
     ASSERT_TRUE(bench.person.workshop().look().job.running);
-    EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job runs"));
+    EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job is running"));
     bench.person.keep("plot-beside-a-job");
     bench.person.workshop().run("machine.stop");
     EXPECT_TRUE(bench.person.live_until([&] { return !bench.person.workshop().look().job.running; }));
@@ -511,8 +511,8 @@ TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
     bench.person.workshop().session().layers_now().toolpath = false;
     bench.person.frames(3);
     EXPECT_GT(drawn, bench.pixels_like(red) + 1000);
-    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("as it stands"));
-    EXPECT_THAT(bench.person.refusal("inspector/travel/order"), HasSubstr("as it stands"));
+    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));
+    EXPECT_THAT(bench.person.refusal("inspector/travel/order"), HasSubstr("cut unchanged"));
     EXPECT_THAT(bench.person.refusal("inspector/cutter/tool_mm"), testing::IsEmpty()); // how wide it cuts
 }
 
@@ -526,7 +526,7 @@ TEST(PlotWorkspace, GCodeThatIsDroppedHereIsCutAsItStands) {
     EXPECT_NEAR(bench.made().lengths.cut, 438.2848, 1e-2);
     EXPECT_NEAR(bench.made().lengths.travel, 80.2905, 1e-3);
     EXPECT_EQ(bench.made().path->front().at, Vec3(10, 10, 10));
-    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("as it stands"));
+    EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));
     EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), testing::IsEmpty());
     EXPECT_TRUE(bench.person.workshop().look().in_file()); // its program can be played
     bench.person.keep("plot-gcode");

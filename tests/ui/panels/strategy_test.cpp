@@ -81,7 +81,7 @@ TEST_F(Strategies, WhatACoarseSpiralSaysOfItsGridIsSoFar) {
     coarse.outcome.status = grid::ImproverStatus::running;
     plan.plan.path = std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
-    EXPECT_THAT(grid_note(now), StartsWith(exact + " So far: measured coarsely"));
+    EXPECT_THAT(grid_note(now), StartsWith(exact + " Preliminary: measured coarsely"));
 }
 
 TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {

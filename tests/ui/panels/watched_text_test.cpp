@@ -20,8 +20,8 @@ grid::ImproverState state(ImproverStatus status, double now, double best) {
 TEST(WatchedText, CallsNothingKeptWhileItRuns) {
     EXPECT_EQ(watched_labels(ImproverStatus::running).best, "Best so far");
     EXPECT_EQ(watched_labels(ImproverStatus::running).change, "Change so far");
-    EXPECT_THAT(watched_note(state(ImproverStatus::running, 0.7, 0.67)), HasSubstr("not the last"));
-    EXPECT_EQ(watched_labels(ImproverStatus::converged).best, "To curve, kept");
+    EXPECT_THAT(watched_note(state(ImproverStatus::running, 0.7, 0.67)), HasSubstr("not final"));
+    EXPECT_EQ(watched_labels(ImproverStatus::converged).best, "Mean error, kept");
 }
 
 TEST(WatchedText, SaysAtTheEndWhyAGridWithLessErrorIsNotKept) {

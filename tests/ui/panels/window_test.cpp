@@ -156,7 +156,7 @@ TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     carried.outcome.status = grid::ImproverStatus::running;
     plan.plan.evaluation(GridMethod::elliptic) = std::make_shared<const plan::Evaluation>(std::move(carried));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
-    EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (so far)");
+    EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (preliminary)");
 }
 
 TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {

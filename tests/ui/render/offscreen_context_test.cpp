@@ -91,7 +91,7 @@ protected:
 TEST_F(WithoutOpenGl, SaysThatThereIsNoEgl) {
     EXPECT_EXIT(open_or_say_why("__EGL_VENDOR_LIBRARY_FILENAMES", "/none.json"),
                 ::testing::ExitedWithCode(1),
-                "cannot draw without a display: .*EGL.*install the driver");
+                "cannot draw without a display: .*EGL.*install the graphics driver");
 }
 
 TEST_F(WithoutOpenGl, SaysThatOpenGlIsTooOld) {

@@ -52,8 +52,8 @@ std::string reason_without(const char* display) {
 TEST(WindowContext, SaysThatThereIsNoDisplay) {
     EXPECT_EQ(
         reason_without(nullptr),
-        "cannot open a window: there is no display (DISPLAY is not set) (start the program in a desktop "
-        "session, or use the commands that need no window)");
+        "cannot open a window: no display is available (DISPLAY is not set) (start the program in a desktop "
+        "session, or use the commands that do not open a window)");
 }
 
 TEST(WindowContext, NamesTheDisplayThatDoesNotAnswer) {

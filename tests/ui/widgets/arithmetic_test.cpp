@@ -49,7 +49,7 @@ TEST(Arithmetic, RefusesWhatIsNoFiniteNumberAndSaysWhy) {
 TEST(Arithmetic, ADecimalCommaIsRefusedNotReadAsAnotherNumber) {
     const Evaluated found = evaluate("25,4");
     EXPECT_FALSE(found.value.has_value());
-    EXPECT_EQ(found.reason, "Write a point, not a comma.");
+    EXPECT_EQ(found.reason, "Use a decimal point, not a comma.");
 }
 
 TEST(Arithmetic, DeepNestingIsRefusedNotACrash) {

@@ -133,7 +133,7 @@ std::string grid_lines_note(const Scene& scene, const render::View& view) {
     return times(line_numbers(nodes->rows, lines.each_row).size(),
                  line_numbers(nodes->columns, lines.each_column).size()) +
            " of " + times(static_cast<std::size_t>(nodes->rows), static_cast<std::size_t>(nodes->columns)) +
-           " grid lines are drawn";
+           " grid lines are displayed";
 }
 
 } // namespace millwright::viewport

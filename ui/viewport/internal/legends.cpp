@@ -44,46 +44,47 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
         found.push_back({"legend",
                          "Error",
                          "mm",
-                         "The largest distance of the tool's true way from the surface, move by move.",
+                         "Largest distance of the true tool path from the surface, for each move.",
                          error_colors(scene, colors.over_limit),
                          scene.shown->closest.max});
     }
     if (surface == SurfaceColors::scallop) {
         found.push_back(
             {"scallop_legend",
-             "Left",
+             "Scallop",
              "mm",
-             "The height of what the cutter leaves; the signal colour is higher, or not cut at all.",
+             "Scallop height. The signal colour marks larger values and areas that are not machined.",
              scallop_colors(scene, colors.over_limit)});
     }
     if (scene.layers.set_up_map && scene.set_up && scene.set_up->study && reaches(*scene.set_up->study)) {
         found.push_back({"set_up_legend",
                          "Set-up",
                          "mm",
-                         "What the path costs with the part there: its mean error, or the machine's travel.",
+                         "Value with the part at that position: mean error or machine travel.",
                          set_up_colors(scene)});
     }
     if (surface == SurfaceColors::deviation) {
-        found.push_back({"deviation_legend",
-                         "Deviation",
-                         "mm",
-                         "Distance of the imported triangles from the patch; above zero on the side of its "
-                         "normal.",
-                         deviation_colors(scene)});
+        found.push_back(
+            {"deviation_legend",
+             "Deviation",
+             "mm",
+             "Distance of the imported triangles from the patch; positive on the side of its normal.",
+             deviation_colors(scene)});
     }
     if (scene.layers.toolpath && scene.plot && scene.plot->carved) {
         found.push_back({"depth_legend",
                          "Depth",
                          "mm",
-                         "How deep the bit cuts along the middle of the outlines.",
+                         "Cutting depth of the bit along the centre of the outlines.",
                          depth_colors(scene)});
     }
     if (surface == SurfaceColors::weight) {
-        found.push_back({"weight_legend",
-                         "Weight",
-                         "",
-                         "The weight of the elliptic grid: the area of a cell goes like 1 / sqrt(weight).",
-                         weight_colors(scene)});
+        found.push_back(
+            {"weight_legend",
+             "Weight",
+             "",
+             "Weight of the elliptic grid: the area of a cell is proportional to 1 / sqrt(weight).",
+             weight_colors(scene)});
     }
     return found;
 }
