@@ -1,6 +1,6 @@
 // Every command and listing that the documents show is run and compared. Those of the README:
 // readme_test.cpp.
-#include "tests/app/emulator.h"
+#include "tests/app/guide.h"
 #include "tests/app/program.h"
 #include "tests/app/shell.h"
 #include "tests/support/scratch_folder.h"
@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -26,210 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::string built_program = "build/release/millwright";
-
-/// Why a command of a document is not run: it takes no arguments that could be right everywhere, or minutes.
-const std::map<std::string, std::string> not_run = {
-    {"millwright study run-time --out out", "takes minutes: RunTimeStudy"},
-};
-
-std::vector<fs::path> documents_in(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path().extension() == ".md") {
-            found.push_back(entry.path());
-        }
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-/// Commands that stand in a line of their own, four blanks in; without those that stand for any (PROJECT,
-/// [--json]).
-std::vector<std::string> indented_commands_of(const std::string& document) {
-    static const std::regex placeholder(R"(\[|\.\.\.|\b[A-Z]{3,}\b)");
-    std::vector<std::string> commands;
-    std::istringstream text(document);
-    for (std::string line; std::getline(text, line);) {
-        if (line.starts_with("    millwright ")) {
-            std::string command = line.substr(4, line.find("  #") - 4);
-            command.erase(command.find_last_not_of(' ') + 1);
-            if (!std::regex_search(command, placeholder)) {
-                commands.push_back(command);
-            }
-        }
-    }
-    return commands;
-}
-
-std::string replaced_everywhere(std::string text, const std::string& from, const std::string& to) {
-    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-        text.replace(at, from.size(), to);
-    }
-    return text;
-}
-
-/// A bicubic strip from x = `from`, 40 mm wide.
-std::string strip_project(const std::string& name, double from) {
-    nlohmann::json points = nlohmann::json::array();
-    for (int i = 0; i < 4; ++i) {
-        nlohmann::json row = nlohmann::json::array();
-        for (int j = 0; j < 4; ++j) {
-            row.push_back({from + 40.0 * i / 3.0, 20.0 * j, j == 1 ? 2.0 : 0.0});
-        }
-        points.push_back(row);
-    }
-    return nlohmann::json{{"format", "millwright-project"},
-                          {"version", 1},
-                          {"name", name},
-                          {"surface", {{"patches", {{{"points", points}}}}}},
-                          {"machine", {{"file", "ac-table"}}}}
-        .dump();
-}
-
-/// A checkout as the commands see it, with the files that they name and emulated controllers at their ports.
-class Documents : public testing::Test {
-protected:
-    Documents() {
-        fs::create_directories(checkout / "build/release");
-        fs::create_symlink(program_file(), checkout / built_program);
-        fs::create_symlink(fs::absolute("assets"), checkout / "assets");
-        fs::create_directories(checkout / "tmp");
-        write_content(checkout / "part.ngc", "G21 G90 G94\nG1 X1 Y1 F3000\nM30\n");
-        write_content(checkout / "probe.csv",
-                      "0,0,0\n0,20,1\n0,40,0\n20,0,1\n20,20,3\n20,40,1\n40,0,0\n40,20,1\n40,40,0\n");
-        write_content(checkout / "left.json", strip_project("left", 0.0));
-        write_content(checkout / "right.json", strip_project("right", 40.2));
-        fs::copy_file("assets/samples/cover.step", checkout / "part.step");
-        EXPECT_EQ(shell(checkout.path(), built_program + " export assets/projects/dome.json --out scan.stl")
-                      .exit_code,
-                  0);
-    }
-
-    ~Documents() override {
-        for (const std::string& pid : emulators_) {
-            (void)shell(checkout.path(), "kill -INT " + pid);
-        }
-    }
-
-    /// As it can be run here: with ports of ours, and no slower than it computes.
-    [[nodiscard]] std::string here(std::string command) const {
-        static const std::regex real_time("--speed [0-9]+");
-        const auto has = [&](std::string_view word) { return command.find(word) != std::string::npos; };
-        if (command.starts_with("millwright ")) {
-            command = "build/release/" + command;
-        }
-        if ((has(" run ") || has(" send ")) && (has("--driver virtual") || has("--driver cordic"))) {
-            command = std::regex_replace(command, real_time, "") + " --speed 0";
-        }
-        const std::string port =
-            has(" pmac ") ? "/tmp/pmac" : "/tmp/grbl"; // below the checkout, as all of /tmp
-        for (const char* const shown : {"/dev/ttyUSB0", "tcp:127.0.0.1:1025"}) {
-            command = replaced_everywhere(command, shown, port);
-        }
-        return replaced_everywhere(command, "/tmp/", (checkout / "tmp").string() + "/");
-    }
-
-    /// In the background, until the test ends; its port is there then.
-    void start(const std::string& command) {
-        static const std::regex tcp("--tcp [0-9]+");
-        static const std::regex pty("--pty (\\S+)");
-        const bool has_pty = command.find("--pty ") != std::string::npos;
-        const std::string kind = command.find(" pmac") != std::string::npos ? "pmac" : "grbl";
-        std::string own = std::regex_replace(here(command), tcp, "");
-        const bool only_tcp = !has_pty && (kind == "pmac" || command.find(" stream") != std::string::npos);
-        if (!has_pty && !only_tcp) {
-            own = std::regex_replace(here(command), tcp, "--tcp 0"); // any that is free
-        } else if (only_tcp) {
-            own += " --pty " + (checkout / "tmp" / (kind == "pmac" ? "pmac" : "stream")).string();
-        }
-        std::smatch link;
-        if (std::regex_search(own, link, pty) && fs::exists(link[1].str())) { // one at a port
-            stop_emulators();
-        }
-        const std::string log = (checkout / "emulator.log").string();
-        const ShellRun run = shell(checkout.path(), "{ " + own + " >'" + log + "' 2>&1 & echo $!; }");
-        emulators_.push_back(run.output.substr(0, run.output.find('\n')));
-        if (std::regex_search(own, link, pty)) {
-            const ShellRun there = shell(checkout.path(),
-                                         "for n in $(seq 600); do test -e '" + link[1].str() +
-                                             "' && exit 0; sleep 0.1; done; exit 1");
-            EXPECT_EQ(there.exit_code, 0) << command << '\n' << content_of(log);
-        } else {
-            EXPECT_EQ(shell(checkout.path(), "sleep 1; kill -0 " + emulators_.back()).exit_code, 0)
-                << command << '\n'
-                << content_of(log);
-        }
-    }
-
-    void stop_emulators() {
-        for (const std::string& pid : emulators_) {
-            (void)shell(checkout.path(),
-                        "kill -INT " + pid + "; for n in $(seq 100); do kill -0 " + pid +
-                            " 2>/dev/null || break; sleep 0.1; done");
-        }
-        emulators_.clear();
-        for (const char* const link : {"tmp/grbl", "tmp/pmac", "tmp/stream"}) {
-            fs::remove(checkout / link);
-        }
-    }
-
-    /// To its end, with 0; what it names by --out is there then.
-    void run_shown(const std::string& command) {
-        static const std::regex out("--out ([^ |]+)");
-        const std::string environment =
-            "MILLWRIGHT_PMAC_PORT='" + (checkout / "tmp/pmac").string() + "' timeout 300 ";
-        ShellRun run = shell(checkout.path(), environment + here(command));
-        // The guard of a PMAC takes the power then, as it should, and the command says so.
-        const char* const was_busy = "it heard nothing from this computer for 50 ms";
-        for (int n = 0; n < 4 && run.output.find(was_busy) != std::string::npos; ++n) {
-            run = shell(checkout.path(), environment + here(command));
-        }
-        EXPECT_EQ(run.exit_code, 0) << command << '\n' << run.output;
-        std::smatch file;
-        if (std::regex_search(command, file, out)) {
-            EXPECT_TRUE(fs::exists(checkout / file[1].str())) << command;
-        }
-    }
-
-    /// What a person does who follows the document. The number of commands.
-    int follow(const std::vector<std::string>& commands) {
-        int tried = 0;
-        for (const std::string& command : commands) {
-            if (not_run.contains(command)) {
-                continue;
-            }
-            if (command.find(" emulate ") != std::string::npos) {
-                start(command);
-            } else {
-                const bool of_grbl = command.find("ttyUSB0") != std::string::npos &&
-                                     command.find(" pmac ") == std::string::npos;
-                if (of_grbl && !fs::exists(checkout / "tmp/grbl")) {
-                    start(built_program + " emulate grbl --pty /tmp/grbl --speed 20");
-                    run_shown(command);
-                    stop_emulators();
-                } else if (command.find(" pmac ") != std::string::npos &&
-                           command.find(" emulate ") == std::string::npos &&
-                           !fs::exists(checkout / "tmp/pmac")) {
-                    start(built_program + " emulate pmac --pty /tmp/pmac --wait-for-host 0.01");
-                    run_shown(command);
-                } else {
-                    run_shown(command);
-                }
-            }
-            ++tried;
-        }
-        stop_emulators();
-        return tried;
-    }
-
-    ScratchFolder checkout;
-
-private:
-    std::vector<std::string> emulators_; ///< process numbers
-};
-
-TEST_F(Documents, CommandsOfTheCommandLineGuideWork) {
+TEST_F(Guide, CommandsOfTheCommandLineGuideWork) {
     const std::string guide = content_of("docs/user/command-line.md");
     EXPECT_GE(follow(commands_of(guide)), 20);
     for (const char* const left : {"program.ngc", "report.json", "preview.png"}) { // "leaves in out"
@@ -238,26 +34,63 @@ TEST_F(Documents, CommandsOfTheCommandLineGuideWork) {
     EXPECT_GE(follow(indented_commands_of(guide)), 8);
 }
 
-TEST_F(Documents, CommandsOfTheOtherGuidesWork) {
+TEST_F(Guide, CommandsOfTheOtherGuidesWork) {
     int tried = 0;
     for (const fs::path& document : documents_in("docs/user")) {
-        if (document.filename() != "command-line.md") {
-            const std::string text = content_of(document);
-            tried += follow(commands_of(text)) + follow(indented_commands_of(text));
+        const bool tutorial = document.parent_path().filename() == "tutorials";
+        if (document.filename() != "command-line.md" && !tutorial) {
+            tried += follow_document(content_of(document));
         }
     }
     EXPECT_GE(tried, 8);
 }
 
-TEST_F(Documents, CommandsOfTheReferenceWork) {
+/// Each on a computer that has none of its files.
+class Tutorial : public Guide, public testing::WithParamInterface<const char*> {};
+
+TEST_P(Tutorial, LeadsFromItsFirstCommandToItsLast) {
+    const fs::path page = fs::path("docs/user/tutorials") / (std::string(GetParam()) + ".md");
+    EXPECT_GE(follow_document(content_of(page)), 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages,
+                         Tutorial,
+                         testing::Values("dome", "machine", "points", "logo", "table", "arm"));
+
+TEST(DocumentsTest, TriesEveryTutorial) {
+    EXPECT_EQ(documents_in("docs/user/tutorials").size(), 6U);
+}
+
+TEST_F(Guide, CommandsOfTheReferenceWork) {
     int tried = 0;
     for (const fs::path& document : documents_in("docs/reference")) {
         if (document.filename() != "cli.md") { // which shows none, but how they are built
-            const std::string text = content_of(document);
-            tried += follow(commands_of(text)) + follow(indented_commands_of(text));
+            tried += follow_document(content_of(document));
         }
     }
     EXPECT_GE(tried, 12);
+}
+
+/// scripts/cli-pages --check on a copy of the pages, with `from` replaced by `to` in that of `plan`.
+ShellRun checked_pages(const std::string& from, const std::string& to) {
+    const ScratchFolder scratch;
+    const fs::path pages = scratch / "cli";
+    fs::copy("docs/reference/cli", pages);
+    std::string plan = content_of(pages / "plan.md");
+    plan.replace(plan.find(from), from.size(), to);
+    write_content(pages / "plan.md", plan);
+    return shell(fs::current_path(),
+                 "scripts/cli-pages --check --program '" + program_file().string() + "' --pages '" +
+                     pages.string() + "'");
+}
+
+TEST(CommandPages, SayWhatTheHelpSays) {
+    const ShellRun same = checked_pages("Range", "Range");
+    EXPECT_EQ(same.exit_code, 0) << same.output;
+    const ShellRun other = checked_pages("0 to 180", "0 to 90");
+    EXPECT_EQ(other.exit_code, 1);
+    EXPECT_THAT(other.output, HasSubstr("docs/reference/cli/plan.md"));
+    EXPECT_EQ(checked_pages("## Notes", "## Remarks").exit_code, 0) << "below the mark people write";
 }
 
 /// The help of "plan" or "plot toolpath".
@@ -300,32 +133,16 @@ std::set<std::string> options_in(const std::string& text) {
     return found;
 }
 
-TEST(DocumentedCommands, OfTheReferenceHaveTheOptionsThatItShows) {
-    std::istringstream text(content_of("docs/reference/cli.md"));
-    std::string shown;
-    int lines = 0;
-    const auto check = [&] {
-        if (shown.empty()) {
-            return;
-        }
-        const std::string command = command_words(shown);
-        ASSERT_FALSE(command.empty()) << shown;
-        const std::set<std::string> there = options_in(help_of(command));
-        for (const std::string& option : options_in(shown)) {
-            EXPECT_TRUE(there.contains(option)) << command << " has no " << option;
-        }
-        ++lines;
-    };
-    for (std::string line; std::getline(text, line) && !line.starts_with("    millwright [--threads");) {
-        if (line.starts_with("    millwright ") && !line.starts_with("    millwright [")) {
-            check();
-            shown = line.substr(15);
-        } else if (line.starts_with("     ") && !shown.empty()) {
-            shown += " " + line;
+TEST(CommandPages, NameNoOptionThatTheirCommandLacks) {
+    for (const fs::path& page : documents_in("docs/reference/cli")) {
+        const std::string text = content_of(page);
+        const auto mark = text.find("<!-- The text above");
+        ASSERT_NE(mark, std::string::npos) << page;
+        const std::set<std::string> there = options_in(text.substr(0, mark));
+        for (const std::string& option : options_in(text.substr(text.find("-->", mark)))) {
+            EXPECT_TRUE(there.contains(option)) << page << " has no " << option;
         }
     }
-    check();
-    EXPECT_GE(lines, 60);
 }
 
 TEST(DocumentedCommands, InTheTextOfTheDocumentsExistWithTheirOptions) {
@@ -424,7 +241,7 @@ TEST(DocumentedListings, TheJsonOfACheckHasTheMembersThatAreShown) {
     EXPECT_EQ(ended.exit_code, 1);
     std::string shown;
     for (const std::string& line :
-         listing_behind(content_of("docs/reference/cli.md"), "`gcode check` prints")) {
+         listing_behind(content_of("docs/reference/cli/gcode.md"), "`gcode check` prints")) {
         shown += line + "\n";
     }
     EXPECT_EQ(members_of(nlohmann::json::parse(ended.out)), members_of(nlohmann::json::parse(shown)));
@@ -473,6 +290,12 @@ TEST(DocumentedListings, TheProgramOfConstantScallopLeavesWhatTheTableSays) {
                                         cut.at("scallop_mm").at("max").get<double>(),
                                         cut.at("deepest_cut_below_surface_mm").get<double>());
     EXPECT_THAT(content_of("docs/reference/strategies.md"), HasSubstr(row));
+}
+
+TEST(DocumentsTest, FindsTheFilesThatADocumentShows) {
+    const auto files =
+        files_of("Save this as `my-arm.json`:\n\n```json\n{}\n```\n\nIt says\n\n```\nnothing\n```\n");
+    EXPECT_THAT(files, testing::ElementsAre(testing::Pair("my-arm.json", "{}\n")));
 }
 
 TEST(DocumentsTest, FindsCommandsAndLeavesOutWhatStandsForAny) {

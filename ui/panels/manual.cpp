@@ -14,20 +14,15 @@ namespace {
 using widgets::ReadingBlock;
 using widgets::ReadingKind;
 
-struct Page {
-    std::string_view file;
-    std::string_view heading; ///< of the section; empty: the whole page
-};
-
 /// In the order of actions::Workspace.
-constexpr std::array<Page, actions::workspace_count> pages{{{"user/workbench.md", "## 1. Design (F2)"},
-                                                            {"user/workbench.md", "## 2. Grid (F3)"},
-                                                            {"user/workbench.md", "## 3. Toolpath (F4)"},
-                                                            {"user/workbench.md", "## 4. Program (F5)"},
-                                                            {"user/workbench.md", "## 5. Machine (F6)"},
-                                                            {"user/processor.md", {}},
-                                                            {"user/plots.md", {}},
-                                                            {"user/arm.md", {}}}};
+constexpr std::array<std::string_view, actions::workspace_count> pages{"user/design.md",
+                                                                       "user/grid.md",
+                                                                       "user/toolpath.md",
+                                                                       "user/program.md",
+                                                                       "user/machine.md",
+                                                                       "user/processor.md",
+                                                                       "user/plots.md",
+                                                                       "user/arm.md"};
 
 std::string_view trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(' ');
@@ -122,6 +117,14 @@ public:
 
     void line(std::string_view line) {
         const std::string_view words = trimmed(line);
+        if (words.starts_with("```")) {
+            fenced_ = !fenced_;
+            return end();
+        }
+        if (fenced_) {
+            blocks_.push_back({ReadingKind::code, {std::string(line)}});
+            return;
+        }
         if (words.empty() || words.starts_with("![")) {
             return end();
         }
@@ -176,6 +179,7 @@ private:
     ReadingKind kind_ = ReadingKind::paragraph;
     std::string text_; ///< with its marks: those may stand on two lines
     bool open_ = false;
+    bool fenced_ = false; ///< between two lines of three backticks
 };
 
 } // namespace
@@ -204,9 +208,7 @@ std::string_view section_of(std::string_view markdown, std::string_view heading)
 }
 
 std::vector<ReadingBlock> manual_of(actions::Workspace workspace) {
-    const Page& page = pages.at(static_cast<std::size_t>(workspace));
-    const std::string_view text = embedded_page(page.file);
-    auto blocks = reading_of(page.heading.empty() ? text : section_of(text, page.heading), "docs/user");
+    auto blocks = reading_of(embedded_page(pages.at(static_cast<std::size_t>(workspace))), "docs/user");
     expects(!blocks.empty(), "the manual has a page for every workspace");
     blocks.push_back({ReadingKind::paragraph,
                       {"Pages named docs/\u2026 are files in the docs folder of the source code."}});

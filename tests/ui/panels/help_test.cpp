@@ -53,6 +53,13 @@ TEST(Manual, TellsWhereTheLinksOfAPageLead) {
     EXPECT_TRUE(told);
 }
 
+TEST(Manual, ShowsFencedLinesAsTheyAre) {
+    EXPECT_THAT(reading_of("Type\n\n```sh\nmillwright plan a.json   # *why*\n```\n\nand wait.\n"),
+                ElementsAre(ReadingBlock{ReadingKind::paragraph, {"Type"}},
+                            ReadingBlock{ReadingKind::code, {"millwright plan a.json   # *why*"}},
+                            ReadingBlock{ReadingKind::paragraph, {"and wait."}}));
+}
+
 TEST(Manual, CutsASectionOut) {
     constexpr std::string_view page = "# All\n\n## One\na\n### In one\nb\n## Two\nc\n";
     EXPECT_EQ(section_of(page, "## One"), "a\n### In one\nb\n");
