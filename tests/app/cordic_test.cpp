@@ -171,7 +171,7 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
     const auto label = (folder.path() / "label.micro").string();
     write_content(label, "CONT\n CJP always NOWHERE\n");
     for (const Bad& bad : {
-             Bad{"a.ngc", "G21 F100\nG2 X1 Y0 I5 J0\nM2\n", "a.ngc:2:1: radius at the arc's start"},
+             Bad{"a.ngc", "G21 F100\nG2 X1 Y0 I5 J0\nM2\n", "a.ngc:2:1: the arc's radius is"},
              Bad{"b.ngc",
                  "G21 S100 M3\nG0 X1\n G33 Z1 K1\nM2\n",
                  "b.ngc:3:2: the CORDIC processor has no feed"},

@@ -470,7 +470,7 @@ TEST_F(Send, PlansNoPositionsThatNobodyCanKnow) {
         }
         const Ended ended = run(words);
         EXPECT_EQ(ended.exit_code, 1) << driver;
-        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:4:1: G53 goes to a machine position")) << driver;
+        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:4:1: G53 moves to a machine position")) << driver;
         words.insert(words.end(), {"--origin", "0,0,5"});
         const Ended placed = run(words);
         EXPECT_EQ(placed.exit_code, 0) << driver << placed.err;
@@ -548,7 +548,8 @@ TEST_F(Send, RefusesMistWhereGrblWasBuiltWithoutIt) {
         Emulator emulator(port, {"--speed", "20"});
         const Ended ended = run(words());
         EXPECT_EQ(ended.exit_code, 1);
-        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:2:1: this Grbl has no mist coolant, M7 (error 20)"));
+        EXPECT_THAT(ended.err,
+                    HasSubstr("zigzag.ngc:2:1: this Grbl does not support mist coolant, M7 (error 20)"));
         (void)emulator.stop();
     }
     Emulator emulator(port, {"--speed", "20", "--mist"});

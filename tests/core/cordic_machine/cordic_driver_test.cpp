@@ -87,7 +87,7 @@ TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
 TEST(CordicDriver, GoesToMachinePositionsWhereTheOriginIsKnown) {
     const std::string retracts = "G21 G90 F1200\nG0 X10 Y10 Z-5\nG53 G0 Z0\nM2\n";
     CordicDriverBench bench;
-    EXPECT_THAT(bench.refusal_of(retracts), HasSubstr("program:3:1: G53 goes to a machine position"));
+    EXPECT_THAT(bench.refusal_of(retracts), HasSubstr("program:3:1: G53 moves to a machine position"));
     EXPECT_EQ(bench.driver.status().position, AxisPositions::Zero(3));
     CordicDriverOptions options;
     options.origin = gcode::WorkOrigin(Vec3(5.0, 0.0, -20.0));

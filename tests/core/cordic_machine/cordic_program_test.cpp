@@ -135,7 +135,7 @@ TEST(CordicCompiler, SaysWhatDependsOnWhereTheWorkLies) {
     const auto unplaced = [](const std::string& text) { return compiled_program(text).unplaced; };
     ASSERT_EQ(unplaced("G21 F600\nG0 X1 Y1 Z5\nG53 G0 Z0\nM2\n").size(), 1U);
     EXPECT_THAT(to_text(unplaced("G21 F600\nG0 X1 Y1 Z5\nG53 G0 Z0\nM2\n")[0]),
-                HasSubstr("part.ngc:3:1: G53 goes to a machine position, and where the program's zero lies"));
+                HasSubstr("part.ngc:3:1: G53 moves to a machine position, but the program zero"));
     EXPECT_EQ(unplaced("G21\nG0 X1\nG55 G0 X1\nM2\n").size(), 1U);
     EXPECT_EQ(unplaced("G21\nG0 X#5221\nM2\n").size(), 1U);
     EXPECT_TRUE(unplaced("G21 F600\nG91 G1 X1 Y1\nG2 X1 I0.5\nM2\n").empty()) << "it begins at zero";

@@ -285,7 +285,7 @@ TEST(MeshFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(refusal(""), HasSubstr("part.stl: the file is empty"));
     EXPECT_THAT(refusal("hello, this is no mesh"), HasSubstr("part.stl: neither text, nor"));
     EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 zero\n"),
-                HasSubstr("part.stl:3: 'zero' is no number"));
+                HasSubstr("part.stl:3: 'zero' is not a number"));
     EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 1\nendloop\n"), HasSubstr("part.stl:4: a loop of 1"));
     EXPECT_THAT(refusal("solid\nvertex 0 0 1\n"), HasSubstr("part.stl:2: a vertex outside of a loop"));
     EXPECT_THAT(refusal("solid\nouter loop\n"), HasSubstr("the file ends inside of a loop"));
@@ -299,7 +299,7 @@ TEST(MeshFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(refusal("v 0 0 0\nf 1 1\n", "part.obj"), HasSubstr("part.obj:2: a face has 2 corners"));
     EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 0\n", "part.ply"), HasSubstr("no end_header"));
     EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 300000000\n", "part.ply"),
-                HasSubstr("part.ply:3: '300000000' is no number of elements in this file"));
+                HasSubstr("part.ply:3: '300000000' is not a number of elements in this file"));
     EXPECT_THAT(refusal("plyx\n", "part.ply"), HasSubstr("begins with the word ply"));
 }
 

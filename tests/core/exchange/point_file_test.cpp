@@ -55,9 +55,9 @@ TEST(MeasuredPoints, TakeTheirColumnsFromTheFirstLineOfNames) {
 TEST(MeasuredPoints, SayWhereTheFileIsWrong) {
     EXPECT_THAT(why_no_points("1 2 3\n1 nan 3\n"), HasSubstr("probe.csv:2: 'nan' is not a finite number"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2 -inf\n"), HasSubstr("probe.csv:2: '-inf' is not a finite number"));
-    EXPECT_THAT(why_no_points("1 2 3\n1 2 1e999\n"), HasSubstr("probe.csv:2: '1e999' is no number"));
-    EXPECT_THAT(why_no_points("1 2 3\n1 2 3mm\n"), HasSubstr("probe.csv:2: '3mm' is no number"));
-    EXPECT_THAT(why_no_points("1,2,3\n1,,3\n"), HasSubstr("probe.csv:2: '' is no number"));
+    EXPECT_THAT(why_no_points("1 2 3\n1 2 1e999\n"), HasSubstr("probe.csv:2: '1e999' is not a number"));
+    EXPECT_THAT(why_no_points("1 2 3\n1 2 3mm\n"), HasSubstr("probe.csv:2: '3mm' is not a number"));
+    EXPECT_THAT(why_no_points("1,2,3\n1,,3\n"), HasSubstr("probe.csv:2: '' is not a number"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2\n"), HasSubstr("probe.csv:2: 2 numbers here, three are needed"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2 3 4\n"),
                 HasSubstr("probe.csv:2: 4 numbers here, the lines before have 3"));

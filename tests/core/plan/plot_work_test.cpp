@@ -454,7 +454,7 @@ TEST(PlotWork, AProgramThatCutsFromAnUnknownPlaceIsAFailureWithItsLine) {
     const auto found = derived({scratch / "part.ngc", {}});
     ASSERT_TRUE(found->failure);
     EXPECT_EQ(found->failure->place.line, 3);
-    EXPECT_THAT(found->failure->message, HasSubstr("has not said what X and Y are"));
+    EXPECT_THAT(found->failure->message, HasSubstr("has stated where X and Y are"));
 }
 
 TEST(PlotWork, SpeedsThatTheMachineDoesNotReachAreANotice) {

@@ -30,7 +30,7 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
     const BadCase cases[] = {
         {"SP1;PD;PA,,;", 9, "where a number should stand"},
         {"SP1;PD100,;", 9, "a number is missing behind ','"},
-        {"SP1;PD100,1.2.3;", 10, "'1.2.3' is no number"},
+        {"SP1;PD100,1.2.3;", 10, "'1.2.3' is not a number"},
         {"SP1;PD100;", 4, "PD cannot have 1 number"},
         {"SP1;PA5000000000,1;", 6, "beyond HPGL's range"},
         {"SP1;;PU;", 4, "an empty command"},
