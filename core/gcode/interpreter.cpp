@@ -295,9 +295,8 @@ void Interpreter::Parts::expect_text(std::string_view text) {
         internal::refuse(1, fmt::format("the file is {}", encoding), "save it as plain text");
     }
     if (no_text) {
-        internal::refuse(static_cast<int>(zero) + 1,
-                         "byte 0x00 does not occur in a text file: this is a binary file",
-                         "choose a G-code program");
+        internal::refuse(
+            static_cast<int>(zero) + 1, "byte 0x00 found: this is a binary file", "choose a G-code file");
     }
 }
 

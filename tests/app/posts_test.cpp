@@ -356,7 +356,8 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     write_content(part, "G21 G90\nG0 Z500\nM2\n");
     ended = convert("ac-table", "linuxcnc", {"--out", out});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("axis Z would have to go to 500.000, outside -300.000 ... 400.000 mm"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("axis Z would have to move to 500.000, outside -300.000 ... 400.000 mm"));
     EXPECT_FALSE(fs::exists(out));
 }
 

@@ -139,9 +139,8 @@ TEST(Interpreter, BinaryIsRefusedWithThePlace) {
     const std::string bytes("G0 X1\n\x7F"
                             "ELF\0\x02\n",
                             13);
-    EXPECT_EQ(error_of(bytes), "2:5: byte 0x00 does not occur in a text file: this is a binary file");
-    EXPECT_EQ(error_of(std::string("G0\0X1", 5)),
-              "1:3: byte 0x00 does not occur in a text file: this is a binary file");
+    EXPECT_EQ(error_of(bytes), "2:5: byte 0x00 found: this is a binary file");
+    EXPECT_EQ(error_of(std::string("G0\0X1", 5)), "1:3: byte 0x00 found: this is a binary file");
     EXPECT_EQ(error_of("\xFF\xFEG"), "1:1: the file is UTF-16");
 }
 
