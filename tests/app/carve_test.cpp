@@ -123,7 +123,7 @@ TEST_F(CarveCommand, SaysWhatIsWrongWithItsPlace) {
         EXPECT_NE(refused.exit_code, 0) << tool;
         EXPECT_THAT(refused.err, HasSubstr(tool));
     }
-    EXPECT_THAT(carve({"--tool", "flat:3"}).err, HasSubstr("flat:3 does not carve"));
+    EXPECT_THAT(carve({"--tool", "flat:3"}).err, HasSubstr("flat:3 cannot carve"));
     EXPECT_THAT(carve({"--accuracy", "1e-6"}).err, HasSubstr("the tolerance must be 0.0001 mm or more"));
     EXPECT_NE(carve({"--largest-depth", "0"}).exit_code, 0);
 }

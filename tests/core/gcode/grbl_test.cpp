@@ -77,7 +77,7 @@ TEST(Grbl, CodesOfOtherFirmwareAreNotCalledUnknownToIt) {
         EXPECT_THAT(refusal("grblHAL", line), HasSubstr("is not a code of Grbl 1.1: grblHAL may support it"))
             << line;
     }
-    EXPECT_THAT(refusal("FluidNC", "M6"), HasSubstr("FluidNC may have it"));
+    EXPECT_THAT(refusal("FluidNC", "M6"), HasSubstr("FluidNC may support it"));
     EXPECT_EQ(refusal("FluidNC", "G81 X1 Z-1 R1"), "FluidNC does not support G81 (error 20)");
     EXPECT_EQ(refusal("grblHAL", "G64"), "grblHAL does not support G64 (error 20)");
 }

@@ -112,7 +112,7 @@ TEST(Language, AProgramIsRefusedInOneLine) {
     EXPECT_THAT(refusal("#1=0\nWHILE [#1 LT 3] DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n"),
                 HasSubstr(":2:1: this is Fanuc custom macro B"));
     EXPECT_THAT(refusal("N10 G90 G17 G710\nN20 T=\"MILL\" D1\nN50 M30\n"),
-                HasSubstr(":1:1: this is the Sinumerik language"));
+                HasSubstr(":1:1: this is the Siemens Sinumerik language"));
     EXPECT_THAT(refusal("G15 H1\nVC1=5\nG0 X=VC1\nM2\n"),
                 HasSubstr("this is the language of Okuma OSP controls"));
     EXPECT_THAT(refusal("IN;SP1;PU0,0;PD100,0;\n"), HasSubstr(":1:1: this is HPGL, a plot, not G-code"));

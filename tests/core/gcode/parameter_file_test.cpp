@@ -40,7 +40,7 @@ TEST(ParameterFile, IsRefusedWithTheLine) {
     EXPECT_THAT(refusal_of("5161\n"), HasSubstr(":1: a line must have"));
     EXPECT_THAT(refusal_of("5161 1 2\n"), HasSubstr(":1: a line must have"));
     EXPECT_THAT(refusal_of("5161 nan\n"), HasSubstr(":1: a line must have"));
-    EXPECT_THAT(refusal_of("9999 1\n"), HasSubstr("#9999 is no parameter"));
+    EXPECT_THAT(refusal_of("9999 1\n"), HasSubstr("#9999 is not a parameter"));
     EXPECT_THAT(refusal_of("31 1\n31 2\n"), HasSubstr(":2: #31 is given twice"));
 }
 

@@ -78,7 +78,7 @@ TEST(Placement, AnIncrementNamesAnAxisOnceItsPlaceIsKnown) {
     EXPECT_THAT(unplaced("G21 G91 G0 Z0\nG90 X1 Z5\nG91 Z1 X0\nM2\n"), IsEmpty());
     EXPECT_THAT(unplaced("G21 G90\nG0 X5\nG91 Y2\nM2\n"),
                 ElementsAre(HasSubstr("part.ngc:3:5: Y moves from its present position, but the program has "
-                                      "not set it yet (move the axis to a position first")));
+                                      "not set it yet (move the axis to a position in G90 first")));
 }
 
 TEST(Placement, AnArcBeginsWhereTheProgramHasSaid) {
@@ -97,7 +97,7 @@ TEST(Placement, CutterCompensationBeginsWhereTheProgramHasSaid) {
     EXPECT_THAT(
         unplaced("G21 G90\n" + cut),
         ElementsAre(HasSubstr("part.ngc:3:1: cutter compensation (G41, G42) starts before the program has "
-                              "set the position of X (move the axis to a position first")));
+                              "set the position of X (move the axis to a position in G90 first")));
     EXPECT_THAT(unplaced("G21 G90\nG0 X-5\n" + cut), ElementsAre(HasSubstr("set the position of Y")));
     EXPECT_THAT(unplaced("G21 G90\nG0 Y-5\n" + cut), ElementsAre(HasSubstr("set the position of X")));
     EXPECT_THAT(unplaced("G21 G90\nG0 Y-5\nG42.1 D3\nG0 Y5\nX10\nG40\nX20\nM2\n"),

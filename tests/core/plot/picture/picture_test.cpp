@@ -296,18 +296,18 @@ TEST(PictureReader, SaysWhatIsWrong) {
     const std::string bmp = bmp_of(noise(20, 20, 3, 8), 24, false);
     EXPECT_THAT(picture_error(""), HasSubstr("bad.png: the file is empty"));
     EXPECT_THAT(picture_error("GIF89a"),
-                HasSubstr("the picture format is not supported (PNG, JPEG, BMP, PGM and PPM"));
+                HasSubstr("the picture format is not supported (use a PNG, JPEG, BMP, PGM or PPM"));
     EXPECT_THAT(picture_error(png.substr(0, 12)),
                 HasSubstr("the PNG ends too early, after 12 bytes: its head is incomplete"));
     EXPECT_THAT(picture_error(png.substr(0, png.size() / 2)), HasSubstr("the PNG ends too early, after"));
-    EXPECT_THAT(picture_error(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read in its head"));
-    EXPECT_THAT(picture_error(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("the JPEG cannot be read in row"));
+    EXPECT_THAT(picture_error(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read at its header"));
+    EXPECT_THAT(picture_error(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("the JPEG cannot be read at row"));
     EXPECT_THAT(picture_error(bmp.substr(0, 20)), HasSubstr("the BMP is cut off at byte 20"));
     EXPECT_THAT(picture_error(bmp.substr(0, 100)),
                 HasSubstr("the BMP is cut off: it has 100 bytes, but its size needs 1254"));
     std::string flipped = png;
     flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 0x10);
-    EXPECT_THAT(picture_error(flipped), HasSubstr("the PNG is damaged in row"));
+    EXPECT_THAT(picture_error(flipped), HasSubstr("the PNG is damaged at row"));
     std::string compressed = bmp;
     compressed[30] = 1;
     EXPECT_THAT(picture_error(compressed),

@@ -432,7 +432,7 @@ TEST(ReliefPlan, TabsThatDoNotFitAreToldOfTheFrameInTheUsersWidth) {
         }
         return std::string();
     };
-    EXPECT_TRUE(refusal().starts_with("the frame: 50 tabs of 20 mm do not fit on a way of ")) << refusal();
+    EXPECT_TRUE(refusal().starts_with("frame: 50 tabs of 20 mm do not fit on a path of ")) << refusal();
     EXPECT_TRUE(refusal().ends_with("each also needs 2 mm, the width of the tool")) << refusal();
     plan.tabs = {.count = 1, .width = 2.0, .height = 4.0};
     EXPECT_EQ(refusal(), "frame: tabs of 4 mm are higher than the plate of 3 mm");
