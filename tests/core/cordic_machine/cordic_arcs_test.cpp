@@ -217,7 +217,7 @@ TEST(CordicArcs, MayDriftWhereThatIsWhatAPersonWantsToSee) {
     drifting.chord_tolerance = 1e-7; // chords of 0.00026 rad, where the format has steps of 0.0039
     const CordicProgram still = compiled_circle(10.0, cordic::fixed_format(24, 8), drifting);
     ASSERT_EQ(still.faults.size(), 1U);
-    EXPECT_THAT(still.faults[0].message, HasSubstr("rad, is less than q24.8 can tell"));
+    EXPECT_THAT(still.faults[0].message, HasSubstr("rad, is below the resolution of q24.8"));
 }
 
 TEST(CordicArcs, SmallerThanTheFormatCanTellAreLeftOutWithAWarning) {
