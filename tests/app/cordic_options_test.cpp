@@ -25,7 +25,7 @@ TEST_F(CordicOptions, RefuseArcsThatTheFormatCannotKeepWithinTheTolerance) {
     const Ended coarse = run({"cordic", "run", file, "--format", "q24.8", "--arc-tolerance", "1e-7"});
     EXPECT_EQ(coarse.exit_code, 1);
     EXPECT_EQ(coarse.out, "");
-    EXPECT_THAT(coarse.err, HasSubstr("f10.ngc:3:1: q24.8 holds the end of a chord 0.00"));
+    EXPECT_THAT(coarse.err, HasSubstr("f10.ngc:3:1: in q24.8 the end of a chord is 0.00"));
     const Ended whole = run({"cordic", "run", file, "--format", "q12.16", "--whole-arcs", "--json"});
     ASSERT_EQ(whole.exit_code, 0) << whole.err;
     const auto error_of = [](const Ended& ended) {
@@ -263,7 +263,7 @@ TEST_F(CordicOptions, ListWhatTheCompilerWarnsOf) {
     ASSERT_EQ(found.size(), 1U) << found;
     EXPECT_EQ(found[0].at("line"), 4);
     EXPECT_THAT(found[0].at("message").get<std::string>(),
-                HasSubstr("behind its start and is a full circle"));
+                HasSubstr("past its start and is run as a full circle"));
     EXPECT_THAT(ended.err, HasSubstr("hair.ngc:4"));
 }
 
@@ -272,7 +272,8 @@ TEST_F(CordicOptions, RefuseDirectionsThatSoFewIterationsDoNotReachBeforeAnythin
     const Ended ended = run({"cordic", "run", file, "--iterations", "2"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err, HasSubstr("back.ngc:3:1: a line in a direction that 2 iterations do not reach"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("back.ngc:3:1: the direction of a line cannot be reached with 2 iterations"));
 }
 
 TEST_F(CordicOptions, SayThatASpeedIsMissingOrNegativeWhereItIsRead) {
@@ -380,7 +381,7 @@ TEST_F(CordicOptions, WarnWithThePlaceOfMotionsThatLeadNowhere) {
     const std::string twice = written("twice.asm", "MOV XI, 1\nMOV Vmax, 1\nMOV Amax, 1\nG01\n  G01\nHLT\n");
     const Ended made = run({"cordic", "asm", twice, "--out", path("twice.bin")});
     EXPECT_EQ(made.exit_code, 0);
-    EXPECT_THAT(made.err, HasSubstr("twice.asm:5:3: a move without length"));
+    EXPECT_THAT(made.err, HasSubstr("twice.asm:5:3: a move has zero length"));
     const Ended vanished = run(
         {"cordic", "asm", written("dz.asm", "MOV Dz, 1e-9\n"), "--format", "q8.24", "--out", path("dz.bin")});
     EXPECT_EQ(vanished.exit_code, 1);

@@ -145,7 +145,7 @@ TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     write_content(file, "G21\nG0 X1\nG0 Z2 A3\nM2\n");
     const Ended axis = run({"cordic", "run", file.string()});
     EXPECT_EQ(axis.exit_code, 1);
-    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor has no axis A"));
+    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor does not support axis A"));
     EXPECT_EQ(run({"cordic", "run", file.string(), "--other-axes"}).exit_code, 0);
     const auto text = folder.path() / "wrong.asm";
     write_content(text, "G01\n MOV Q, 1\n");
@@ -174,7 +174,7 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
              Bad{"a.ngc", "G21 F100\nG2 X1 Y0 I5 J0\nM2\n", "a.ngc:2:1: the arc's radius is"},
              Bad{"b.ngc",
                  "G21 S100 M3\nG0 X1\n G33 Z1 K1\nM2\n",
-                 "b.ngc:3:2: the CORDIC processor has no feed"},
+                 "b.ngc:3:2: the CORDIC processor does not support feed"},
              Bad{"c.ngc",
                  "G21\nG0 X300\nM2\n",
                  "c.ngc:2:4: X 300 does not fit into q8.24",
@@ -208,8 +208,8 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
     write_content(still, "G21\nG0 X1\nG0 X1\nG0 X1.001\nM2\n");
     const Ended ended = run({"cordic", "run", still.string(), "--format", "q16.8"});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("still.ngc:3:1: a move without length is left out"));
-    EXPECT_THAT(ended.err, HasSubstr("still.ngc:4:1: a move of 0.001 mm is less than q16.8 can tell"));
+    EXPECT_THAT(ended.err, HasSubstr("still.ngc:3:1: a move of zero length is skipped"));
+    EXPECT_THAT(ended.err, HasSubstr("still.ngc:4:1: a move of 0.001 mm is below the resolution of q16.8"));
 }
 
 TEST(Cordic, PutsSetPointsInTimeAndMeasuresTheirPulses) {

@@ -242,7 +242,7 @@ TEST_F(Send, DispatchesAFileToTheCordicProcessor) {
     };
     const Ended ended = with({});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor passes through corners"));
+    EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor does not stop at corners"));
     EXPECT_EQ(last_record(logs).at("end"), "done");
     EXPECT_THAT(with({"--clock", "1000"}).err, HasSubstr("took longer to compute at 0.001 MHz"));
     EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from the beginning"));

@@ -119,7 +119,7 @@ TEST(CordicDriver, TellsWhatOfTheLastProgramItDoesOtherwise) {
     const auto warnings = bench.driver.warnings();
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_EQ(warnings[0].place.line, 2);
-    EXPECT_THAT(warnings[0].message, HasSubstr("does not rest in them"));
+    EXPECT_THAT(warnings[0].message, HasSubstr("does not stop at corners"));
     (void)bench.dispatcher.run(jobs::text_job("G21 F600\nG1 X2\nM2\n", "next.ngc"), {});
     EXPECT_TRUE(bench.driver.warnings().empty());
 }
@@ -136,7 +136,7 @@ TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove)
 TEST(CordicDriver, RefusesFiveAxisPrograms) {
     CordicDriverBench bench("rotary-tilt-gui");
     const std::string refusal = bench.refusal_of("G21 G0 X1\nG1 X2 A5 F100\nM2\n");
-    EXPECT_THAT(refusal, HasSubstr("program:2:7: the CORDIC processor has no axis A (it moves X, Y and Z)"));
+    EXPECT_THAT(refusal, HasSubstr("program:2:7: the CORDIC processor has no axis A (use only X, Y and Z)"));
     EXPECT_EQ(bench.driver.status().executed_blocks, 0);
 }
 

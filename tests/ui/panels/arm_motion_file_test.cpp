@@ -63,7 +63,7 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
     person_.type("I4 J3 ;"); // the end is no point of this circle
     person_.frames(2);
     ASSERT_EQ(arm().motion_file().faults().size(), 1U);
-    EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the center"));
+    EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the centre"));
 }
 
 TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {
