@@ -235,7 +235,8 @@ private:
         }
         constexpr std::string_view wanted = "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS";
         if (!begins(wanted)) {
-            refuse(words_.front().column, "switch tool-tip control (TCPM) with " + std::string(wanted));
+            refuse(words_.front().column,
+                   "tool-tip control (TCPM) must be switched on with " + std::string(wanted));
         }
         (void)behind(wanted, 0);
         tip_ = true;

@@ -94,7 +94,9 @@ const Operator& read_operator(Cursor& cursor) {
     if (cursor.at_end()) {
         refuse(cursor.column(), "the closing ] of the expression is missing");
     }
-    refuse(cursor.column(), "an operator or ] is expected", "+ - * / ** MOD AND OR XOR EQ NE GT GE LT LE");
+    refuse(cursor.column(),
+           "an operator or ] is expected",
+           "use one of + - * / ** MOD AND OR XOR EQ NE GT GE LT LE");
 }
 
 double checked(double value, int column) {
@@ -209,7 +211,7 @@ double read_function(Cursor& cursor, const Variables& variables) {
     }
     refuse(column,
            "a number or a function is expected",
-           "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");
+           "use a number, or one of ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");
 }
 
 double read_parameter(Cursor& cursor, const Variables& variables) {

@@ -326,7 +326,7 @@ private:
         }
         letters_ |= bit;
         if (value < 0.0 && not_negative.find(letter) != std::string_view::npos) {
-            refuse(place, fmt::format("{} must not be negative (Grbl's error 4)", letter));
+            refuse(place, fmt::format("{} must not be negative (error 4)", letter));
         }
         if (letter == 'N' && value > last_line_number) {
             refuse(place,

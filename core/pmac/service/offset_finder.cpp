@@ -140,7 +140,7 @@ private:
             if (std::abs(offset) >= limit_) {
                 throw Error(fmt::format("motor {} does not move {} with any offset up to {} bits (Ix69)",
                                         motor_,
-                                        sense > 0 ? "forward" : "back",
+                                        sense > 0 ? "forward" : "backward",
                                         limit_),
                             {},
                             "check power, encoder and direction");

@@ -108,7 +108,7 @@ TEST(Grbl, RefusesOffsetsByItsOwnErrorNumbers) {
     EXPECT_THAT(grbl_refusal("G10 L2 P1"), HasSubstr("(error 26)"));
     EXPECT_THAT(grbl_refusal("G10 X1"), HasSubstr("(error 28)"));
     EXPECT_THAT(grbl_refusal("G10 L2 P7 X1"), HasSubstr("(error 29)"));
-    EXPECT_THAT(grbl_refusal("G10 L2 P-1 X1"), HasSubstr("(Grbl's error 4)"));
+    EXPECT_THAT(grbl_refusal("G10 L2 P-1 X1"), HasSubstr("(error 4)"));
     EXPECT_THAT(grbl_refusal("G10 L3 P1 X1"), HasSubstr("(error 20)"));
     EXPECT_THAT(grbl_refusal("G10 L2 P1 X1 R5"), HasSubstr("(error 20)"));
     EXPECT_THAT(grbl_refusal("G10 L20 P1 X1 R5"), HasSubstr("(error 36)"));

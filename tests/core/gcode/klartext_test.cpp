@@ -159,8 +159,9 @@ TEST(Klartext, RefusesWhatItDoesNotKnowWithItsPlace) {
     EXPECT_THAT(error_in("M77"), HasSubstr("M77 is not supported"));
     EXPECT_THAT(error_in("CYCL DEF 200 DRILLING"), HasSubstr("only the cycles 9 and 32"));
     EXPECT_THAT(error_in("FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS"),
-                HasSubstr("switch tool-tip control (TCPM) with"));
-    EXPECT_THAT(error_in("FUNCTION MODE MILL"), HasSubstr("switch tool-tip control (TCPM) with"));
+                HasSubstr("tool-tip control (TCPM) must be switched on with"));
+    EXPECT_THAT(error_in("FUNCTION MODE MILL"),
+                HasSubstr("tool-tip control (TCPM) must be switched on with"));
     EXPECT_THAT(error_in(""), HasSubstr("read"));
     EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n2 END PGM A MM\n"),
                 HasSubstr("a.h:2:1: the block number must be 1"));
