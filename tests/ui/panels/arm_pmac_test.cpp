@@ -491,7 +491,7 @@ TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
     const auto file = bench.person.folder() / "own.ini";
     write_file(file, "; ours\nI122=30\nI9999=3\n");
     bench.person.workshop().load_card_settings(file);
-    ASSERT_TRUE(bench.person.live_until([&] { return log.back().find("refused") != std::string::npos; }));
+    ASSERT_TRUE(bench.person.live_until([&] { return log.back().find("rejected") != std::string::npos; }));
     EXPECT_THAT(log.back(), testing::HasSubstr("line 3: 'I9999=3' is rejected"));
 }
 

@@ -135,7 +135,7 @@ TEST(HpglBeginAndEnd, ALastCommandWithoutItsEndKeepsWhatIsCertain) {
     ASSERT_EQ(closed.strokes.size(), 1U);
     EXPECT_EQ(closed.strokes.front().points.size(), 5U);
     ASSERT_EQ(closed.diagnostics.size(), 1U);
-    EXPECT_THAT(closed.diagnostics.front().hint, HasSubstr("closes the stroke and is taken"));
+    EXPECT_THAT(closed.diagnostics.front().hint, HasSubstr("closes the stroke and is used"));
     // 20 may be the beginning of 2000.
     const Plot open = read_hpgl("IN;SP1;PU0,0;PD4000,0,4000,2000,0,20", "a.plt");
     ASSERT_EQ(open.strokes.size(), 1U);

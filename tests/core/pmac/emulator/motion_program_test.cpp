@@ -104,7 +104,7 @@ TEST(MotionProgramS7, TheCardsAxesAreJointsThatTurn) {
         (void)within_limits(arm_settings(), scara);
         FAIL() << "nothing was refused";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("slides"));
+        EXPECT_THAT(error.what(), HasSubstr("sliding"));
     }
     EXPECT_THROW((void)within_limits(five_axis_arm_settings(), scara), Error);
 }
