@@ -26,12 +26,12 @@ double opened(const Linkage& linkage, double length, int drive) {
     const double cosine =
         (alpha * alpha + linkage.beta * linkage.beta - length * length) / (2.0 * alpha * linkage.beta);
     if (!(std::abs(cosine) <= 1.0) || length < 0.0) {
-        throw Error(
-            fmt::format("drive {} would be {:.3f} mm long; its triangle closes from {:.3f} to {:.3f} mm",
-                        drive,
-                        length,
-                        std::abs(alpha - linkage.beta),
-                        alpha + linkage.beta));
+        throw Error(fmt::format(
+            "drive {} would be {:.3f} mm long, but its triangle closes only from {:.3f} to {:.3f} mm",
+            drive,
+            length,
+            std::abs(alpha - linkage.beta),
+            alpha + linkage.beta));
     }
     return std::acos(cosine);
 }

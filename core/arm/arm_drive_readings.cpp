@@ -79,12 +79,12 @@ ArmDriveReadings drive_readings(const ArmActuators& actuators, const DrivePositi
     ArmDriveReadings found = readings(actuators, counts, joints_of(actuators, counts));
     const DriveReading& roll = found.drives[4];
     if (!roll.inside && !found.roll_choices.empty()) {
-        found.reasons.push_back(fmt::format(
-            "drive 5 is at {:.0f} counts, outside of {:.0f} to {:.0f}; another turn is inside, at {:.0f}",
-            roll.counts,
-            roll.low,
-            roll.high,
-            found.roll_choices.front()));
+        found.reasons.push_back(fmt::format("drive 5 is at {:.0f} counts, outside {:.0f} to {:.0f}; one turn "
+                                            "further it would be inside, at {:.0f}",
+                                            roll.counts,
+                                            roll.low,
+                                            roll.high,
+                                            found.roll_choices.front()));
     }
     return found;
 }

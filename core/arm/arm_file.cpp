@@ -32,7 +32,7 @@ double angle(const JsonValue& value) {
 JointKind joint_kind(const JsonValue& value) {
     const std::string text = value.text();
     if (text != "revolute" && text != "prismatic") {
-        value.fail(fmt::format("'{}' is neither \"revolute\" nor \"prismatic\"", text));
+        value.fail(fmt::format("'{}' is not \"revolute\" or \"prismatic\"", text));
     }
     return text == "revolute" ? JointKind::revolute : JointKind::prismatic;
 }
@@ -52,7 +52,7 @@ ArmJoint joint(const JsonValue& value) {
     result.min = turns ? angle(range[0]) : length(range[0]);
     result.max = turns ? angle(range[1]) : length(range[1]);
     if (!(result.min < result.max)) {
-        value.at("limits").fail("the lower limit is not below the upper one");
+        value.at("limits").fail("the lower limit must be below the upper limit");
     }
     constexpr double slowest = 1e-6;
     const double unit = turns ? from_degrees(1.0) : 1.0;
@@ -82,7 +82,7 @@ DriveLimits drive_limits(const JsonValue& value) {
     const double least = lead[0].number(-most_counts, most_counts);
     const double most = lead[1].number(-most_counts, most_counts);
     if (!(least < most)) {
-        value.at("third_minus_second").fail("the lower limit is not below the upper one");
+        value.at("third_minus_second").fail("the lower limit must be below the upper limit");
     }
     return {.below_second = least,
             .above_second = most,
@@ -139,8 +139,8 @@ ArmPart part(const JsonValue& value, const ArmModel& arm, bool has_drives) {
             return {node, known.carrier, known.number};
         }
     }
-    carrier.fail(fmt::format("'{}' carries no body", by),
-                 "base, joint NAME, drive 2 or 3 cylinder or rod, drive 3 lever or coupler");
+    carrier.fail(fmt::format("'{}' is not a part that can carry a body", by),
+                 "use base, joint NAME, drive 2 or 3 cylinder or rod, drive 3 lever or coupler");
 }
 
 ArmBodies
@@ -159,10 +159,9 @@ bool is_classical(const JsonValue& root) {
     const auto convention = root.find("convention");
     const std::string text = convention ? convention->text() : "modified";
     if (text != "modified" && text != "classical") {
-        convention->fail(
-            fmt::format("'{}' is neither \"modified\" nor \"classical\"", text),
-            "modified (Craig): alpha and a of the link before a joint; classical (distal): of the "
-            "link behind it");
+        convention->fail(fmt::format("'{}' is not \"modified\" or \"classical\"", text),
+                         "use modified (Craig), where alpha and a belong to the link before a joint, or "
+                         "classical (distal), where they belong to the link after it");
     }
     return text == "classical";
 }
@@ -174,7 +173,7 @@ JointPositions home(const JsonValue& value, const std::vector<ArmJoint>& joints)
         const bool turns = joints[n].kind == JointKind::revolute;
         const double at = turns ? angle(positions[n]) : length(positions[n]);
         if (at < joints[n].min || at > joints[n].max) {
-            positions[n].fail(fmt::format("outside of the limits of joint {}", joints[n].name));
+            positions[n].fail(fmt::format("outside the limits of joint {}", joints[n].name));
         }
         result[static_cast<Eigen::Index>(n)] = at;
     }
@@ -189,7 +188,7 @@ ArmModel arm(const JsonValue& root) {
         const ArmJoint next = joint(item);
         const auto same = std::ranges::find(description.joints, next.name, &ArmJoint::name);
         if (same != description.joints.end()) {
-            item.at("name").fail("another joint is called so");
+            item.at("name").fail("another joint has the same name");
         }
         description.joints.push_back(next);
     }
@@ -221,7 +220,7 @@ std::shared_ptr<const ArmZone> zone(const JsonValue& root, const std::optional<A
                 result.least[n] = length(ends[0]);
                 result.most[n] = length(ends[1]);
                 if (!(result.least[n] < result.most[n])) {
-                    range->fail("the lower limit is not below the upper one");
+                    range->fail("the lower limit must be below the upper limit");
                 }
             }
         }
@@ -260,7 +259,7 @@ ArmFile read_arm(const std::filesystem::path& file) {
     ArmFile result{arm(root), std::nullopt, std::nullopt};
     if (const auto drives = root.find("actuators")) {
         if (!result.arm.planar_elbow()) {
-            drives->fail("only an arm with three parallel joints between base and roll has such drives");
+            drives->fail("only an arm with three parallel joints between base and roll can have such drives");
         }
         result.actuators = actuators(*drives);
     }

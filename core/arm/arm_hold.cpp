@@ -86,7 +86,7 @@ by_branches(const ArmModel& arm, const Frame& goal, const ArmAim& aim, const Joi
         return not_held(
             previous,
             ArmTrouble::tool_axis,
-            fmt::format("the tool axis is {:.3f} deg out of the plane of the arm, which has five joints only",
+            fmt::format("the tool axis is {:.3f} deg out of the plane of the arm, which has only five joints",
                         to_degrees(out)),
             {.axis = out});
     }
@@ -188,7 +188,7 @@ ArmHold at_a_limit(const ArmModel& arm, const JointPositions& previous, const Jo
     const auto shown = [&](double value) { return turns ? to_degrees(value) : value; };
     return not_held(previous,
                     ArmTrouble::joint_limit,
-                    fmt::format("joint {} would have to go to {:.3f} {}, outside of {:.3f} to {:.3f}",
+                    fmt::format("joint {} would have to move to {:.3f} {}, outside {:.3f} to {:.3f}",
                                 joint.name,
                                 shown(found[excess.joint]),
                                 turns ? "deg" : "mm",
@@ -211,8 +211,7 @@ ArmHold out_of_reach(const JointPositions& previous, const ArmSolverResult& near
     return not_held(
         previous,
         ArmTrouble::out_of_reach,
-        fmt::format("no position of the joints was found; the nearest one misses by {:.3f} mm and {:.3f} "
-                    "deg",
+        fmt::format("no joint position was found; the nearest one is off by {:.3f} mm and {:.3f} deg",
                     nearest.tip_error,
                     to_degrees(angle)),
         {.tip = nearest.tip_error, .axis = angle});
@@ -238,13 +237,12 @@ ArmHold explained(const ArmModel& arm,
                                             : at_a_limit(arm, previous, found);
     }
     if (turned && directed.angle_error > kept_direction) {
-        return not_held(
-            previous,
-            ArmTrouble::tool_axis,
-            fmt::format("the tip comes there, but not with the tool in this direction: the nearest one found "
-                        "is {:.3f} deg off",
-                        to_degrees(turned->angle_error)),
-            {.axis = turned->angle_error});
+        return not_held(previous,
+                        ArmTrouble::tool_axis,
+                        fmt::format("the tip can reach the point, but not with this tool direction: the "
+                                    "nearest direction found is {:.3f} deg off",
+                                    to_degrees(turned->angle_error)),
+                        {.axis = turned->angle_error});
     }
     return out_of_reach(previous, directed);
 }

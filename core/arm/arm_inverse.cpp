@@ -88,7 +88,7 @@ double turned_inside(const ArmJoint& joint, double angle, double previous) {
 
 std::string joint_limit_sentence(const ArmModel& arm, const JointPositions& positions, int n) {
     const ArmJoint& joint = arm.joint(n);
-    return fmt::format("joint {} would have to go to {:.3f} deg, outside of {:.3f} to {:.3f}",
+    return fmt::format("joint {} would have to move to {:.3f} deg, outside {:.3f} to {:.3f}",
                        joint.name,
                        to_degrees(positions[n]),
                        to_degrees(joint.min),
@@ -123,11 +123,11 @@ void explain_wrist(ArmInverseSolution& found, const ArmModel& arm, double distan
     const double beyond = std::max(span.least - distance, distance - span.most);
     if (beyond > rounding_mm) {
         found.beyond_reach = beyond;
-        found.why =
-            fmt::format("the wrist would be {:.3f} mm from the shoulder; the arm reaches {:.3f} to {:.3f}",
-                        distance,
-                        span.least,
-                        span.most);
+        found.why = fmt::format(
+            "the wrist would be {:.3f} mm from the shoulder, but the arm reaches from {:.3f} to {:.3f}",
+            distance,
+            span.least,
+            span.most);
     }
 }
 
@@ -165,7 +165,7 @@ solve(const ArmModel& arm, const PointedGoal& goal, const JointPositions& previo
     if (std::abs(out_of_plane) > in_plane_tolerance) {
         found.out_of_plane = std::abs(out_of_plane);
         found.why =
-            fmt::format("the tool axis is {:.4f} deg out of the plane of the arm, which has five joints only",
+            fmt::format("the tool axis is {:.4f} deg out of the plane of the arm, which has only five joints",
                         to_degrees(found.out_of_plane));
         return found;
     }

@@ -77,7 +77,7 @@ ArmDescription from_classical(ArmDescription table) {
 ArmModel::ArmModel(ArmDescription description) : description_(std::move(description)) {
     const auto& joints = description_.joints;
     if (joints.empty() || joints.size() > most_arm_joints) {
-        throw Error(fmt::format("an arm has 1 to {} joints, not {}", most_arm_joints, joints.size()));
+        throw Error(fmt::format("an arm must have 1 to {} joints, not {}", most_arm_joints, joints.size()));
     }
     const auto faulty = std::ranges::find_if_not(joints, is_sound);
     if (faulty != joints.end()) {
@@ -86,7 +86,7 @@ ArmModel::ArmModel(ArmDescription description) : description_(std::move(descript
     }
     if (!is_finite(description_.tool_tip) || !std::isfinite(description_.end_alpha) ||
         !std::isfinite(description_.end_a)) {
-        throw Error("the last link and the tool's tip are finite");
+        throw Error("the last link and the tool tip must be finite");
     }
     planar_elbow_ = planar_elbow_of(description_);
     if (description_.home.size() == 0) {
@@ -95,10 +95,10 @@ ArmModel::ArmModel(ArmDescription description) : description_(std::move(descript
     }
     if (description_.home.size() != joint_count()) {
         throw Error(fmt::format(
-            "the home has {} positions, the arm {} joints", description_.home.size(), joint_count()));
+            "the home has {} positions, but the arm has {} joints", description_.home.size(), joint_count()));
     }
     if (const int outside = joint_outside(description_.home); outside >= 0) {
-        throw Error(fmt::format("the home is outside of the limits of joint {}", joint(outside).name));
+        throw Error(fmt::format("the home is outside the limits of joint {}", joint(outside).name));
     }
 }
 

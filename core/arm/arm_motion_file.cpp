@@ -41,7 +41,7 @@ public:
             words.push_back(next_word());
         }
         if (!words.empty()) {
-            fail(place_, "the last block has no ';'");
+            fail(place_, "the ';' after the last block is missing");
         }
         return std::nullopt;
     }
@@ -78,8 +78,8 @@ private:
         if (arm_word_letters.find(word.letter) == std::string_view::npos) {
             const bool printable = found > ' ' && found < 127;
             fail(place_,
-                 printable ? fmt::format("'{}' is no word of a motion file", found)
-                           : fmt::format("byte {} is no text", static_cast<unsigned char>(found)));
+                 printable ? fmt::format("'{}' is not a word of a motion file", found)
+                           : fmt::format("byte {} is not text", static_cast<unsigned char>(found)));
         }
         advance(1);
         skip_blanks();
@@ -120,7 +120,7 @@ public:
         for (const Word& word : words) {
             const Word*& seat = by_letter_[arm_word_letters.find(word.letter)];
             if (seat != nullptr) {
-                Reader::fail(word.place, fmt::format("{} stands twice in this block", word.letter));
+                Reader::fail(word.place, fmt::format("{} occurs twice in this block", word.letter));
             }
             seat = &word;
         }
@@ -167,7 +167,7 @@ ArmBlock block_of(const Words& words, const Place& place, ArmMotion modal) {
         block.tool_axis->normalize();
     }
     if (block.motion != ArmMotion::line && block.center.has_value() == block.radius.has_value()) {
-        Reader::fail(place, "an arc needs either its center (I J K) or its radius (R)");
+        Reader::fail(place, "an arc needs either its centre (I J K) or its radius (R)");
     }
     return block;
 }

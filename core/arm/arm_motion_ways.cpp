@@ -35,13 +35,15 @@ Vec3 center_by_radius(const ArmBlock& block, const std::filesystem::path& file) 
     const double chord = way.head<2>().norm();
     const double radius = std::abs(*block.radius);
     if (!(chord > 0.0) || std::abs(way.z()) > 0.0) {
-        fail_in_motion(file, block.line, "an arc by its radius needs an end elsewhere in the XY plane");
+        fail_in_motion(
+            file, block.line, "an arc given by its radius needs a different end point in the XY plane");
     }
     if (radius < 0.5 * chord - radius_tolerance) {
-        fail_in_motion(
-            file,
-            block.line,
-            fmt::format("the radius {} is shorter than half the way, {:.4f}", shortest(radius), 0.5 * chord));
+        fail_in_motion(file,
+                       block.line,
+                       fmt::format("the radius {} is less than half the distance, {:.4f}",
+                                   shortest(radius),
+                                   0.5 * chord));
     }
     const double height = std::sqrt(std::max(radius * radius - 0.25 * chord * chord, 0.0));
     const Vec3 left(-way.y() / chord, way.x() / chord, 0.0);
@@ -54,20 +56,20 @@ Way arc(const ArmBlock& block, const std::filesystem::path& file) {
     const Vec3 from = -center, to = block.way - center;
     const double radius = from.norm();
     if (!(radius > 0.0) || std::abs(to.norm() - radius) > radius_tolerance) {
-        fail_in_motion(
-            file,
-            block.line,
-            fmt::format("the end is {:.4f} mm from the center, the start {:.4f}", to.norm(), radius));
+        fail_in_motion(file,
+                       block.line,
+                       fmt::format("the end is {:.4f} mm from the centre, but the start is {:.4f} mm",
+                                   to.norm(),
+                                   radius));
     }
     // Counter-clockwise as seen from above; of a plane on edge, from its positive side.
     Vec3 normal = from.cross(to);
     const bool in_line = !(normal.norm() > 1e-9 * radius * radius);
     if (in_line && std::abs(from.z()) > radius_tolerance) {
-        fail_in_motion(
-            file,
-            block.line,
-            "start, end and center are on a line that leaves the XY plane: nothing tells the plane of the "
-            "arc");
+        fail_in_motion(file,
+                       block.line,
+                       "start, end and centre lie on a line that leaves the XY plane, so the plane of the "
+                       "arc is undefined");
     }
     normal = in_line ? Vec3(Vec3::UnitZ()) : normal.normalized();
     const double above = std::abs(normal.z()) > 1e-9 ? normal.z() : normal.x() + normal.y();
@@ -89,7 +91,7 @@ Way way_of(const ArmBlock& block, const std::filesystem::path& file) {
 
 void expect_feed(const ArmBlock& block, const std::filesystem::path& file) {
     if (block.feed && !(*block.feed > 0.0)) {
-        fail_in_motion(file, block.line, "the feed F has to be above 0");
+        fail_in_motion(file, block.line, "the feed F must be above 0");
     }
 }
 

@@ -126,7 +126,7 @@ private:
         ArmHold jumped = there.hold;
         jumped.trouble = ArmTrouble::jump;
         jumped.off.joint = {most, step[most]};
-        jumped.why = fmt::format("joint {} would have to go {:.1f} {} within {:.4f} mm of the way",
+        jumped.why = fmt::format("joint {} would have to move {:.1f} {} within {:.4f} mm of the path",
                                  joint.name,
                                  turns ? to_degrees(step[most]) : step[most],
                                  turns ? "deg" : "mm",
@@ -137,8 +137,7 @@ private:
     void add(const ArmPlace& here, const ArmHold& hold) {
         if (path_.points.size() >= settings_.most_points) {
             const int line = ways_[static_cast<std::size_t>(way_)].line;
-            throw Error(fmt::format("line {}: more than {} positions of the arm are needed; allow a larger "
-                                    "tolerance",
+            throw Error(fmt::format("line {}: more than {} arm positions are needed; use a larger tolerance",
                                     line,
                                     settings_.most_points));
         }

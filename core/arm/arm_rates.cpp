@@ -43,7 +43,7 @@ ArmHold moved_tip(const ArmModel& arm, const JointPositions& joints, const Vec3&
     }
     return {joints,
             ArmTrouble::jump,
-            fmt::format("so near to a singular place a joint would turn {:.1f} deg in {:.3g} mm",
+            fmt::format("so close to a singularity, a joint would turn {:.1f} deg in {:.3g} mm",
                         to_degrees(turn),
                         length),
             0.0};

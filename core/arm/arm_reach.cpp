@@ -89,7 +89,7 @@ std::string to_text(const ArmModel& arm, ArmTrouble trouble, const ArmShortfall&
                         jumps ? "" : " beyond its limit"));
     }
     if (off.axis > 0.0) {
-        add(fmt::format("the tool is {:.3f} deg off its direction", to_degrees(off.axis)));
+        add(fmt::format("the tool direction is {:.3f} deg off", to_degrees(off.axis)));
     }
     return text;
 }

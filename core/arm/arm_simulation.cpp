@@ -71,8 +71,9 @@ private:
 
     void add(const ArmWay& way, double share, int number) {
         if (records_.size() >= most_records) {
-            fail_in_simulation(
-                file_, way.line, fmt::format("more than {} points; take longer steps", most_records));
+            fail_in_simulation(file_,
+                               way.line,
+                               fmt::format("more than {} points are needed; use longer steps", most_records));
         }
         Frame goal = way.at(share);
         goal.translation() = single(goal.translation());
@@ -101,7 +102,7 @@ private:
         };
         const std::string off = to_text(arm_, hole.trouble, hole.worst().off);
         std::string text =
-            fmt::format("the arm does not reach {}, point {} of the path, {:.3f} mm along it: {}",
+            fmt::format("the arm cannot reach {}, point {} of the path, {:.3f} mm along it: {}",
                         place(hole.first().tip),
                         hole.first().point,
                         hole.first().along,
@@ -113,10 +114,11 @@ private:
                                 hole.last().line);
         }
         if (!off.empty()) {
-            text += fmt::format("; at worst, at point {}, {}", hole.worst().point, off);
+            text += fmt::format("; the worst, at point {}, {}", hole.worst().point, off);
         }
         if (holes_.size() > 1) {
-            text += fmt::format("; {} follow", counted(holes_.size() - 1, "more stretch", "more stretches"));
+            text +=
+                fmt::format("; followed by {}", counted(holes_.size() - 1, "more section", "more sections"));
         }
         return text;
     }
@@ -165,7 +167,7 @@ public:
     }
     void expect_end(std::string_view line) const {
         if (!line.empty()) {
-            fail_in_simulation(file_, number_, "nothing more is expected in this line");
+            fail_in_simulation(file_, number_, "the line has extra text at its end");
         }
     }
 
@@ -196,8 +198,8 @@ std::vector<std::array<double, 3>> first_turns_deg(const ArmModel& arm,
     constexpr int axes = 3;
     for (int n = 0; n < axes; ++n) {
         if (n >= arm.joint_count() || arm.joint(n).kind != JointKind::revolute) {
-            throw Error(
-                fmt::format("the card turns three joints; joint {} of {} does not turn", n + 1, arm.name()));
+            throw Error(fmt::format(
+                "the card can only turn three joints, but joint {} of {} does not turn", n + 1, arm.name()));
         }
     }
     std::vector<std::array<double, 3>> turns;

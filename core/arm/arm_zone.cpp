@@ -60,7 +60,7 @@ void add_lead(const ArmActuators& drives, const DrivePositions& counts, std::vec
         found.push_back(
             {below > 0.0 ? lead_low : lead_high,
              std::max(below, above) * mm_per_count,
-             fmt::format("drive 3 would lead drive 2 by {:.0f} counts, outside of {:.0f} to {:.0f}",
+             fmt::format("drive 3 would be {:.0f} counts ahead of drive 2, outside {:.0f} to {:.0f}",
                          lead,
                          drives.limits.below_second,
                          drives.limits.above_second)});
@@ -82,7 +82,7 @@ void add_roll(const ArmActuators& drives, const DrivePositions& counts, std::vec
         found.push_back(
             {roll,
              to_degrees(beyond * std::abs(drives.scales[4].scale)),
-             fmt::format("drive 5 would be at {:.0f} counts, outside of {:.0f} to {:.0f}", at, low, high)});
+             fmt::format("drive 5 would be at {:.0f} counts, outside {:.0f} to {:.0f}", at, low, high)});
     }
 }
 
@@ -114,7 +114,7 @@ std::vector<std::string> broken_limits(const ArmModel& arm,
     std::vector<std::string> reasons;
     for (int n = 0; n < arm.joint_count(); ++n) {
         if (joints[n] < arm.joint(n).min || joints[n] > arm.joint(n).max) {
-            reasons.push_back(fmt::format("joint {} is outside of its limits", arm.joint(n).name));
+            reasons.push_back(fmt::format("joint {} is outside its limits", arm.joint(n).name));
         }
     }
     std::vector<ZoneBreach> breaches;

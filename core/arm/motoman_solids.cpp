@@ -197,7 +197,8 @@ std::vector<SolidMesh> coupler(double length) {
 MotomanSolids motoman_solids(const ArmModel& arm, const ArmActuators& actuators) {
     if (!arm.planar_elbow() || arm.planar_elbow()->upper_arm < least_link ||
         arm.planar_elbow()->forearm < least_link) {
-        throw Error("bodies can be made for an arm of the Motoman L-3's kind with links of 400 mm or more");
+        throw Error(
+            "bodies can only be generated for an arm like the Motoman L-3, with links of 400 mm or more");
     }
     const PlanarElbow& lengths = *arm.planar_elbow();
     MotomanSolids made;

@@ -41,7 +41,7 @@ public:
         }
         close_labels();
         if (const std::size_t size = result_.image.code.size(); size > most_code) {
-            fail(0, fmt::format("the program has {} bytes, the ROM holds {}", size, most_code));
+            fail(0, fmt::format("the program has {} bytes, but the ROM holds {}", size, most_code));
         }
         return std::move(result_);
     }
@@ -91,20 +91,20 @@ private:
             fill_page();
         } else {
             fail(word.column,
-                 fmt::format("\"{}\" is no instruction", word.text),
-                 "MOV, LD, ST, G00 to G04, G00Z to G03Z, M00 to M09, M30, MUSER, PAGE, NOP or HLT");
+                 fmt::format("\"{}\" is not an instruction", word.text),
+                 "use MOV, LD, ST, G00 to G04, G00Z to G03Z, M00 to M09, M30, MUSER, PAGE, NOP or HLT");
             return;
         }
         if (more() && (result_.errors.empty() || result_.errors.back().place.line != line_)) {
-            fail(column(), fmt::format("\"{}\" is too much", words_[at_].text));
+            fail(column(), fmt::format("unexpected \"{}\"", words_[at_].text));
         }
     }
 
     void define_label() {
         if (!is_name(words_[0].text)) {
-            fail(words_[0].column, fmt::format("\"{}\" is no label", words_[0].text));
+            fail(words_[0].column, fmt::format("\"{}\" is not a label", words_[0].text));
         } else if (!labels_.emplace(std::string(words_[0].text), result_.image.code.size()).second) {
-            fail(words_[0].column, fmt::format("label {} is there already", words_[0].text));
+            fail(words_[0].column, fmt::format("label {} is already defined", words_[0].text));
         }
         moves_.forget();
     }
@@ -112,11 +112,11 @@ private:
     /// What the whole program is made for.
     void read_setting(std::string_view name, std::string_view written) {
         if (!more()) {
-            fail(column(), fmt::format("a value is missing behind {}", written));
+            fail(column(), fmt::format("a value is missing after {}", written));
             return;
         }
         if (begun_) {
-            fail(column(), fmt::format("{} stands behind the first instruction", written));
+            fail(column(), fmt::format("{} must come before the first instruction", written));
             return;
         }
         MadeFor& made_for = result_.image.made_for;
@@ -148,8 +148,8 @@ private:
         }
         if (at / rom_size != (code.size() - 1) / rom_size) {
             fail(column,
-                 "the instruction crosses the end of a page of the program ROM",
-                 "put PAGE and .page in front of it");
+                 "the instruction crosses the end of a program ROM page",
+                 "insert PAGE and .page before it");
         }
         result_.lines.push_back({code_address_at(at), line_, column});
         begun_ = true;
@@ -182,16 +182,17 @@ private:
         const auto target = more() ? register_of(words_[at_].text) : std::nullopt;
         if (!target) {
             fail(column(),
-                 more() ? fmt::format("\"{}\" is no register", words_[at_].text) : "a register is missing");
+                 more() ? fmt::format("\"{}\" is not a register", words_[at_].text)
+                        : "a register is missing");
             return std::nullopt;
         }
         if (is_loaded && static_cast<int>(*target) >= loaded_register_count) {
-            fail(column(), fmt::format("{} is computed and cannot be loaded", to_text(*target)));
+            fail(column(), fmt::format("{} is a computed register and cannot be loaded", to_text(*target)));
             return std::nullopt;
         }
         ++at_;
         if (!more() || words_[at_].text != ",") {
-            fail(column(), "a comma is missing behind the register");
+            fail(column(), "a comma is missing after the register");
             return std::nullopt;
         }
         ++at_;
@@ -214,8 +215,9 @@ private:
         } else if (is_limit(*target)) {
             fail(column(), fmt::format("{} must be above 0", to_text(*target)));
         } else {
-            fail(column(),
-                 fmt::format("\"{}\" is no number in {}", words_[at_].text, to_text(result_.image.format)));
+            fail(
+                column(),
+                fmt::format("\"{}\" is not a number in {}", words_[at_].text, to_text(result_.image.format)));
         }
     }
     /// LD or ST of a register at an address.
@@ -234,7 +236,7 @@ private:
                  fmt::format("{} bytes at \"{}\" {}",
                              size,
                              words_[at_].text,
-                             crosses ? "lie across the border between two memories"
+                             crosses ? "cross the border between two memories"
                              : opcode == Opcode::ld
                                  ? "are not all on the bus"
                                  : "are not all in the RAM or the motion controller's port"));
@@ -251,7 +253,7 @@ private:
         }
         long long number = 0;
         if (!read_number(word.text, number) || number < 0 || number > 0xffff) {
-            fail(word.column, fmt::format("\"{}\" is no address from 0 to 65535", word.text));
+            fail(word.column, fmt::format("\"{}\" is not an address from 0 to 65535", word.text));
             return std::nullopt;
         }
         return static_cast<Word>(number);
@@ -271,14 +273,14 @@ private:
             long long number = 0;
             const auto most = static_cast<long long>(most_of(target));
             if (!read_number(word.text, number) || number < 0 || number > most) {
-                fail(word.column, fmt::format("\"{}\" is no whole number from 0 to {}", word.text, most));
+                fail(word.column, fmt::format("\"{}\" is not a whole number from 0 to {}", word.text, most));
                 return std::nullopt;
             }
             return static_cast<Word>(number);
         }
         double value = 0.0;
         if (!read_real(word.text, value)) {
-            fail(word.column, fmt::format("\"{}\" is no number", word.text));
+            fail(word.column, fmt::format("\"{}\" is not a number", word.text));
             return std::nullopt;
         }
         bool overflow = false;
@@ -290,8 +292,8 @@ private:
         });
         if (vanishes) {
             fail(word.column,
-                 fmt::format("{} is less than {} can tell", word.text, to_text(result_.image.format)),
-                 "choose a number format with more bits behind the point, or write 0");
+                 fmt::format("{} is below the resolution of {}", word.text, to_text(result_.image.format)),
+                 "choose a number format with more fraction bits, or write 0");
             return std::nullopt;
         }
         if (overflow) {
@@ -308,7 +310,7 @@ private:
         const bool wide = immediate_bytes(result_.image.format) == 4 && bits > 0xffffffffU;
         if (fault != std::errc{} || stop != end || wide) {
             fail(word.column,
-                 fmt::format("\"{}\" is no hexadecimal number of {} bytes",
+                 fmt::format("\"{}\" is not a hexadecimal number of {} bytes",
                              word.text,
                              immediate_bytes(result_.image.format)));
             return std::nullopt;
@@ -321,11 +323,11 @@ private:
             const auto found = labels_.find(open.name);
             line_ = open.line;
             if (found == labels_.end()) {
-                fail(open.column, fmt::format("there is no label {}", open.name));
+                fail(open.column, fmt::format("label {} is not defined", open.name));
             } else if (found->second / rom_size != open.at / rom_size) {
                 fail(open.column,
-                     fmt::format("label {} lies in another page of the program ROM", open.name),
-                     "PAGE goes on in the next page");
+                     fmt::format("label {} is in another page of the program ROM", open.name),
+                     "use PAGE to continue in the next page");
             } else {
                 const std::size_t target = found->second % rom_size;
                 result_.image.code[open.at] = static_cast<std::uint8_t>(target);

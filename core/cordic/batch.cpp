@@ -46,7 +46,7 @@ BatchRotator::BatchRotator(const NumberFormat& format, const Sequence& sequence,
     : format_(format), sequence_(sequence), code_(has_fast_batches() ? code : BatchCode::portable) {
     if (format.kind != NumberKind::fixed || format.word() != 32 || format.rounding != Rounding::truncate ||
         sequence.m == CoordinateSystem::hyperbolic) {
-        throw Error("batches are of 32-bit fixed point that truncates, circular or linear");
+        throw Error("batches must be 32-bit fixed point with truncation, circular or linear");
     }
     const FixedArithmetic arithmetic(format);
     double sum = 0.0;

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double right_angle_deg = 90.0;
 
-constexpr const char* room_for_turning = "the iteration needs room for the vector times its gain, up to 1.65";
+constexpr const char* room_for_turning =
+    "choose a format with room for the vector times its gain, up to 1.65";
 
 void refuse(bool overflow, const NumberFormat& format) {
     internal::refuse_overflow(overflow, format, room_for_turning);
@@ -109,12 +110,12 @@ Polar polar(const NumberFormat& format, const Sequence& sequence, const Decimal&
             throw Error(fmt::format("({}, {}) has no direction in {}", x, y, to_text(format)));
         }
         if (reach == Reach::outside) {
-            throw Error(fmt::format("({}, {}) lies beyond what {} turn to the x axis",
+            throw Error(fmt::format("({}, {}) cannot be turned to the x axis by {}",
                                     x,
                                     y,
                                     counted(sequence.step_count, "step")),
                         {},
-                        "take more iterations");
+                        "use more iterations");
         }
         const int shift = normalising_shift(arithmetic, folded.x, folded.y);
         const auto found = kernel.vectored(

@@ -60,8 +60,9 @@ Decimal::Decimal(double value) : negative_(std::signbit(value)), nearest_(value)
 Decimal Decimal::parse(std::string_view text) {
     Decimal number;
     if (!read_real(text, number.nearest_)) {
-        throw Error(
-            fmt::format("\"{}\" is no number", text), {}, "1.5, -2 or 3e-4, within the range of binary64");
+        throw Error(fmt::format("\"{}\" is not a number", text),
+                    {},
+                    "write a number such as 1.5, -2 or 3e-4, within the range of binary64");
     }
     number.negative_ = text.front() == '-';
     const std::string_view digits = text.substr(text.front() == '-' || text.front() == '+' ? 1 : 0);

@@ -72,7 +72,7 @@ void fold_everything(Experiments& all) {
                                          .y_label = "direction after, degrees",
                                          .series = folded})});
     all.pictures.push_back({"e2-post.svg",
-                            to_svg(Chart{.title = "E2: PostCORDIC takes each direction back",
+                            to_svg(Chart{.title = "E2: PostCORDIC restores each direction",
                                          .x_label = "direction after PreCORDIC, degrees",
                                          .y_label = "direction after PostCORDIC, degrees",
                                          .series = unfolded})});
@@ -331,7 +331,7 @@ void whole_program(Experiments& all) {
     const ArcErrors second_errors = errors_of(second, second_points);
     all.pictures.push_back(
         {"e7-errors.svg",
-         to_svg(Chart{.title = "E7: how far the arcs' points are from the exact ones",
+         to_svg(Chart{.title = "E7: distance of the arcs' points from the exact ones",
                       .x_label = "chord",
                       .y_label = "distance",
                       .series = {{.label = "G02", .x = first_errors.chord, .y = first_errors.distance},

@@ -40,26 +40,26 @@ public:
     Head(std::span<const std::uint8_t> bytes, const std::filesystem::path& file)
         : bytes_(bytes), file_(file) {
         if (bytes.size() <= version_at || !std::ranges::equal(bytes.first(magic.size()), magic)) {
-            fail(file, 0, "no program of the CORDIC processor");
+            fail(file, 0, "not a program of the CORDIC processor");
         }
         if (bytes[version_at] == version_without_settings) {
-            fail(file,
-                 version_at,
-                 "the program file is of version 1, which does not say what steps and rounding it is made "
-                 "for");
+            fail(
+                file,
+                version_at,
+                "the program file has version 1, which does not state the steps and rounding it is made for");
         }
         if (bytes[version_at] != version) {
             fail(file,
                  version_at,
-                 fmt::format("version {} of the program file is not known", bytes[version_at]));
+                 fmt::format("version {} of the program file is not supported", bytes[version_at]));
         }
         if (bytes.size() < head_size) {
-            fail(file, bytes.size(), "the head of the program file is not complete");
+            fail(file, bytes.size(), "the header of the program file is incomplete");
         }
     }
 
     [[nodiscard]] NumberFormat format() const {
-        switch (at<NumberKind>(kind_at, NumberKind::fixed, "kind of numbers")) {
+        switch (at<NumberKind>(kind_at, NumberKind::fixed, "number type")) {
         case NumberKind::binary64:
             return binary64;
         case NumberKind::binary32:
@@ -78,7 +78,7 @@ public:
         if (iterations > most_steps) {
             fail(file_,
                  iterations_at,
-                 fmt::format("{} iterations, at most {} are possible", iterations, most_steps));
+                 fmt::format("{} iterations are too many, at most {} are possible", iterations, most_steps));
         }
         return {iterations,
                 at<Rounding>(rounding_at, Rounding::nearest_even, "rounding"),
@@ -91,12 +91,14 @@ public:
         if (announced != code.size()) {
             fail(file_,
                  length_at,
-                 fmt::format("{} bytes of code are announced, {} are there", announced, code.size()));
+                 fmt::format("{} bytes of code are declared, but the file has {}", announced, code.size()));
         }
         if (code.size() > most_code) {
             fail(file_,
                  length_at,
-                 fmt::format("{} bytes of code, the program ROM holds {}", code.size(), most_code));
+                 fmt::format("the program has {} bytes of code, but the program ROM holds {}",
+                             code.size(),
+                             most_code));
         }
         return code;
     }
@@ -108,7 +110,7 @@ private:
     template <class Enumeration>
     [[nodiscard]] Enumeration at(std::size_t byte, Enumeration last, const char* what) const {
         if (bytes_[byte] > static_cast<std::uint8_t>(last)) {
-            fail(file_, byte, fmt::format("{} {} is not known", what, bytes_[byte]));
+            fail(file_, byte, fmt::format("{} {} is not supported", what, bytes_[byte]));
         }
         return static_cast<Enumeration>(bytes_[byte]);
     }
@@ -120,8 +122,9 @@ constexpr std::array<std::string_view, 2> zeros = {"positive", "matlab"};
 std::size_t index_in(const std::array<std::string_view, 2>& names, std::string_view text, const char* what) {
     const auto* const found = std::ranges::find(names, text);
     if (found == names.end()) {
-        throw Error(
-            fmt::format("\"{}\" is no {}", text, what), {}, fmt::format("{} or {}", names[0], names[1]));
+        throw Error(fmt::format("\"{}\" is not a valid {}", text, what),
+                    {},
+                    fmt::format("use {} or {}", names[0], names[1]));
     }
     return static_cast<std::size_t>(found - names.begin());
 }
@@ -150,9 +153,9 @@ int parse_iterations(std::string_view text) {
         return 0;
     }
     if (!read_number(text, count) || count < 1 || count > most_steps) {
-        throw Error(fmt::format("\"{}\" is no number of iterations", text),
+        throw Error(fmt::format("\"{}\" is not a valid number of iterations", text),
                     {},
-                    fmt::format("1 to {}, or thesis for its 29 steps", most_steps));
+                    fmt::format("use 1 to {}, or thesis for its 29 steps", most_steps));
     }
     return static_cast<int>(count);
 }

@@ -32,7 +32,7 @@ ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name)
         const std::vector<LineWord> words = words_of(take_line(text));
         const auto fail = [&](std::size_t at, std::string message) {
             const int column = at < words.size() ? words[at].column : words.back().column;
-            read.errors.push_back({{name, line, column, -1}, std::move(message), "SECONDS BIT 0 or 1"});
+            read.errors.push_back({{name, line, column, -1}, std::move(message), "write SECONDS BIT 0 or 1"});
         };
         if (words.empty()) {
             continue;
@@ -40,13 +40,13 @@ ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name)
         InputChange change;
         const PlcBit bit = words.size() > 1 ? input_of(words[1].text) : no_bit;
         if (!read_real(words[0].text, change.seconds) || change.seconds < 0.0) {
-            fail(0, fmt::format("\"{}\" is no time in seconds", words[0].text));
+            fail(0, fmt::format("\"{}\" is not a time in seconds", words[0].text));
         } else if (!read.changes.empty() && change.seconds < read.changes.back().seconds) {
-            fail(0, fmt::format("{} is before the line above", words[0].text));
+            fail(0, fmt::format("{} is earlier than the line above", words[0].text));
         } else if (bit == no_bit) {
             fail(1, "an input, I0 to I31, is missing");
         } else if (words.size() != 3 || (words[2].text != "0" && words[2].text != "1")) {
-            fail(2, "a single 0 or 1 is missing");
+            fail(2, "a 0 or 1 is missing");
         } else {
             change.bit = bit;
             change.value = words[2].text == "1";

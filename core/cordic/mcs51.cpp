@@ -20,15 +20,15 @@ constexpr unsigned overflow_flag = 0x04;
 std::string_view to_text(Mcs51Stop stop) {
     switch (stop) {
     case Mcs51Stop::reserved:
-        return "the byte 0xa5, which is no instruction";
+        return "the byte 0xa5 is not an instruction";
     case Mcs51Stop::interrupts:
-        return "interrupts were enabled, which are not built in";
+        return "interrupts were enabled, which is not supported";
     case Mcs51Stop::timer:
-        return "a timer was started, which is not built in";
+        return "a timer was started, which is not supported";
     case Mcs51Stop::serial:
-        return "the serial port was written, which is not built in";
+        return "the serial port was written, which is not supported";
     case Mcs51Stop::idle:
-        return "the idle or power-down mode was ordered";
+        return "idle or power-down mode was requested, which is not supported";
     case Mcs51Stop::none:
         break;
     }

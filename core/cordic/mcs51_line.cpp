@@ -35,21 +35,21 @@ std::optional<std::uint8_t> hex_byte(std::string_view line, std::size_t at) {
 std::vector<std::uint8_t> record_of(std::string_view line, const Place& place) {
     const auto refuse = [&](const char* what) { throw Error(Diagnostic{place, what, {}}); };
     if (!line.starts_with(':')) {
-        refuse("a record of Intel HEX begins with a colon");
+        refuse("a record of Intel HEX must start with a colon");
     }
     std::vector<std::uint8_t> bytes;
     unsigned sum = 0;
     for (std::size_t at = 1; at < line.size(); at += 2) {
         const auto byte = hex_byte(line, at);
         if (!byte) {
-            refuse("a record of Intel HEX has two hexadecimal digits per byte");
+            refuse("a record of Intel HEX must have two hexadecimal digits per byte");
         }
         bytes.push_back(*byte);
         sum += *byte;
     }
     constexpr std::size_t frame = 5; // length, address, kind, checksum
     if (bytes.size() < frame || bytes.size() != frame + bytes[0]) {
-        refuse("the record is not as long as it says");
+        refuse("the record length does not match its length byte");
     }
     if ((sum & 0xffU) != 0) {
         refuse("the checksum of the record is wrong");
@@ -84,7 +84,7 @@ void run_to_pin(Mcs51& processor, bool high, const std::string& file) {
             throw Error(
                 fmt::format("P1.0 did not go {} within {} clocks", high ? "high" : "low", most_mcs51_clocks),
                 file,
-                "the program has to hold P1.0 high while it computes, as line-8051.c does");
+                "change the program to hold P1.0 high while it computes, as line-8051.c does");
         }
         processor.step();
     }
@@ -114,16 +114,19 @@ std::vector<std::uint8_t> read_intel_hex(std::string_view text, const std::strin
         }
         if (record[3] != 0) {
             throw Error(Diagnostic{
-                place, fmt::format("record kind {:02x}: only 00 and 01 are of an MCS-51", record[3]), {}});
+                place,
+                fmt::format("record type {:02x} is not supported: only 00 and 01 apply to an MCS-51",
+                            record[3]),
+                {}});
         }
         const std::size_t last = address + record[0];
         if (last > 0x10000) {
-            throw Error(Diagnostic{place, "the data lie beyond address 0xffff", {}});
+            throw Error(Diagnostic{place, "the data extend beyond address 0xffff", {}});
         }
         memory.resize(std::max(memory.size(), last));
         std::copy(record.begin() + head, record.end(), memory.begin() + static_cast<std::ptrdiff_t>(address));
     }
-    throw Error(Diagnostic{{file, number, 1, -1}, "the file ends without its last record, :00000001FF", {}});
+    throw Error(Diagnostic{{file, number, 1, -1}, "the file ends without its end record, :00000001FF", {}});
 }
 
 Mcs51LineRun

@@ -89,7 +89,7 @@ public:
         close_branches();
         close_maps();
         if (result_.program.count == 0 && result_.errors.empty()) {
-            fail(1, 1, "the microprogram has no words", "the instruction fetch stands at address 0");
+            fail(1, 1, "the microprogram has no words", "put the instruction fetch at address 0");
         }
         return std::move(result_);
     }
@@ -126,12 +126,14 @@ private:
     void define_label(const LineWord& word) {
         const std::string label(word.text);
         if (!is_name(word.text)) {
-            fail(word, fmt::format("\"{}\" is no label", word.text), "a letter, then letters, digits and _");
+            fail(word,
+                 fmt::format("\"{}\" is not a label", word.text),
+                 "use a letter, followed by letters, digits and _");
         } else if (result_.program.count >= micro_rom_size) {
-            fail(word, fmt::format("label {} stands behind the end of the ROM", label));
+            fail(word, fmt::format("label {} is after the end of the ROM", label));
         } else if (!result_.program.labels.emplace(label, static_cast<std::uint8_t>(result_.program.count))
                         .second) {
-            fail(word, fmt::format("label {} is there already", label));
+            fail(word, fmt::format("label {} is already defined", label));
         }
     }
 
@@ -148,13 +150,13 @@ private:
             return;
         }
         if (!more() || !is_name(words_[at_].text)) {
-            fail(line_, end_column(), ".map needs a label behind the opcode");
+            fail(line_, end_column(), ".map needs a label after the opcode");
             return;
         }
         open.label = take();
         refuse_rest();
         if (open.last < open.first) {
-            fail(open.label, "the last opcode comes before the first");
+            fail(open.label, "the last opcode is below the first");
             return;
         }
         maps_.push_back(open);
@@ -174,7 +176,7 @@ private:
         const LineWord name = take();
         const auto op = micro_op_of(name.text);
         if (!op) {
-            fail(name, fmt::format("\"{}\" is no micro-operation", name.text));
+            fail(name, fmt::format("\"{}\" is not a micro-operation", name.text));
             return;
         }
         MicroWord word{.op = *op};
@@ -189,7 +191,7 @@ private:
         }
         refuse_rest();
         if (result_.program.count >= micro_rom_size) {
-            fail(name, fmt::format("the ROM holds {} words", micro_rom_size));
+            fail(name, fmt::format("the ROM only holds {} words", micro_rom_size));
             return;
         }
         const auto at = static_cast<std::size_t>(result_.program.count++);
@@ -205,7 +207,7 @@ private:
             fail(line_,
                  more() ? words_[at_].column : end_column(),
                  fmt::format("{} needs a condition", to_text(word.op)),
-                 "never, always, bus_busy, chords_left or last_byte_left");
+                 "use never, always, bus_busy, chords_left or last_byte_left");
             return false;
         }
         ++at_;
@@ -230,7 +232,7 @@ private:
             if (found == control_names.end()) {
                 fail(line_,
                      more() ? words_[at_].column : end_column(),
-                     more() ? fmt::format("\"{}\" is no control signal", words_[at_].text)
+                     more() ? fmt::format("\"{}\" is not a control signal", words_[at_].text)
                             : std::string("a control signal is missing"));
                 return false;
             }
@@ -241,7 +243,7 @@ private:
     }
     void refuse_rest() {
         if (more()) {
-            fail(words_[at_], fmt::format("\"{}\" is too much", words_[at_].text));
+            fail(words_[at_], fmt::format("unexpected \"{}\"", words_[at_].text));
         }
     }
 
@@ -260,9 +262,9 @@ private:
             } else if (constant != constants_.end()) {
                 branch = static_cast<std::uint8_t>(constant->second);
             } else if (!read_number(open.word.text, number)) {
-                fail(open.line, open.word.column, fmt::format("there is no label {}", open.word.text));
+                fail(open.line, open.word.column, fmt::format("label {} is not defined", open.word.text));
             } else if (number < 0 || number > 255) {
-                fail(open.line, open.word.column, fmt::format("{} is not from 0 to 255", open.word.text));
+                fail(open.line, open.word.column, fmt::format("{} must be from 0 to 255", open.word.text));
             } else {
                 branch = static_cast<std::uint8_t>(number);
             }
@@ -272,7 +274,7 @@ private:
         for (const OpenMap& open : maps_) {
             const auto label = result_.program.labels.find(std::string(open.label.text));
             if (label == result_.program.labels.end()) {
-                fail(open.line, open.label.column, fmt::format("there is no label {}", open.label.text));
+                fail(open.line, open.label.column, fmt::format("label {} is not defined", open.label.text));
                 continue;
             }
             for (int opcode = open.first; opcode <= open.last; ++opcode) {
@@ -280,7 +282,7 @@ private:
                 if (entry) {
                     fail(open.line,
                          open.label.column,
-                         fmt::format("opcode {:#04x} is mapped already", opcode));
+                         fmt::format("opcode {:#04x} is already mapped", opcode));
                 }
                 entry = label->second;
             }

@@ -38,9 +38,10 @@ NumberFormat fixed_format(int integer_bits, int fraction_bits, Rounding rounding
     const bool bits = integer_bits >= 1 && integer_bits <= largest_word && fraction_bits >= 0 &&
                       fraction_bits <= most_fraction_bits;
     if (!bits || integer_bits + fraction_bits < least_word || integer_bits + fraction_bits > largest_word) {
-        throw Error(fmt::format("the fixed-point format q{}.{} does not fit", integer_bits, fraction_bits),
+        throw Error(fmt::format("the fixed-point format q{}.{} is not possible", integer_bits, fraction_bits),
                     {},
-                    "words have 8 to 64 bits, at least the sign before the point and at most 62 behind it");
+                    "use words of 8 to 64 bits, with at least the sign before the point and at most 62 bits "
+                    "after it");
     }
     return {NumberKind::fixed, integer_bits, fraction_bits, rounding};
 }
@@ -65,7 +66,8 @@ NumberFormat parse_number_format(std::string_view text) {
             return fixed_format(integer_bits, fraction_bits);
         }
     }
-    throw Error(fmt::format("\"{}\" is no number format", text), {}, "f64, f32, or qI.F as in q2.22");
+    throw Error(
+        fmt::format("\"{}\" is not a number format", text), {}, "use f64, f32, or qI.F such as q2.22");
 }
 
 std::string to_text(const NumberFormat& format) {
@@ -86,9 +88,9 @@ Rounding parse_rounding(std::string_view text) {
             return rounding;
         }
     }
-    throw Error(fmt::format("\"{}\" is no way of rounding", text),
+    throw Error(fmt::format("\"{}\" is not a rounding mode", text),
                 {},
-                "truncate, toward-zero, nearest or nearest-even");
+                "use truncate, toward-zero, nearest or nearest-even");
 }
 
 std::string_view to_text(Rounding rounding) {

@@ -65,7 +65,7 @@ public:
             fail(open.word.column, fmt::format("{} is not closed", open.word.text));
         }
         if (made_.instructions.size() > most_plc_instructions) {
-            fail(1, fmt::format("more than {} instructions", most_plc_instructions));
+            fail(1, fmt::format("there are more than {} instructions", most_plc_instructions));
         }
         return std::move(made_);
     }
@@ -90,7 +90,7 @@ private:
         if (known == ops.end()) {
             return fail(
                 word.column,
-                fmt::format("\"{}\" is no instruction", word.text),
+                fmt::format("\"{}\" is not an instruction", word.text),
                 "LD, LDN, AND, ANDN, OR, ORN, XOR, NOT, AND(, OR(, ), ST, STN, S, R, TON, TOF, TP, CTU");
         }
         PlcInstruction made{.op = known->op};
@@ -98,7 +98,7 @@ private:
             return;
         }
         if (at_ < words_.size()) {
-            return fail(column(), fmt::format("\"{}\" is too much", words_[at_].text));
+            return fail(column(), fmt::format("unexpected \"{}\"", words_[at_].text));
         }
         made_.instructions.push_back(made);
     }
@@ -107,12 +107,12 @@ private:
         if (op == PlcOp::and_open || op == PlcOp::or_open) {
             open_.push_back({word, line_});
             if (open_.size() > plc_nesting) {
-                fail(word.column, fmt::format("more than {} parentheses in one another", plc_nesting));
+                fail(word.column, fmt::format("parentheses are nested more than {} deep", plc_nesting));
                 return false;
             }
         } else if (op == PlcOp::close) {
             if (open_.empty()) {
-                fail(word.column, "nothing is open that could be closed");
+                fail(word.column, "there is no open parenthesis to close");
                 return false;
             }
             open_.pop_back();
@@ -127,22 +127,23 @@ private:
         const auto bit = at_ < words_.size() ? plc_bit(words_[at_].text) : std::nullopt;
         if (!bit) {
             fail(column(),
-                 at_ < words_.size() ? fmt::format("\"{}\" is no bit", words_[at_].text) : "a bit is missing",
-                 "I0 to I31, Q0 to Q31, M0 to M63, T0 to T15, C0 to C15, U100 to U199, or one with a name");
+                 at_ < words_.size() ? fmt::format("\"{}\" is not a bit", words_[at_].text)
+                                     : "a bit is missing",
+                 "use I0 to I31, Q0 to Q31, M0 to M63, T0 to T15, C0 to C15, U100 to U199, or a name");
             return false;
         }
         made.bit = *bit;
         const bool counter_reset = made.op == PlcOp::reset && plc_is_counter(*bit);
         if (writes(made.op) && !plc_writes(*bit) && !counter_reset) {
-            fail(column(), fmt::format("{} is not for the logic to set", plc_name(*bit)));
+            fail(column(), fmt::format("{} cannot be set by the logic", plc_name(*bit)));
             return false;
         }
         if (is_timer(made.op) && !plc_is_timer(*bit)) {
-            fail(column(), fmt::format("{} is no timer", plc_name(*bit)));
+            fail(column(), fmt::format("{} is not a timer", plc_name(*bit)));
             return false;
         }
         if (made.op == PlcOp::count_up && !plc_is_counter(*bit)) {
-            fail(column(), fmt::format("{} is no counter", plc_name(*bit)));
+            fail(column(), fmt::format("{} is not a counter", plc_name(*bit)));
             return false;
         }
         ++at_;
@@ -162,7 +163,7 @@ private:
         const bool whole = timer || !(std::floor(value) < value);
         if (!there || !in_range || !whole) {
             fail(column(),
-                 timer ? "a comma and a time in ms are missing" : "a comma and a count are missing");
+                 timer ? "a comma and a time in ms are expected" : "a comma and a count are expected");
             return false;
         }
         made.preset = std::llround(timer ? us_a_ms * value : value);

@@ -46,10 +46,11 @@ Processor::Processor(const ProcessorSettings& settings, const Image& image, Micr
       microprogram_(std::make_shared<const Microprogram>(std::move(microprogram))),
       kernel_(any_kernel(format_, settings.sequence, settings.zero)) {
     if (image.code.size() > most_code) {
-        throw Error(fmt::format("the program has {} bytes, the ROM holds {}", image.code.size(), most_code));
+        throw Error(
+            fmt::format("the program has {} bytes, but the ROM holds {}", image.code.size(), most_code));
     }
     if (settings.sequence.m != CoordinateSystem::circular) {
-        throw Error("the processor computes with a circular sequence");
+        throw Error("the processor needs a circular sequence");
     }
     memory_.rom.resize(std::max(memory_.rom.size(), page_count(image.code.size()) * rom_size), 0xff);
     std::ranges::copy(image.code, memory_.rom.begin());

@@ -26,13 +26,13 @@ void expect_hardware(const ProcessorSettings& settings, std::span<const Image> p
     if (settings.zero != SignOfZero::positive) {
         throw Error("hardware turns in every step: sign(0) is 1",
                     {},
-                    "leave out --matlab-zero, and .zero matlab in assembler text");
+                    "leave out --matlab-zero, and .zero matlab in assembly source");
     }
     // Pre leaves directions of up to 90 degrees; the model looks for those that the steps do not reach.
     if (vectoring_range(settings.sequence) < std::numbers::pi / 2.0) {
-        throw Error(fmt::format("{} steps do not reach every direction", settings.sequence.step_count),
+        throw Error(fmt::format("{} steps do not cover every direction", settings.sequence.step_count),
                     {},
-                    "take 4 iterations or more");
+                    "use 4 or more iterations");
     }
 }
 

@@ -7,11 +7,10 @@
 namespace millwright::cordic {
 
 Error no_hardware_of(const NumberFormat& format) {
-    return Error(
-        fmt::format("hardware is made for fixed point, not for {}", to_text(format)),
-        {},
-        "as q2.22: a shift is then a wire; in floating point each addition of a step would need an adder "
-        "that aligns, normalises and rounds, which is not generated");
+    return Error(fmt::format("hardware can only be generated for fixed point, not for {}", to_text(format)),
+                 {},
+                 "use a format such as q2.22, for which a shift is a wire; floating point would need an "
+                 "adder that aligns, normalises and rounds in each step, which is not generated");
 }
 
 std::vector<RtlFile> make_rtl(const NumberFormat& format,

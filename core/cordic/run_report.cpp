@@ -92,13 +92,13 @@ void find_late(RunReport& report, const Processor& processor, double clock_hz, S
 const char* hint_for(Stop stop) {
     switch (stop) {
     case Stop::overflow:
-        return "choose a number format with more bits before the point";
+        return "choose a number format with more integer bits";
     case Stop::no_number:
-        return "write numbers of the program's format where it reads them";
+        return "write numbers in the program's format where it reads them";
     case Stop::no_speed:
-        return "load both in front of it";
+        return "load both before the motion";
     case Stop::out_of_reach:
-        return "take 4 iterations or more";
+        return "use 4 or more iterations";
     default:
         return "";
     }
@@ -139,7 +139,7 @@ Diagnostic stop_diagnostic(const ProcessorState& state,
                            const std::filesystem::path& file) {
     const CodeLine at = line_at(lines, state.instruction_at);
     return {.place = {file, at.line, at.column, -1},
-            .message = fmt::format("the processor stopped in the instruction at {:#06x}: {}",
+            .message = fmt::format("the processor stopped at the instruction at {:#06x}: {}",
                                    state.instruction_at,
                                    to_text(state.stop)),
             .hint = hint_for(state.stop)};

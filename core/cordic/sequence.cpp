@@ -28,7 +28,8 @@ CoordinateSystem parse_coordinate_system(std::string_view text) {
             return m;
         }
     }
-    throw Error(fmt::format("\"{}\" is no coordinate system", text), {}, "circular, linear or hyperbolic");
+    throw Error(
+        fmt::format("\"{}\" is not a coordinate system", text), {}, "use circular, linear or hyperbolic");
 }
 
 double gain(const Sequence& sequence) {

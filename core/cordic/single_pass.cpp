@@ -16,7 +16,7 @@ namespace millwright::cordic {
 namespace {
 
 constexpr const char* room_for_a_pass =
-    "a pass needs room for the vector, for its result, and for the gain on the way";
+    "choose a format with room for the vector, the result and the gain in between";
 
 /// The range in a message, rounded towards 0: what it names is inside.
 double rounded_inwards(double range) {
@@ -38,22 +38,22 @@ void refuse_rotation(const Sequence& sequence, const PassInput& input, double ra
                             to_text(sequence.m)),
                 {},
                 sequence.m != CoordinateSystem::circular ? ""
-                : input.folds ? "folding leaves z as it is: take the quarter turns out of it"
-                              : "quarter turns taken out of the angle bring it inside");
+                : input.folds ? "subtract quarter turns from the angle: folding leaves z as it is"
+                              : "subtract quarter turns from the angle to bring it into the range");
 }
 
 void refuse_vectoring(const Sequence& sequence, const PassInput& input) {
     const double range = vectoring_range(sequence);
     const std::string vector = fmt::format("({}, {})", input.x.nearest_double(), input.y.nearest_double());
     if (sequence.m == CoordinateSystem::circular) {
-        throw Error(
-            fmt::format("the direction of {} is outside the convergence range: {:.5f} degrees to both "
-                        "sides of the x axis with {}",
-                        vector,
-                        rounded_inwards(to_degrees(range)),
-                        counted(sequence.step_count, "step")),
-            {},
-            input.folds ? "take more iterations" : "folding turns every direction into it");
+        throw Error(fmt::format("the direction of {} is outside the convergence range: {:.5f} degrees to "
+                                "either side of the x axis with {}",
+                                vector,
+                                rounded_inwards(to_degrees(range)),
+                                counted(sequence.step_count, "step")),
+                    {},
+                    input.folds ? "use more iterations"
+                                : "use folding, which brings every direction into the range");
     }
     throw Error(fmt::format("{} is outside the convergence range: x > 0 and |y/x| <= {:.5f} with {} {} steps",
                             vector,
@@ -165,8 +165,8 @@ void refuse_unreached(const Kernel<Arithmetic>& kernel,
 
 SinglePass single_pass(const NumberFormat& format, const Sequence& sequence, const PassInput& input) {
     if (input.folds && sequence.m != CoordinateSystem::circular) {
-        throw Error(
-            fmt::format("folding is for the circular system, not for the {} one", to_text(sequence.m)));
+        throw Error(fmt::format("folding is only possible in the circular system, not in the {} system",
+                                to_text(sequence.m)));
     }
     return with_arithmetic(format, [&](const auto& arithmetic) {
         const Kernel kernel(arithmetic, sequence, input.zero);

@@ -34,8 +34,8 @@ PlcBit user_bit(const Commanded& command, const SupervisedSettings& settings) {
     if (!bit) {
         const CodeLine at = line_at(settings.lines, command.instruction_at);
         throw Error(Diagnostic{{settings.file, at.line, at.column, -1},
-                               fmt::format("M{} is none of the machine's own commands", command.parameter),
-                               "M100 to M199"});
+                               fmt::format("M{} is not a user-defined command", command.parameter),
+                               "use M100 to M199"});
     }
     return *bit;
 }
@@ -304,9 +304,9 @@ std::string_view to_text(SupervisedEnd end) {
     case SupervisedEnd::stopped:
         return "stopped by the logic";
     case SupervisedEnd::fault:
-        return "the processor stands";
+        return "processor stopped by a fault";
     case SupervisedEnd::out_of_time:
-        return "out of time";
+        return "time limit reached";
     }
     return {};
 }
@@ -315,7 +315,7 @@ SupervisedRun run_supervised(Processor& processor, Plc& plc, const SupervisedSet
     const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
     if (!positive(settings.clock_hz) || !positive(settings.scan_seconds) ||
         !positive(settings.most_seconds) || settings.records_ahead < 1) {
-        throw Error("clock, scan period, time and queue of a supervised run have to be above 0");
+        throw Error("the clock, scan period, time limit and queue of a supervised run must be above 0");
     }
     return Machine(processor, plc, settings).run();
 }

@@ -74,8 +74,8 @@ std::string CordicDriver::remark() const {
     if (done.late.empty()) {
         return {};
     }
-    return fmt::format("{} of {} took longer to compute at {:.6g} MHz than the motion before them; "
-                       "none would up to {:.6g} mm/min",
+    return fmt::format("{} of {} took longer to compute at {:.6g} MHz than the motion before them lasts; "
+                       "none would be late at up to {:.6g} mm/min",
                        done.late.size(),
                        counted(done.published, "set-point"),
                        1e-6 * options_.clock_hz,
@@ -178,7 +178,7 @@ drivers::DriverStatus CordicDriver::status() const {
 void CordicDriver::refuse_unfinished(const cordic::Processor& processor, const CordicProgram& made) const {
     const cordic::ProcessorState& state = processor.state();
     if (state.stop == cordic::Stop::none) {
-        throw Error(fmt::format("the processor is not at the end of the program after {} clocks",
+        throw Error(fmt::format("the processor did not reach the end of the program within {} clocks",
                                 options_.most_clocks),
                     program_name);
     }

@@ -115,14 +115,14 @@ private:
         const double speed = std::hypot(set.vx, set.vy, height.vz);
         const double acceleration = std::hypot(set.ax, set.ay, height.az);
         if (!(speed > 0.0 && acceleration > 0.0)) {
-            throw Error(Diagnostic{{file_, line, 0, -1},
-                                   fmt::format("set-point {} is {:.6g} mm away and has no {}: it came out as "
-                                               "0 in {}",
-                                               n + 1,
-                                               length,
-                                               speed > 0.0 ? "acceleration" : "speed",
-                                               cordic::to_text(processor_.format())),
-                                   "choose a number format with more bits behind the point"});
+            throw Error(Diagnostic{
+                {file_, line, 0, -1},
+                fmt::format("set-point {} is {:.6g} mm away but has no {}: it was rounded to 0 in {}",
+                            n + 1,
+                            length,
+                            speed > 0.0 ? "acceleration" : "speed",
+                            cordic::to_text(processor_.format())),
+                "choose a number format with more fraction bits"});
         }
         program::Block& block = add(program::BlockKind::feed, line);
         block.named = named_;

@@ -110,7 +110,7 @@ public:
         const std::size_t pages = cordic::page_count(code_.result().image.code.size());
         if (pages > static_cast<std::size_t>(settings_.rom_pages)) {
             code_.fault({},
-                        fmt::format("the program needs {} pages of {} bytes, the program ROM has {}",
+                        fmt::format("the program needs {} pages of {} bytes, but the program ROM has only {}",
                                     pages,
                                     cordic::rom_size,
                                     settings_.rom_pages));
@@ -146,7 +146,7 @@ private:
         if (!missing.empty()) {
             code_.fault({source, missing.front()},
                         fmt::format("the CORDIC processor has no axis {}", fmt::join(missing, " or ")),
-                        "it moves X, Y and Z");
+                        "use only X, Y and Z");
         }
         return missing.empty();
     }
@@ -155,9 +155,10 @@ private:
     std::optional<double> feed_speed(gcode::SourcePlace source) {
         const auto speed = feed_.speed();
         if (!speed) {
-            code_.fault({source, 'G'},
-                        "a feed a revolution (G95) of a spindle that follows the diameter (G96)",
-                        "G97: turns per minute");
+            code_.fault(
+                {source, 'G'},
+                "feed per revolution (G95) cannot be used with a spindle that follows the diameter (G96)",
+                "use G97 (constant spindle speed)");
         }
         return speed;
     }
@@ -211,8 +212,8 @@ private:
         const std::int64_t chords = chord_count(radius, move.sweep, tolerance_of_chords());
         if (chords > most_chords) {
             code_.fault({move.source, 'G'},
-                        fmt::format("an arc of {} chords", chords),
-                        "choose a larger chord tolerance");
+                        fmt::format("an arc would need {} chords", chords),
+                        "use a larger chord tolerance");
             return std::nullopt;
         }
         return chords;
@@ -222,13 +223,12 @@ private:
     void warn_of_hair(double radius, const gcode::Move& move) {
         const double behind = std::fmod(std::abs(move.sweep), 2.0 * pi);
         if (behind < gcode::hair_sweep && behind * radius > same_place) {
-            code_.warn(
-                {move.source},
-                fmt::format("the arc ends {:.3g} mm, {:.2g} rad, behind its start and is a full circle: "
-                            "less than {:.0e} rad is none",
-                            behind * radius,
-                            behind,
-                            gcode::hair_sweep));
+            code_.warn({move.source},
+                       fmt::format("the arc ends {:.3g} mm, {:.2g} rad, past its start and is run as a full "
+                                   "circle, because less than {:.0e} rad does not count as a sweep",
+                                   behind * radius,
+                                   behind,
+                                   gcode::hair_sweep));
         }
     }
 

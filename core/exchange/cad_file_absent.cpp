@@ -7,9 +7,9 @@ namespace millwright::exchange {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& file) {
-    throw Error("this build has no Open CASCADE, STEP and IGES files are neither read nor written",
+    throw Error("this build has no Open CASCADE: STEP and IGES files can be neither read nor written",
                 file,
-                "install libocct-data-exchange-dev, then build again");
+                "install libocct-data-exchange-dev, then rebuild");
 }
 
 } // namespace

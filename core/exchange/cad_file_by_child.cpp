@@ -25,7 +25,7 @@ public:
         constexpr int suffix = 5;
         const int handle = ::mkstemps(path_.data(), suffix);
         if (handle < 0) {
-            throw Error("no file can be made there", path_);
+            throw Error("the file cannot be created", path_);
         }
         ::close(handle);
     }
@@ -70,7 +70,7 @@ CadModel answer_of(CadChild child,
     if (!fault.empty() || !model) {
         throw Error(
             fmt::format(
-                "{}: Open CASCADE ends while it is at work{}{}", damage, fault.empty() ? "" : ", ", fault),
+                "{}: Open CASCADE stopped unexpectedly{}{}", damage, fault.empty() ? "" : ", ", fault),
             file);
     }
     return std::move(*model);

@@ -37,7 +37,7 @@ int answer(const std::function<CadModel(const Progress&)>& work) {
     } catch (const Error& error) {
         return say(error_frame(error.diagnostic())) ? 0 : 1;
     } catch (const std::exception& failure) {
-        return say(error_frame({{}, std::string("Open CASCADE fails: ") + failure.what(), ""})) ? 0 : 1;
+        return say(error_frame({{}, std::string("Open CASCADE failed: ") + failure.what(), ""})) ? 0 : 1;
     }
 }
 

@@ -118,13 +118,13 @@ MeshFit fit_cloud(const std::vector<Vec3>& points, const FitSettings& given, con
     constexpr std::size_t fewest = 4;
     if (points.size() < fewest) {
         throw Error(fmt::format(
-            "{} points in different places are too few for a surface, {} are needed", points.size(), fewest));
+            "{} distinct points are too few for a surface, at least {} are needed", points.size(), fewest));
     }
     FitSettings settings = given;
     settings.along = given.along.value_or(across(points));
     const auto rectangle = least_rectangle(points, *settings.along);
     if (!rectangle) {
-        throw Error("the points lie in a line");
+        throw Error("the points lie on a line");
     }
     std::vector<Sample> samples;
     for (const Vec3& point : thinned_out(points, static_cast<std::size_t>(settings.points))) {
@@ -159,7 +159,7 @@ MeshFit fit_cloud(const std::vector<Vec3>& points, const FitSettings& given, con
                 std::move(deviation),
                 fit.rounds};
     }
-    throw Error("no fair patch was found near the points: seen from one side they fold over themselves",
+    throw Error("no smooth patch was found near the points: seen from one side, they fold over themselves",
                 {},
                 "choose another side, or measure the part in several pieces");
 }

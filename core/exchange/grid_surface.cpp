@@ -245,19 +245,21 @@ void check_places(const SplineBasis& u, const SplineBasis& v) {
     for (const auto& [basis, name] : {std::pair(&u, "column"), std::pair(&v, "row")}) {
         for (std::size_t n = 1; n < basis->parameters.size(); ++n) {
             if (!(basis->parameters[n] > basis->parameters[n - 1])) {
-                throw Error(fmt::format("in every {0} points {1} and {2} are in one place: no surface goes "
-                                        "through them",
-                                        name,
-                                        n,
-                                        n + 1));
+                throw Error(
+                    fmt::format("in every {0}, points {1} and {2} coincide: no surface can pass through them",
+                                name,
+                                n,
+                                n + 1));
             }
         }
     }
     if (std::ptrdiff_t{u.span_count()} * v.span_count() > most_cad_patches) {
-        throw Error(
-            fmt::format("{} x {} patches, {} at the most", u.span_count(), v.span_count(), most_cad_patches),
-            {},
-            "leave rows out, or fit the points as a cloud");
+        throw Error(fmt::format("{} x {} patches are too many, at most {} are possible",
+                                u.span_count(),
+                                v.span_count(),
+                                most_cad_patches),
+                    {},
+                    "leave out rows, or fit the points as a cloud");
     }
 }
 
@@ -281,13 +283,14 @@ GridSurface surface_through(PointGrid grid, const std::optional<Vec3>& along, co
             "two rows and columns at least, a point at each place");
     const int most = std::max(grid.rows, grid.columns);
     if (most > most_interpolated_points) {
-        throw Error(fmt::format("{} points along a row or across the rows, {} at the most",
-                                most,
-                                most_interpolated_points),
-                    {},
-                    "leave some out, or fit them as a cloud");
+        throw Error(
+            fmt::format("{} points along a row or across the rows are too many, at most {} are possible",
+                        most,
+                        most_interpolated_points),
+            {},
+            "leave out points, or fit them as a cloud");
     }
-    progress.report(0.0, "the surface through the points");
+    progress.report(0.0, "computing the surface through the points");
     face_along(grid, along);
     const SplineBasis u = basis_across(grid), v = basis_along(grid);
     check_places(u, v);

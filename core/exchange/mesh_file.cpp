@@ -75,7 +75,7 @@ MeshFile parse_mesh(std::string_view bytes,
                     const Progress& progress) {
     expects(std::isfinite(mm_per_unit) && mm_per_unit > 0.0, "a unit of length is above zero");
     if (!is_mesh_file(file)) {
-        throw Error("this kind of file is not read as a mesh", file, "STL, OBJ and PLY are");
+        throw Error("this file type cannot be read as a mesh", file, "use an STL, OBJ or PLY file");
     }
     if (bytes.empty()) {
         throw Error("the file is empty", file);
@@ -99,7 +99,7 @@ MeshFile parse_mesh(std::string_view bytes,
     result.notes = std::move(notes);
     progress.check();
     if (result.mesh.triangles.empty()) {
-        throw Error("the file has no triangle with an area", file);
+        throw Error("the file contains no triangle with an area", file);
     }
     return result;
 }

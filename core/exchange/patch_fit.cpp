@@ -170,7 +170,7 @@ MeshFit fitted(FitTarget target,
     } else if (const auto rectangle = least_rectangle(side.mesh.points, *settings.along)) {
         samples = samples_in(*rectangle, target, settings.points);
     } else {
-        throw Error("the points of the mesh lie in a line");
+        throw Error("the points of the mesh lie on a line");
     }
     progress.report(0.1, "fitting the patch");
     const FitComparison comparison(target, seen_from);
@@ -208,7 +208,7 @@ MeshFit fitted_side(FitTarget target,
     target.side = seen_side(mesh, along);
     if (target.side.mesh.triangles.empty()) {
         throw Error(fmt::format(
-            "no triangle of the mesh looks along ({:.3g}, {:.3g}, {:.3g})", along.x(), along.y(), along.z()));
+            "no triangle of the mesh faces ({:.3g}, {:.3g}, {:.3g})", along.x(), along.y(), along.z()));
     }
     if (target.face != nullptr) {
         for (const int number : target.side.numbers) {

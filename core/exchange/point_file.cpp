@@ -69,15 +69,16 @@ public:
             take(*words);
         }
         if (read_.points.empty()) {
-            throw Error("the file holds no points", file_, "one point per line: x y z");
+            throw Error("the file contains no points", file_, "write one point per line: x y z");
         }
         if (announced_ && std::cmp_not_equal(*announced_, read_.points.size())) {
             fail(announced_line_,
-                 fmt::format(
-                     "the file announces {} and has {}", counted(*announced_, "point"), read_.points.size()));
+                 fmt::format("the file declares {}, but contains {}",
+                             counted(*announced_, "point"),
+                             read_.points.size()));
         }
         if (columns_ > 3) {
-            read_.notes.push_back(fmt::format("of {} columns x, y and z are read", columns_));
+            read_.notes.push_back(fmt::format("only x, y and z of {} columns are used", columns_));
         }
         return std::move(read_);
     }
@@ -137,8 +138,9 @@ private:
             const auto found = std::ranges::find_if(fields, named);
             if (found == fields.end()) {
                 fail(lines_.number(),
-                     fmt::format("no column is named {}", "xyz"[axis]),
-                     "without names the first three columns are x, y and z");
+                     fmt::format("there is no column named {}", "xyz"[axis]),
+                     "name the columns x, y and z, or leave out the names: then the first three columns are "
+                     "used");
             }
             places_[axis] = static_cast<std::size_t>(found - fields.begin());
         }
@@ -153,7 +155,9 @@ private:
             point[static_cast<Eigen::Index>(axis)] = coordinate(fields[places_[axis]]);
         }
         if (read_.points.size() == most_measured_points) {
-            fail(lines_.number(), fmt::format("more than {} points", most_measured_points), "leave some out");
+            fail(lines_.number(),
+                 fmt::format("there are more than {} points", most_measured_points),
+                 "leave out points");
         }
         if (read_.points.empty() || block_ended_) {
             read_.begins.push_back(read_.points.size());
@@ -169,35 +173,39 @@ private:
                 (void)coordinate(field); // a decimal comma or a word tells more
             }
             fail(lines_.number(),
-                 fmt::format("{} here, three are needed: x, y and z", counted(fields.size(), "number")));
+                 fmt::format("this line has {}, but needs three: x, y and z",
+                             counted(fields.size(), "number")));
         }
         if (columns_ == 0) {
             columns_ = fields.size();
             if (separator_ == ',' && columns_ > 3) {
-                fail(lines_.number(),
-                     fmt::format("{} numbers are separated by commas here, x, y and z are three", columns_),
-                     "write decimal points, not commas; or name the columns in the first line: x,y,z,...");
+                fail(
+                    lines_.number(),
+                    fmt::format("{} numbers are separated by commas, but only x, y and z are expected",
+                                columns_),
+                    "use decimal points instead of commas, or name the columns in the first line: x,y,z,...");
             }
         }
         if (fields.size() != columns_) {
             for (const std::string_view field : fields) {
                 (void)coordinate(field);
             }
-            fail(
-                lines_.number(),
-                fmt::format("{} here, the lines before have {}", counted(fields.size(), "number"), columns_));
+            fail(lines_.number(),
+                 fmt::format("this line has {}, but the lines before have {}",
+                             counted(fields.size(), "number"),
+                             columns_));
         }
     }
 
     [[nodiscard]] double coordinate(std::string_view field) const {
         if (has_decimal_comma(field)) {
             fail(lines_.number(),
-                 fmt::format("'{}' has a comma as decimal point", field.substr(0, 40)),
-                 "write decimal points");
+                 fmt::format("'{}' has a decimal comma", field.substr(0, 40)),
+                 "use decimal points");
         }
         const auto number = number_from<double>(field);
         if (!number) {
-            fail(lines_.number(), fmt::format("'{}' is no number", field.substr(0, 40)));
+            fail(lines_.number(), fmt::format("'{}' is not a number", field.substr(0, 40)));
         }
         if (!std::isfinite(*number)) {
             fail(lines_.number(), fmt::format("'{}' is not a finite number", field.substr(0, 40)));

@@ -114,8 +114,8 @@ std::size_t block_length(const MeasuredPoints& measured, const std::filesystem::
             fail_in_rows(
                 file,
                 measured.lines[measured.begins[n]],
-                fmt::format("row {} has {}, the first row {}", n + 1, counted(here, "point"), length),
-                "all rows need as many points; as a cloud the points are fitted without rows");
+                fmt::format("row {} has {}, but the first row has {}", n + 1, counted(here, "point"), length),
+                "give all rows the same number of points, or fit the points as a cloud, without rows");
         }
     }
     return length;
@@ -130,15 +130,15 @@ std::optional<PointGrid> rows_of(const MeasuredPoints& measured, const std::file
         return std::nullopt;
     }
     if (length < 2) {
-        fail_in_rows(file, measured.lines.front(), "a row has one point only, two or more are needed");
+        fail_in_rows(file, measured.lines.front(), "a row has only one point, but needs two or more");
     }
     const std::vector<std::size_t> first = first_ones(measured.points);
     for (std::size_t n = 0; n < first.size(); ++n) {
         if (first[n] != n) {
             fail_in_rows(file,
                          measured.lines[n],
-                         fmt::format("the point of line {} is here again", measured.lines[first[n]]),
-                         "each point of the rows needs a place of its own");
+                         fmt::format("the point of line {} is repeated here", measured.lines[first[n]]),
+                         "give each point of the rows a different position");
         }
     }
     PointGrid grid{static_cast<int>(measured.points.size() / length),

@@ -30,7 +30,7 @@ std::vector<Mesh> tessellated(const geometry::Surface& surface, double tolerance
         progress.check();
         const Steps steps = steps_within(patch, tolerance);
         meshes.push_back(geometry::tessellate(patch, steps.u, steps.v));
-        progress.report(static_cast<double>(meshes.size()) / surface.patch_count(), "making the triangles");
+        progress.report(static_cast<double>(meshes.size()) / surface.patch_count(), "creating triangles");
     }
     return meshes;
 }
@@ -153,9 +153,9 @@ void write_surface(const geometry::Surface& surface,
                    const Progress& progress) {
     const std::string kind = kind_of(file);
     if (!is_surface_file(file)) {
-        throw Error("a design is not written as this kind of file",
+        throw Error("a design cannot be written as this file type",
                     file,
-                    "the end of the name decides: .step, .glb, .stl, .obj or .ply");
+                    "use a name ending in .step, .glb, .stl, .obj or .ply");
     }
     if (kind == "step" || kind == "stp") {
         write_step(surface, file, progress);

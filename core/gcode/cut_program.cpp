@@ -30,8 +30,8 @@ void expect_known_diameter(const Interpreter& interpreter, const std::filesystem
     const CutterCompensation& cutter = interpreter.state().cutter;
     if (cutter.on() && !(cutter.radius > 0.0)) {
         throw Error(Diagnostic{.place = {.file = file, .line = interpreter.place().line},
-                               .message = "the cutter is compensated for, and nobody told its diameter",
-                               .hint = "give the tool table: --tools"});
+                               .message = "cutter compensation is used, but the tool diameter is unknown",
+                               .hint = "give the tool table with --tools"});
     }
 }
 
@@ -123,17 +123,16 @@ CutProgram made_of(MachineProgram read,
     }
     if (!(made.spindle_rpm > 0.0) && read.first_rpm > 0.0) {
         made.spindle_rpm = read.first_rpm;
-        made.notices.push_back(
-            {{file},
-             fmt::format("the program sets a spindle speed, {:g} 1/min, and never switches "
-                         "the spindle on (M3): here it is on",
-                         read.first_rpm),
-             {}});
+        made.notices.push_back({{file},
+                                fmt::format("the program sets a spindle speed, {:g} 1/min, but never starts "
+                                            "the spindle (M3); here the spindle is started",
+                                            read.first_rpm),
+                                {}});
     }
     if (made.strokes.empty()) {
         throw Error(made.safe_height
-                        ? fmt::format("there is nothing to cut in it below z {:.3f} mm", *made.safe_height)
-                        : "there is nothing to cut in it",
+                        ? fmt::format("the program has no cuts below z {:.3f} mm", *made.safe_height)
+                        : "the program has no cuts",
                     file);
     }
     return made;
@@ -154,7 +153,7 @@ read_by(const Begin& begin, const std::filesystem::path& file, const CutProgramS
     made.lines = interpreter.line_count();
     if (interpreter.lacks_end()) {
         made.notices.push_back(
-            {{file}, "the program does not end with M2, M30 or %: it is read to its last line", {}});
+            {{file}, "the program does not end with M2, M30 or %; it was read to its last line", {}});
     }
     return made;
 }

@@ -221,8 +221,8 @@ void Interpreter::Parts::refuse_lines_behind_the_end() {
             }
             if (!cursor.at_end() && cursor.peek() != ';' && !is_grbl_percent(text)) {
                 internal::refuse(cursor.column(),
-                                 "this line is behind the end of the program, and Grbl would execute it",
-                                 "take it out, or the M2 or M30 above it");
+                                 "this line is after the end of the program, but Grbl would execute it",
+                                 "delete it, or the M2 or M30 above it");
             }
         } catch (const Refusal& refusal) {
             report(files.place(), refusal);
@@ -245,8 +245,9 @@ void Interpreter::Parts::check_repetition() {
         stopped = true;
         report(flow.turned().value_or(files.place()),
                {1,
-                fmt::format("what begins here does not seem to end: more than {} lines were executed again",
-                            settings.most_repeated_lines),
+                fmt::format(
+                    "the program seems to loop forever from here: more than {} lines were executed again",
+                    settings.most_repeated_lines),
                 {}});
     }
 }
@@ -256,19 +257,20 @@ void Interpreter::Parts::end_of_text() {
     run.out.begin({files.place(), {}});
     try {
         if (flow.in_subroutine()) {
-            internal::refuse(1,
-                             fmt::format("the text ends inside of a subroutine that line {} called",
-                                         flow.called_from().line));
+            internal::refuse(
+                1,
+                fmt::format("the file ends inside a subroutine called in line {}", flow.called_from().line));
         }
         if (run.in_percents) {
-            internal::refuse(1, "the program begins with % and does not end with one", "M2 or % is missing");
+            internal::refuse(
+                1, "the program starts with % but does not end with %", "end the program with M2 or %");
         }
         if (!seen_text) {
-            internal::refuse(1, "there is nothing in the program");
+            internal::refuse(1, "the program is empty");
         }
         if (!is_grbl() && !end_refused) {
             if (!settings.may_lack_end) {
-                internal::refuse(1, "the program does not end: M2, M30 or % is missing");
+                internal::refuse(1, "the program has no end: M2, M30 or % is missing");
             }
             lacks_end = true;
             internal::end_program(run, false);
@@ -290,7 +292,7 @@ void Interpreter::Parts::expect_text(std::string_view text) {
     const std::size_t zero = text.find('\0');
     no_text = !encoding.empty() || zero != std::string_view::npos;
     if (!encoding.empty()) {
-        internal::refuse(1, fmt::format("the text is {}", encoding), "save it as plain text");
+        internal::refuse(1, fmt::format("the file is {}", encoding), "save it as plain text");
     }
     if (no_text) {
         internal::refuse(
@@ -301,7 +303,7 @@ void Interpreter::Parts::expect_text(std::string_view text) {
 void Interpreter::Parts::execute(std::string_view text) {
     if (files.cut() || (!is_grbl() && text.size() > longest_line)) {
         internal::refuse(static_cast<int>(longest_line) + 1,
-                         fmt::format("a line has at most {} characters", longest_line));
+                         fmt::format("a line may have at most {} characters", longest_line));
     }
     Cursor cursor(text);
     if (cursor.at_end()) {
@@ -366,7 +368,7 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
             stopped = true;
             if (settings.read_on) { // where the first error is not the last
                 refusal.hint += refusal.hint.empty() ? "" : "; ";
-                refusal.hint += "what follows was not looked at";
+                refusal.hint += "the lines after it were not checked";
             }
             throw;
         }
@@ -397,7 +399,7 @@ void Interpreter::Parts::execute_words(Cursor& cursor) {
     constexpr int m99 = 99;
     if (line.block.code(internal::MGroup::stopping) == m99 && flow.in_subroutine()) {
         internal::refuse(line.block.column_of(internal::MGroup::stopping),
-                         "M99 in a subprogram stands alone in its line");
+                         "M99 in a subprogram must be the only word in its line");
     }
     internal::execute_line(run, line);
 }

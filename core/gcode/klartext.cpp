@@ -66,7 +66,7 @@ public:
             text.remove_prefix(next_line(text, 0));
         }
         if (!ended_) {
-            refuse(1, "the program does not end with END PGM");
+            refuse(1, "the program must end with END PGM");
         }
     }
 
@@ -110,18 +110,18 @@ private:
     [[nodiscard]] std::vector<Word> behind(std::string_view text, std::size_t count) const {
         const std::size_t head = words_of(text).size();
         if (words_.size() != head + count) {
-            refuse(end_column(), fmt::format("{} is followed by {}", text, counted(count, "word")));
+            refuse(end_column(), fmt::format("{} must be followed by {}", text, counted(count, "word")));
         }
         return {words_.begin() + static_cast<std::ptrdiff_t>(head), words_.end()};
     }
 
     [[nodiscard]] double value_of(const Word& word, std::string_view prefix) const {
         if (!word.text.starts_with(prefix)) {
-            refuse(word.column, fmt::format("'{}' stands where {} is expected", word.text, prefix));
+            refuse(word.column, fmt::format("'{}' is found where {} is expected", word.text, prefix));
         }
         const std::optional<double> value = number_in(word.text.substr(prefix.size()));
         if (!value) {
-            refuse(word.column, fmt::format("'{}' is no number", word.text));
+            refuse(word.column, fmt::format("'{}' is not a number", word.text));
         }
         return *value;
     }
@@ -138,10 +138,10 @@ private:
     void block(std::string_view line) {
         words_ = words_of(line);
         if (words_.empty()) {
-            refuse(1, "an empty line");
+            refuse(1, "the line is empty");
         }
         if (ended_) {
-            refuse(1, "nothing stands behind END PGM");
+            refuse(1, "nothing may follow END PGM");
         }
         take_number();
         if (number_ == 0) {
@@ -176,7 +176,7 @@ private:
         const Word first = words_.front();
         const std::optional<double> number = number_in(first.text);
         if (!number || !exactly_equal(*number, number_ + 1)) {
-            refuse(first.column, fmt::format("the block number is {}", number_ + 1));
+            refuse(first.column, fmt::format("the block number must be {}", number_ + 1));
         }
         ++number_;
         words_.erase(words_.begin());
@@ -184,12 +184,12 @@ private:
 
     void begin_program() {
         if (!begins("BEGIN PGM")) {
-            refuse(1, "a program begins with BEGIN PGM");
+            refuse(1, "a program must start with BEGIN PGM");
         }
         const std::vector<Word> rest = behind("BEGIN PGM", 2);
         name_ = rest[0].text;
         if (rest[1].text != "MM" && rest[1].text != "INCH") {
-            refuse(rest[1].column, "lengths are in MM or INCH");
+            refuse(rest[1].column, "the unit must be MM or INCH");
         }
         unit_name_ = rest[1].text;
         unit_ = unit_name_ == "MM" ? 1.0 : inch;
@@ -198,7 +198,7 @@ private:
     void end_program() {
         const std::vector<Word> rest = behind("END PGM", 2);
         if (rest[0].text != name_ || rest[1].text != unit_name_) {
-            refuse(rest[0].column, "END PGM names another program than BEGIN PGM");
+            refuse(rest[0].column, "the program name after END PGM differs from the one after BEGIN PGM");
         }
         ended_ = true;
     }
@@ -223,7 +223,7 @@ private:
         } else if (begins("CYCL DEF 32.1")) {
             (void)value_of(behind("CYCL DEF 32.1", 1)[0], "T");
         } else if (!begins("CYCL DEF 9.0") && !begins("CYCL DEF 32.0")) {
-            refuse(words_.front().column, "of the cycles only 9 and 32 are read");
+            refuse(words_.front().column, "only the cycles 9 and 32 are supported");
         }
     }
 
@@ -235,7 +235,8 @@ private:
         }
         constexpr std::string_view wanted = "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS";
         if (!begins(wanted)) {
-            refuse(words_.front().column, "tip control is switched by " + std::string(wanted));
+            refuse(words_.front().column,
+                   "tool-tip control (TCPM) must be switched on with " + std::string(wanted));
         }
         (void)behind(wanted, 0);
         tip_ = true;
@@ -278,7 +279,7 @@ private:
             tip_ = code == 128;
             break;
         default:
-            refuse(word.column, fmt::format("M{} is not read", code));
+            refuse(word.column, fmt::format("M{} is not supported", code));
         }
     }
 
@@ -310,11 +311,11 @@ private:
             } else if (word.text.front() == 'M') {
                 line.functions.push_back(word);
             } else if (word.text != "R0") {
-                refuse(word.column, fmt::format("'{}' is not read in an L block", word.text));
+                refuse(word.column, fmt::format("'{}' is not supported in an L block", word.text));
             }
         }
         if (line.rapid && fed) {
-            refuse(words_.back().column, "FMAX and F in one block");
+            refuse(words_.back().column, "FMAX and F cannot be in the same block");
         }
         for (const Word& word : line.functions) {
             if (acts_at_begin(word.text)) {
@@ -344,7 +345,7 @@ private:
 
     void take_axis(Straight& line, std::size_t axis, const Word& word) const {
         if (std::exchange(line.given[axis], true)) {
-            refuse(word.column, fmt::format("{} stands twice", axis_letters[axis]));
+            refuse(word.column, fmt::format("{} occurs twice", axis_letters[axis]));
         }
         const double value = value_of(word, word.text.substr(0, 1));
         line.end[axis] = is_rotary(axis) ? value : value * unit_;
@@ -358,7 +359,7 @@ private:
             }
         }
         if (line.machine && tip_) {
-            refuse(1, "M91 needs tip control to be off");
+            refuse(1, "M91 can only be used with tool-tip control (TCPM) off");
         }
         WrittenStep& step = add(line.rapid ? StepKind::rapid : StepKind::feed);
         step.tip = tip_;
@@ -372,7 +373,7 @@ private:
     /// The feed counts along X Y Z where one of them moves, else in degrees.
     [[nodiscard]] double duration(const AxisValues& end) const {
         if (!(feed_ > 0.0)) {
-            refuse(1, "a feed move without a feed");
+            refuse(1, "a feed move has no feed rate");
         }
         constexpr double seconds_a_minute = 60.0;
         double way = linear_distance(at_, end);

@@ -249,11 +249,11 @@ std::string_view name_of(Language language) {
     case Language::fanuc_macro:
         return "Fanuc custom macro B";
     case Language::sinumerik:
-        return "the Sinumerik language of Siemens";
+        return "the Siemens Sinumerik language";
     case Language::okuma:
-        return "the language of Okuma's OSP controls";
+        return "the language of Okuma OSP controls";
     case Language::printer:
-        return "a program of a 3D printer";
+        return "a program for a 3D printer";
     case Language::hpgl:
         return "HPGL, a plot";
     }
@@ -263,18 +263,18 @@ std::string_view name_of(Language language) {
 std::string_view advice_for(Language language) {
     switch (language) {
     case Language::klartext:
-        return "'millwright gcode check' alone reads it, as far as our posts write it; for anything else "
-               "post "
-               "the part for LinuxCNC or Grbl";
+        return "only 'millwright gcode check' can read it, as written by our post-processors; otherwise "
+               "post-process the part for LinuxCNC or Grbl";
     case Language::fanuc_macro:
-        return "LinuxCNC has O-words for it: o1 if, o1 while, o1 repeat, o<name> call";
+        return "use the O-words of LinuxCNC instead: o1 if, o1 while, o1 repeat, o<name> call";
     case Language::sinumerik:
     case Language::okuma:
-        return "post the part for LinuxCNC or Grbl";
+        return "post-process the part for LinuxCNC or Grbl";
     case Language::hpgl:
-        return "'millwright plot info' reads it, and 'millwright plot toolpath' makes a program of it";
+        return "show it with 'millwright plot info', or convert it to a program with 'millwright plot "
+               "toolpath'";
     case Language::printer:
-        return "extruder and heaters mean nothing to a machine tool";
+        return "use a program without extruder and heater commands";
     }
     return "";
 }

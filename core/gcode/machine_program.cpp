@@ -81,8 +81,8 @@ public:
                                                     : chord_count(start, move, tolerance());
         if (!(count <= most_chords)) {
             throw Error(Diagnostic{.place = {.file = file_, .line = move.source.line},
-                                   .message = "this arc would have more than ten million chords",
-                                   .hint = "longer chords, or a larger tolerance"});
+                                   .message = "this arc would need more than ten million chords",
+                                   .hint = "use longer chords or a larger tolerance"});
         }
         if (settings_.chord_length) {
             arc_chords_of_length(start, move, length, cut);
@@ -145,7 +145,7 @@ public:
         case CommandKind::change_tool:
             pause(program::PauseKind::tool_change,
                   selected_tool_ > 0 ? fmt::format("change to tool {}", selected_tool_)
-                                     : "the tool out of the spindle",
+                                     : "remove the tool from the spindle",
                   command.source);
             break;
         case CommandKind::pallet_shuttle:
@@ -239,7 +239,7 @@ private:
             throw Error(Diagnostic{
                 .place = {.file = file_, .line = source.line},
                 .message = fmt::format("the program has more than {} moves", settings_.most_blocks),
-                .hint = "split it"});
+                .hint = "split the program"});
         }
         kinematics::AxisPositions here = !program.blocks.empty() ? program.blocks.back().target
                                          : taken_ > 0            ? last_taken_
@@ -329,8 +329,8 @@ private:
         }
         fault(source, letter, fmt::format("the machine '{}' has no axis {}", machine_.name(), letter));
         if (missing_.size() > 1 && first_missing_ < result_.faults.size()) {
-            result_.faults[first_missing_].hint =
-                fmt::format("the program moves {}, which it lacks", fmt::join(missing_, ", "));
+            result_.faults[first_missing_].hint = fmt::format(
+                "the program moves {}, which the machine does not have", fmt::join(missing_, ", "));
         }
     }
 
@@ -385,8 +385,8 @@ private:
             if (!found && !std::exchange(no_feed_said_, true)) {
                 fault(source,
                       '\0',
-                      "a feed move without a feed, or a revolution of a spindle that stands or whose speed "
-                      "follows the diameter");
+                      "a feed move has no feed rate, or a feed per revolution while the spindle is stopped "
+                      "or its speed follows the diameter");
             }
             if (!found) {
                 return;

@@ -55,11 +55,11 @@ Parameters parse_parameter_file(std::string_view text, const std::filesystem::pa
         const bool has_value = has_number && parse_next(rest, value);
         skip_blanks_of(rest);
         if (!has_value || !rest.empty() || !(std::abs(value) <= largest_parameter)) {
-            refuse("a line has the number of a parameter and its value");
+            refuse("a line must have a parameter number and a value");
         }
         if (!internal::Variables::is_number(number)) {
             refuse(fmt::format(
-                "#{} is no parameter: numbers are 1 to {}", number, internal::parameter_count - 1));
+                "#{} is not a parameter: numbers are 1 to {}", number, internal::parameter_count - 1));
         }
         if (!seen.insert(number).second) {
             refuse(fmt::format("#{} is given twice", number));

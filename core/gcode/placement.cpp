@@ -16,9 +16,9 @@ namespace millwright::gcode {
 namespace {
 
 constexpr int g10_in_tenths = 100;
-constexpr const char* place_by_rapid = "move the axis to a position first, in G90";
-constexpr const char* place_the_work = "say where the program's zero lies on the machine: --origin X,Y,Z (of "
-                                       "plots --work-origin); gcode and plot also take --parameters FILE";
+constexpr const char* place_by_rapid = "move the axis to a position in G90 first";
+constexpr const char* place_the_work = "give the program zero in machine coordinates: --origin X,Y,Z (for "
+                                       "plots --work-origin); gcode and plot also accept --parameters FILE";
 
 std::string_view code_of_frame(MoveFrame frame) {
     switch (frame) {
@@ -191,16 +191,16 @@ void Placement::measured(const Command& command, std::string_view line) {
         Diagnostic found;
         if (!known_.contains(n)) {
             found = {{},
-                     fmt::format("{} takes {} from where the axis is, and the program has not said where",
+                     fmt::format("{} uses the present position of {}, but the program has not set it yet",
                                  by_parameter ? "a parameter" : code_in_tenths(command.index),
                                  letter_of(n)),
                      place_by_rapid};
         } else if (used.value_or(frame) != frame) {
             found = {{},
-                     fmt::format("{} takes the position of {} {}, and {} is not known",
+                     fmt::format("{} uses the position of {} {}, but {} is unknown",
                                  by_parameter ? "a parameter" : code_in_tenths(command.index),
                                  letter_of(n),
-                                 on_machine ? "on the machine" : "in " + name_of_system(system_),
+                                 on_machine ? "in machine coordinates" : "in " + name_of_system(system_),
                                  name_of_unknown(*used, frame)),
                      remedy_for(*used, frame)};
         } else {
@@ -233,10 +233,10 @@ void Placement::read_unknown(const Command& command) {
               command.source,
               command.mode,
               {{},
-               fmt::format("#{} is {}, and its value is not known", number, what),
-               of_tool     ? "load the tool with T and M6, and give its data: --tools FILE"
+               fmt::format("#{} is {}, but its value is unknown", number, what),
+               of_tool     ? "load the tool with T and M6, and give the tool data with --tools FILE"
                : of_system ? place_the_work
-                           : "give what the control has stored: --parameters FILE"});
+                           : "give the stored values of the control with --parameters FILE"});
 }
 
 void Placement::curve(SourcePlace source, std::string_view line) {
@@ -250,7 +250,7 @@ void Placement::curve(SourcePlace source, std::string_view line) {
                    line,
                    'G',
                    {{},
-                    fmt::format("a curve begins where the program has not said what {} is", letter_of(n)),
+                    fmt::format("a curve starts before the program has set the position of {}", letter_of(n)),
                     place_by_rapid});
         }
         if (in_plane) {
@@ -295,7 +295,7 @@ void Placement::expect_known_begin(const Move& move, const std::vector<int>& mov
                    line,
                    'G',
                    {{},
-                    fmt::format("an arc begins where the program has not said what {} is", letter),
+                    fmt::format("an arc starts before the program has set the position of {}", letter),
                     place_by_rapid});
         } else if (move.enters_compensation && plane.find(letter) != std::string_view::npos) {
             refuse(Kind::compensation,
@@ -304,7 +304,7 @@ void Placement::expect_known_begin(const Move& move, const std::vector<int>& mov
                    letter,
                    {{},
                     fmt::format(
-                        "cutter compensation (G41, G42) begins where the program has not said what {} is",
+                        "cutter compensation (G41, G42) starts before the program has set the position of {}",
                         letter),
                     place_by_rapid});
         } else if (moves &&
@@ -314,7 +314,8 @@ void Placement::expect_known_begin(const Move& move, const std::vector<int>& mov
                    line,
                    letter,
                    {{},
-                    fmt::format("{} moves from where it is, and the program has not said where", letter),
+                    fmt::format("{} moves from its present position, but the program has not set it yet",
+                                letter),
                     place_by_rapid});
         }
     }
@@ -344,8 +345,8 @@ void Placement::take_words(const Move& move, std::string_view line) {
                line,
                'F',
                {{},
-                "a feed in inverse time (G93) begins where the program has not said: it has no speed",
-                "begin with a rapid that names the axes"});
+                "an inverse time feed move (G93) starts at an unknown position, so it has no speed",
+                "start with a rapid move that contains all axes"});
     }
 }
 
@@ -365,9 +366,9 @@ void Placement::look_at_frame(const Move& move, const std::vector<int>& moving, 
                    line,
                    'G',
                    {{},
-                    fmt::format("{} goes to a machine position, and {} is not known{}",
+                    fmt::format("{} moves to a machine position, but {} is unknown{}",
                                 code_of_frame(move.words.frame),
-                                frame.system > 0 ? "where the program's zero lies on the machine"
+                                frame.system > 0 ? "the program zero in machine coordinates"
                                                  : name_of_unknown(frame, Frame()),
                                 of_one ? fmt::format(" in {}", letter_of(n)) : ""),
                     remedy_for(frame, Frame())});
@@ -388,9 +389,10 @@ void Placement::expect_one_frame(int axis, SourcePlace source, std::string_view 
                line,
                'G',
                {{},
-                fmt::format("{} moves in two systems, and {} is not known: their positions cannot be related",
-                            letter_of(axis),
-                            name_of_unknown(frame, before)),
+                fmt::format(
+                    "{} moves in two coordinate systems, but {} is unknown: the positions cannot be related",
+                    letter_of(axis),
+                    name_of_unknown(frame, before)),
                 remedy_for(frame, before)});
     }
 }
@@ -411,19 +413,18 @@ void Placement::look_at_reference(const Move& move,
         return;
     }
     if (known_.contains(retract.axis) && retract.sense * (to[index] - from[index]) < -same_place) {
-        refuse(
-            Kind::lowers,
-            move.source,
-            line,
-            'G',
-            {{},
-             fmt::format("{} would take {} from {:.3f} to {:.3f}, towards the part: its position was never "
-                         "stored, and machine zero is taken for it",
-                         code_of_frame(move.words.frame),
-                         letter_of(retract.axis),
-                         from[index],
-                         to[index]),
-             "give the stored position: --parameters FILE"});
+        refuse(Kind::lowers,
+               move.source,
+               line,
+               'G',
+               {{},
+                fmt::format("{} would move {} from {:.3f} to {:.3f}, towards the part: its position was "
+                            "never stored, so machine zero is assumed",
+                            code_of_frame(move.words.frame),
+                            letter_of(retract.axis),
+                            from[index],
+                            to[index]),
+                "give the stored position with --parameters FILE"});
     }
 }
 
@@ -444,16 +445,15 @@ std::optional<Diagnostic> Placement::start_notice() const {
         return std::nullopt;
     }
     const auto [axis, line] = named_later_.front();
-    return Diagnostic{
-        {file_, first_move_.line, 0, -1},
-        fmt::format("where {} is at the start is not known: {} {} here, and the program names {} "
-                    "in line {} for the first time",
-                    letter_of(axis),
-                    letters_of(first_moving_),
-                    first_moving_.size() > 1 ? "move" : "moves",
-                    letter_of(axis),
-                    line),
-        "before the start bring the tool where nothing is in its way"};
+    return Diagnostic{{file_, first_move_.line, 0, -1},
+                      fmt::format("the start position of {} is unknown: {} {} here, but the program sets {} "
+                                  "for the first time in line {}",
+                                  letter_of(axis),
+                                  letters_of(first_moving_),
+                                  first_moving_.size() > 1 ? "move" : "moves",
+                                  letter_of(axis),
+                                  line),
+                      "move the tool clear of obstacles before the start"};
 }
 
 } // namespace millwright::gcode

@@ -27,7 +27,7 @@ program::Listing listing_of(std::string text, const std::filesystem::path& file)
         listing.line_starts.push_back(n + 1);
     }
     if (listing.line_of_block.empty()) {
-        throw Error(Diagnostic{{file, 1, 1, -1}, "there is nothing in the program", {}});
+        throw Error(Diagnostic{{file, 1, 1, -1}, "the program is empty", {}});
     }
     return listing;
 }

@@ -56,7 +56,7 @@ double number_of(Line& line) {
 int whole_number(const Line& line, const char* at, double value) {
     const bool whole = value >= 0.0 && value <= largest_number && value - std::floor(value) <= 0.0;
     if (!whole) {
-        line.refuse(at, fmt::format("a whole number from 0 to {} is expected", largest_number));
+        line.refuse(at, fmt::format("an integer from 0 to {} is expected", largest_number));
     }
     return static_cast<int>(value);
 }
@@ -87,7 +87,7 @@ void put(Tool& tool, char letter, double value, const Line& line, const char* at
         tool.orientation = whole_number(line, at, value);
         break;
     default:
-        line.refuse(at, fmt::format("'{}' is no letter of a tool table", letter));
+        line.refuse(at, fmt::format("'{}' is not a valid letter in a tool table", letter));
     }
 }
 
@@ -112,10 +112,10 @@ void read_line(ToolTable& table, Line line) {
         return;
     }
     if (!has_number) {
-        line.refuse(line.all.data(), "a tool needs its number, T");
+        line.refuse(line.all.data(), "a tool needs a tool number, T");
     }
     if (table.row_of(tool.number) >= 0) {
-        line.refuse(line.all.data(), fmt::format("tool {} stands in the table twice", tool.number));
+        line.refuse(line.all.data(), fmt::format("tool {} is in the table twice", tool.number));
     }
     table.tools.push_back(tool);
 }

@@ -39,12 +39,12 @@ public:
         case MoveKind::arc:
             return add_move(StepKind::arc, move);
         default:
-            refuse(move.source, "probing and tapping are not written");
+            refuse(move.source, "probing and tapping cannot be converted");
         }
     }
 
     void curve(const Curve& curve, const SourceLine&) override {
-        refuse(curve.source, "splines are not written");
+        refuse(curve.source, "splines cannot be converted");
     }
 
     void command(const Command& command, const SourceLine&) override {
@@ -85,7 +85,7 @@ public:
             break;
         case CommandKind::set_feed_mode:
             if (command.index == 1) {
-                refuse(command.source, "feeds a revolution are not written");
+                refuse(command.source, "feed per revolution cannot be converted");
             }
             break;
         case CommandKind::control_tip:
@@ -129,7 +129,7 @@ private:
     void control_tip(const Command& command) {
         const bool on = command.index == rules_.tip_on;
         if (!on && command.index != rules_.tip_off) {
-            refuse(command.source, "an M code that switches nothing that is known");
+            refuse(command.source, "the effect of this M code is unknown");
         }
         tip_ = on;
     }
@@ -160,7 +160,7 @@ private:
             const std::optional<double> duration =
                 kind == StepKind::arc ? feed_.duration(arc_length(step)) : feed_.duration(at_, end);
             if (!duration) {
-                refuse(move.source, "a feed move without a feed");
+                refuse(move.source, "a feed move has no feed rate");
             }
             step.value = *duration;
         }

@@ -34,7 +34,7 @@ std::string fault_at(const ControlNet& net, int i, int j) {
         return fmt::format("control point ({},{}) is not finite", i, j);
     }
     if (p.cwiseAbs().maxCoeff() > largest_mm) {
-        return fmt::format("control point ({},{}) is farther than {} mm from the origin", i, j, largest_mm);
+        return fmt::format("control point ({},{}) is more than {} mm from the origin", i, j, largest_mm);
     }
     const double w = net.weight(i, j);
     constexpr double largest_weight = 1e6;
@@ -59,14 +59,14 @@ ControlNet ControlNet::sized(int rows, int columns) {
 
 std::string fault_of(const ControlNet& net) {
     if (net.rows < 2 || net.columns < 2 || net.rows > max_degree + 1 || net.columns > max_degree + 1) {
-        return fmt::format("a control net of {} x {} points; 2 to {} each way are possible",
+        return fmt::format("a control net of {} x {} points is not possible: use 2 to {} in each direction",
                            net.rows,
                            net.columns,
                            max_degree + 1);
     }
     const auto count = static_cast<std::size_t>(net.rows) * static_cast<std::size_t>(net.columns);
     if (net.points.size() != count || net.weights.size() != count) {
-        return fmt::format("a control net of {} x {} has {} points and {} weights",
+        return fmt::format("a control net of {} x {} does not match {} points and {} weights",
                            net.rows,
                            net.columns,
                            net.points.size(),

@@ -143,7 +143,7 @@ public:
             }
             name_ = node.name;
             if (!names.insert(node.name).second) {
-                fail("there are two of this name");
+                fail("another one has the same name");
             }
             SolidBody body{node.name, {}};
             const auto& mesh = element(model_.meshes, node.mesh, "mesh");
@@ -162,7 +162,7 @@ private:
 
     template <class T> const T& element(const std::vector<T>& all, int index, const char* what) const {
         if (index < 0 || index >= std::ssize(all)) {
-            fail(fmt::format("there is no {} {}", what, index));
+            fail(fmt::format("{} {} does not exist", what, index));
         }
         return all[static_cast<std::size_t>(index)];
     }
@@ -180,7 +180,7 @@ private:
         mesh.positions = vectors(position->second, mm_a_metre);
         points_ += mesh.positions.size();
         if (points_ > most_points) {
-            fail(fmt::format("more than {} points", most_points));
+            fail(fmt::format("there are more than {} points", most_points));
         }
         mesh.triangles = triangles(primitive.indices, mesh.positions.size());
         const auto normal = primitive.attributes.find("NORMAL");
@@ -189,7 +189,7 @@ private:
         }
         mesh.normals = vectors(normal->second, 1.0);
         if (mesh.normals.size() != mesh.positions.size()) {
-            fail("not as many normals as positions");
+            fail("the numbers of normals and positions differ");
         }
         return mesh;
     }
@@ -237,7 +237,7 @@ private:
 
     Bytes bytes(const tinygltf::Accessor& accessor, std::size_t size) const {
         if (accessor.sparse.isSparse) {
-            fail("sparse numbers are not read");
+            fail("sparse data are not supported");
         }
         const auto& view = element(model_.bufferViews, accessor.bufferView, "buffer view");
         const auto& data = element(model_.buffers, view.buffer, "buffer").data;
@@ -248,7 +248,7 @@ private:
             begin <= data.size() && size <= data.size() - begin && accessor.count > 0 &&
             (accessor.count - 1) <= (data.size() - begin - size) / static_cast<std::size_t>(stride);
         if (!inside) {
-            fail("its numbers lie outside of the file");
+            fail("its data lie outside the file");
         }
         return {data.data() + begin, static_cast<std::size_t>(stride), accessor.count};
     }
@@ -290,7 +290,7 @@ private:
                                       ? std::pair<Read, std::size_t>(number_at<std::uint8_t>, 1)
                                       : std::pair<Read, std::size_t>(nullptr, 0);
         if (accessor.type != TINYGLTF_TYPE_SCALAR || read == nullptr) {
-            fail("its indices are no whole numbers");
+            fail("its indices are not whole numbers");
         }
         const Bytes from = bytes(accessor, size);
         std::vector<std::uint32_t> all;
@@ -311,14 +311,14 @@ private:
             }
         }
         if (corners.size() % 3 != 0) {
-            fail("its last triangle has not three corners");
+            fail("its last triangle does not have three corners");
         }
         std::vector<std::array<int, 3>> all;
         for (std::size_t n = 0; n < corners.size(); n += 3) {
             std::array<int, 3> triangle{};
             for (std::size_t k = 0; k < 3; ++k) {
                 if (corners[n + k] >= points) {
-                    fail(fmt::format("triangle {} has a corner that there is not", n / 3 + 1));
+                    fail(fmt::format("triangle {} refers to a corner that does not exist", n / 3 + 1));
                 }
                 triangle[k] = static_cast<int>(corners[n + k]);
             }
@@ -409,10 +409,10 @@ std::string glb_of(const std::vector<PlacedBody>& bodies, const std::string& nam
 
 std::vector<SolidBody> parse_glb(std::string_view bytes, const std::filesystem::path& file) {
     if (bytes.size() < 20 || !bytes.starts_with("glTF")) {
-        throw Error("this is no binary glTF file (.glb)", file);
+        throw Error("this is not a binary glTF file (.glb)", file);
     }
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error("larger than a glb file can be", file);
+        throw Error("the file is larger than a glb file can be", file);
     }
     tinygltf::TinyGLTF parser;
     keep_inside(parser);

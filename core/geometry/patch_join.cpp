@@ -200,7 +200,7 @@ std::vector<Condition> conditions_of(const Net& net, const std::vector<Seam>& se
                                     seam.a.patch,
                                     seam.b.patch),
                         {},
-                        "join them in position only");
+                        "join them by position only");
         }
         ratios.push_back(ratio.value_or(1.0));
     }
@@ -240,14 +240,14 @@ Eigen::MatrixXd least_movement(const Net& net,
 Joined
 joined(const std::vector<BezierPatch>& patches, const std::vector<Seam>& seams, Continuity continuity) {
     if (std::ranges::any_of(patches, &BezierPatch::rational)) {
-        throw Error("a patch has weights: only patches without them are joined",
+        throw Error("a patch has weights, but only patches without weights can be joined",
                     {},
-                    "fit a patch to it when it is imported");
+                    "fit a patch to it during import");
     }
     Net net(with_equal_degrees(patches, seams));
     const std::vector<Condition> conditions = conditions_of(net, seams, continuity);
     if (std::ssize(conditions) > most_join_conditions) {
-        throw Error(fmt::format("{} conditions between the patches are more than {} at once",
+        throw Error(fmt::format("{} conditions between the patches exceed the limit of {} at once",
                                 conditions.size(),
                                 most_join_conditions));
     }

@@ -109,7 +109,7 @@ Surface saddle() {
 constexpr std::array<SurfacePreset, 7> presets{{
     {"dome", "Dome", "Parasilmongkol 1997, appendix listing", dome},
     {"dome-text", "Dome (text)", "Parasilmongkol 1997, ch. 2; x and y nets of the listing", dome_text},
-    {"sine", "Sine sheet", "Parasilmongkol 1997, ch. 2, with the lost minus sign put back", sine},
+    {"sine", "Sine sheet", "Parasilmongkol 1997, ch. 2, with the missing minus sign restored", sine},
     {"sine-as-printed",
      "Sine sheet (as printed)",
      "Parasilmongkol 1997, ch. 2, third value of row 1 as printed",
@@ -134,7 +134,7 @@ const SurfacePreset& surface_preset(std::string_view id) {
         known += known.empty() ? "" : ", ";
         known += preset.id;
     }
-    throw Error(fmt::format("unknown surface preset '{}'", id), {}, "known: " + known);
+    throw Error(fmt::format("unknown surface preset '{}'", id), {}, "use one of: " + known);
 }
 
 } // namespace millwright::geometry

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 7> names{
 
 void require_model(const MovedAxes& axes) {
     if (!axes.model) {
-        throw Error("there is no machine yet whose axes could be moved");
+        throw Error("no machine is loaded whose axes could be moved");
     }
 }
 
@@ -45,7 +45,7 @@ make_stream(const DriverChoice& choice, const MovedAxes& axes, const Clock& cloc
 std::unique_ptr<drivers::Driver>
 make_pmac(const DriverChoice& choice, const MovedAxes& axes, const Clock& clock) {
     if (!axes.arm) {
-        throw Error("there is no arm whose joints the card would move");
+        throw Error("no arm is loaded whose joints the card could move");
     }
     pmac::PmacSettings settings = pmac::within_limits(pmac::arm_settings_of(choice.axes), *axes.arm);
     settings.patience = 3.0; // s
@@ -63,7 +63,7 @@ DriverKind driver_kind(std::string_view name) {
     if (found == names.end()) {
         throw Error("there is no driver '" + std::string(name) + "'",
                     {},
-                    "virtual, grbl, linuxcnc, stream, cordic, records or pmac");
+                    "use virtual, grbl, linuxcnc, stream, cordic, records or pmac");
     }
     return static_cast<DriverKind>(found - names.begin());
 }

@@ -138,9 +138,9 @@ Strokes outlines_for(const Strokes& drawn, const StrokePlan& plan) {
     }
     Strokes outlines = rings_joined(drawn);
     if (plan.compensates() && closed_outlines(outlines).empty()) {
-        throw Error("no stroke is closed, so there is no inside and no outside to go along",
+        throw Error("no stroke is closed, so there is no inside or outside to follow",
                     {},
-                    "cut on the line, or draw outlines whose ends touch");
+                    "cut on the line, or draw outlines whose ends meet");
     }
     return outlines;
 }

@@ -76,7 +76,7 @@ Region offset(const Region& region, double distance, Corners corners, double arc
 
 Strokes compensated(const Region& region, const CompensationSettings& settings, int pen) {
     if (!(settings.tool_diameter > 0.0)) {
-        throw Error(fmt::format("a tool of {} mm", settings.tool_diameter));
+        throw Error(fmt::format("the tool diameter {} mm is not valid", settings.tool_diameter));
     }
     if (settings.side == CutterSide::on_line) {
         return closed_strokes(region, pen);
@@ -90,7 +90,7 @@ Strokes compensated(const Region& region, const CompensationSettings& settings, 
 Strokes contour_hatch(const Region& region, double first, double pitch, int pen) {
     constexpr int most_contours = 100'000;
     if (!(pitch > 0.0) || !(first >= 0.0)) {
-        throw Error("contours need a pitch above 0 and begin at or inside the outline");
+        throw Error("contours need a pitch above 0 and must start at or inside the outline");
     }
     Strokes strokes;
     for (int n = 0; n < most_contours; ++n) {
@@ -103,7 +103,7 @@ Strokes contour_hatch(const Region& region, double first, double pitch, int pen)
             strokes.push_back(std::move(stroke));
         }
     }
-    throw Error(fmt::format("more than {} contours: the pitch is too small", most_contours));
+    throw Error(fmt::format("more than {} contours are needed: the pitch is too small", most_contours));
 }
 
 } // namespace millwright::plot

@@ -20,30 +20,31 @@ void check_cut_settings(const CutSettings& settings) {
     };
     for (const Level& level : settings.levels) {
         if (!(level.depth >= 0.0) || !std::isfinite(level.depth)) {
-            refuse(level, "the depth has to be 0 mm or more");
+            refuse(level, "the depth must be 0 mm or more");
         }
         if (level.passes < 1) {
-            refuse(level, "there has to be a pass");
+            refuse(level, "the number of passes must be 1 or more");
         }
         const bool moves = level.cutting > 0.0 && level.plunging > 0.0;
         if (!moves || !std::isfinite(level.cutting + level.plunging)) {
-            refuse(level, "the speeds have to be above 0 mm/s");
+            refuse(level, "the speeds must be above 0 mm/s");
         }
         const Tabs& tabs = level.tabs;
         const bool sized = tabs.width > 0.0 && tabs.height > 0.0 && std::isfinite(tabs.width + tabs.height);
         if (tabs.count < 0 || !sized) {
-            refuse(level, "tabs have to have a width and a height above 0 mm");
+            refuse(level, "the width and height of tabs must be above 0 mm");
         }
         if (tabs.count > 0 && tabs.height > level.depth) {
             refuse(level,
-                   fmt::format("tabs of {} mm stand above what is cut {} mm deep", tabs.height, level.depth));
+                   fmt::format(
+                       "tabs of {} mm are higher than the cut is deep, {} mm", tabs.height, level.depth));
         }
     }
     if (!(settings.safe_height > 0.0) || !std::isfinite(settings.safe_height)) {
-        throw Error("the safe height has to be above 0 mm");
+        throw Error("the safe height must be above 0 mm");
     }
     if (!is_finite(settings.change_position) || settings.change_position.z() < settings.safe_height) {
-        throw Error("the tool is changed below the safe height");
+        throw Error("the tool change position is below the safe height");
     }
 }
 
@@ -101,8 +102,8 @@ public:
         const Tabs& tabs = level.tabs;
         const double part = length(stroke) / tabs.count;
         if (!(tabs.width < part)) {
-            throw Error(fmt::format("pen {}: {} do not fit on a stroke of {:.6g} mm: each takes {:.6g} mm of "
-                                    "the tool's way, its own width and that of the tool",
+            throw Error(fmt::format("pen {}: {} do not fit on a stroke of {:.6g} mm: each needs {:.6g} mm of "
+                                    "the tool path, for its own width and that of the tool",
                                     level.pen,
                                     counted(tabs.count, "tab"),
                                     part * tabs.count,
@@ -170,7 +171,7 @@ void expect_within_plate(const CutPath& path, double thickness) {
     const double depth = deepest(path);
     if (!(depth <= thickness + rounding)) {
         throw Error(
-            fmt::format("the path goes {:.3f} mm deep, and the plate is {:.3f} mm thick", depth, thickness));
+            fmt::format("the path is {:.3f} mm deep, but the plate is {:.3f} mm thick", depth, thickness));
     }
 }
 

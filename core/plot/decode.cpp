@@ -17,24 +17,24 @@ namespace {
 void check_decode_settings(const DecodeSettings& settings) {
     const auto positive = [](double value, const char* what) {
         if (!(value > 0.0) || !std::isfinite(value)) {
-            throw Error(fmt::format("the {} is {}; it has to be above 0", what, value));
+            throw Error(fmt::format("the {} is {}, but must be above 0", what, value));
         }
     };
     positive(settings.velocity, "velocity");
     positive(settings.period, "period");
     positive(settings.travel_velocity.value_or(1.0), "velocity with the pen up");
     positive(settings.plunge_velocity.value_or(1.0), "velocity up and down");
-    positive(settings.velocity * settings.period, "step of a period");
+    positive(settings.velocity * settings.period, "step per period");
     positive(settings.acceleration.value_or(1.0), "acceleration");
     positive(settings.jerk.value_or(1.0), "jerk");
     if (settings.acceleration && settings.mode != DecodeMode::path) {
-        throw Error("an acceleration is kept along whole paths only");
+        throw Error("an acceleration limit is only possible along whole paths");
     }
     if (settings.jerk && !settings.acceleration) {
-        throw Error("a jerk needs an acceleration beside it");
+        throw Error("a jerk limit needs an acceleration limit, too");
     }
     if (!std::isfinite(settings.pen_up_z) || !std::isfinite(settings.pen_down_z)) {
-        throw Error("the height of the pen is no number");
+        throw Error("the pen height is not a number");
     }
 }
 
@@ -276,8 +276,9 @@ private:
 
     void reserve(double count) const {
         if (!(static_cast<double>(points_.size()) + count <= static_cast<double>(settings_.most_points))) {
-            throw Error(fmt::format("more than {} points: the velocity times the period is too small",
-                                    settings_.most_points));
+            throw Error(
+                fmt::format("more than {} points are needed: the velocity times the period is too small",
+                            settings_.most_points));
         }
     }
 
@@ -292,7 +293,7 @@ void check_decode_settings(double fastest, const DecodeSettings& settings) {
     const double most = std::max(
         {settings.velocity, settings.travel_velocity.value_or(0.0), settings.plunge_velocity.value_or(0.0)});
     if (!(fastest >= most && std::isfinite(fastest))) {
-        throw Error(fmt::format("a velocity of {} mm/s is above the fastest, {} mm/s", most, fastest));
+        throw Error(fmt::format("the velocity of {} mm/s exceeds the maximum, {} mm/s", most, fastest));
     }
 }
 

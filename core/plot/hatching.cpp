@@ -82,11 +82,11 @@ void hatch_at(const Region& region, const LineFrame& frame, int pen, Strokes& st
 void check_hatch_settings(const Region& region, const HatchSettings& settings) {
     if (!(settings.pitch > 0.0) || !std::isfinite(settings.pitch) || !std::isfinite(settings.angle) ||
         !is_finite(settings.origin)) {
-        throw Error("a hatch needs a pitch above 0, and an angle and an origin that are numbers");
+        throw Error("a hatch needs a pitch above 0, and a finite angle and origin");
     }
     for (const Ring& ring : region) {
         if (!std::ranges::all_of(ring, [](const Vec2& p) { return is_finite(p); })) {
-            throw Error("a region to be hatched has a point that is no number");
+            throw Error("a region to be hatched has a point that is not a number");
         }
     }
 }

@@ -16,11 +16,11 @@ std::string on_open(const Strokes& drawn, std::size_t open) {
         return {};
     }
     if (closed_outlines(drawn).empty()) {
-        return "no stroke is closed: none is filled or compensated";
+        return "no stroke is closed, so nothing is filled or compensated";
     }
     return open == 1
-               ? "1 stroke stays as it is, not closed: neither filled nor compensated"
-               : fmt::format("{} strokes stay as they are, not closed: neither filled nor compensated", open);
+               ? "1 open stroke stays unchanged: it is neither filled nor compensated"
+               : fmt::format("{} open strokes stay unchanged: they are neither filled nor compensated", open);
 }
 
 std::size_t narrow_parts(const Strokes& drawn, const StrokePlan& plan) {
@@ -43,14 +43,13 @@ std::string on_narrow(std::size_t parts) {
     if (parts == 0) {
         return {};
     }
-    return parts == 1
-               ? "1 closed part is too narrow for the tool: nothing is cut there"
-               : fmt::format("{} closed parts are too narrow for the tool: nothing is cut there", parts);
+    return parts == 1 ? "1 closed area is too narrow for the tool and is not cut"
+                      : fmt::format("{} closed areas are too narrow for the tool and are not cut", parts);
 }
 
 std::string on_links(const Strokes& drawn, const StrokePlan& plan) {
     return plan.link > 0.0 && plan.link_inside && closed_outlines(drawn).empty()
-               ? "no stroke is closed: nothing keeps the links inside"
+               ? "no stroke is closed, so links are not kept inside"
                : "";
 }
 

@@ -40,7 +40,7 @@ private:
         const auto equals = part.find('=');
         const std::string_view name = part.substr(0, equals);
         if (!seen_.insert(name).second) {
-            throw Error(fmt::format("the level '{}': '{}' is given twice", text_, name));
+            throw Error(fmt::format("level '{}': '{}' is given twice", text_, name));
         }
         const std::string_view value =
             equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1);
@@ -65,9 +65,9 @@ private:
         } else if (name == "tabs") {
             level_.tabs.count = whole(value, 0);
         } else {
-            throw Error(fmt::format("the level '{}': '{}' is nothing that a level has", text_, part),
+            throw Error(fmt::format("level '{}': '{}' is not a setting of a level", text_, part),
                         {},
-                        "depth=, passes=, feed=, plunge=, order=, tool=, side=, cutter=, tabs= or off");
+                        "use depth=, passes=, feed=, plunge=, order=, tool=, side=, cutter=, tabs= or off");
         }
     }
 
@@ -79,9 +79,9 @@ private:
         const auto* const found =
             std::ranges::find(sides, value, &std::pair<std::string_view, CutterSide>::first);
         if (found == sides.end()) {
-            throw Error(fmt::format("the level '{}': '{}' is no side", text_, value),
+            throw Error(fmt::format("level '{}': '{}' is not a cutter side", text_, value),
                         {},
-                        "on-line, outside or inside");
+                        "use on-line, outside or inside");
         }
         return found->second;
     }
@@ -89,7 +89,7 @@ private:
     [[nodiscard]] double above_zero(std::string_view value) const {
         const double found = number(value);
         if (!(found > 0.0)) {
-            throw Error(fmt::format("the level '{}': '{}' is not above 0", text_, value));
+            throw Error(fmt::format("level '{}': '{}' is not above 0", text_, value));
         }
         return found;
     }
@@ -98,7 +98,7 @@ private:
         double found = 0.0;
         const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), found);
         if (fault != std::errc() || end != value.data() + value.size() || !std::isfinite(found)) {
-            throw Error(fmt::format("the level '{}': '{}' is no number", text_, value));
+            throw Error(fmt::format("level '{}': '{}' is not a number", text_, value));
         }
         return found;
     }
@@ -108,7 +108,7 @@ private:
         const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), found);
         if (fault != std::errc() || end != value.data() + value.size() || found < least) {
             throw Error(
-                fmt::format("the level '{}': '{}' is no whole number from {} on", text_, value, least));
+                fmt::format("level '{}': '{}' is not a whole number of at least {}", text_, value, least));
         }
         return found;
     }

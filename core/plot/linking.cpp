@@ -42,7 +42,7 @@ std::vector<Ring> closed_outlines(const Strokes& strokes, double tolerance) {
 
 Linked link(const Strokes& strokes, const LinkSettings& settings) {
     if (!(settings.distance >= 0.0)) {
-        throw Error("the distance of links has to be 0 mm or more");
+        throw Error("the length of links must be 0 mm or more");
     }
     const internal::Faces faces(settings.outlines);
     Linked linked;

@@ -23,7 +23,7 @@ constexpr double plunge_part = 1.0 / 3.0; // of the feed
 
 CuttingValues Material::values(double tool_diameter) const {
     if (!(tool_diameter > 0.0)) {
-        throw Error(fmt::format("a tool of {} mm cuts nothing", tool_diameter));
+        throw Error(fmt::format("a tool diameter of {} mm cannot cut", tool_diameter));
     }
     CuttingValues values = given_;
     if (chip_loads_.empty()) {
@@ -48,7 +48,7 @@ public:
         root.expect_only(
             {"format", "version", "spindle_rpm", "diameters_in", "sources", "materials", "fixed"});
         if (root.at("format").text() != "millwright-materials") {
-            root.at("format").fail("this is no table of materials");
+            root.at("format").fail("this is not a materials table");
         }
         (void)root.at("version").integer(1, 1);
         const JsonValue sources = root.at("sources");
@@ -81,7 +81,7 @@ private:
         material.kind_ = value.at("kind").text();
         constexpr std::array<std::string_view, 4> kinds{"wood", "plastic", "metal", "rubber"};
         if (std::ranges::find(kinds, material.kind_) == kinds.end()) {
-            value.at("kind").fail("none of wood, plastic, metal and rubber");
+            value.at("kind").fail("must be wood, plastic, metal or rubber");
         }
         material.given_ = usual_;
         return material;
@@ -104,7 +104,7 @@ private:
         for (std::size_t n = 0; n < loads.size(); ++n) {
             const double diameter = diameters[n].number(0.0, 10.0) * mm_an_inch;
             if (!(diameter > last)) {
-                diameters[n].fail("the diameters have to grow");
+                diameters[n].fail("the diameters must increase");
             }
             last = diameter;
             material.chip_loads_.push_back({diameter, loads[n].number(1e-6, 1.0) * mm_an_inch});

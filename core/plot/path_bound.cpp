@@ -10,7 +10,7 @@ void expect_not_too_long(std::size_t points) {
     if (points > most_path_points) {
         throw Error(fmt::format("the path has more than {} million points", most_path_points / 1'000'000),
                     {},
-                    "take a larger step-over or pitch, fewer pixels or passes, or a part of the drawing");
+                    "use a larger step-over or pitch, fewer pixels or passes, or part of the drawing");
     }
 }
 

@@ -44,7 +44,7 @@ public:
         }
         constexpr std::size_t columns = 6;
         if (fields_.size() != columns) {
-            fail(fmt::format("{} fields where there are 6", fields_.size()));
+            fail(fmt::format("there are {} fields, but 6 are expected", fields_.size()));
         }
     }
 
@@ -53,21 +53,21 @@ public:
         point.at = {number(0), number(1), number(2)};
         point.speed = number(3);
         if (point.speed < 0.0) {
-            fail(fmt::format("a speed of {}", fields_[3]));
+            fail(fmt::format("{} is not a valid speed", fields_[3]));
         }
         const auto name = std::ranges::find(names, fields_[4], &MoveName::name);
         if (name == names.end()) {
-            fail(fmt::format("'{}' is no move", fields_[4]));
+            fail(fmt::format("'{}' is not a move", fields_[4]));
         }
         point.move = name->move;
         const bool in_the_work = point.move == CutMove::plunge || point.move == CutMove::cut;
         if (in_the_work && !(point.speed > 0.0)) {
-            fail(fmt::format("a {} of speed 0, which is a rapid's", fields_[4]));
+            fail(fmt::format("a {} has speed 0, which only a rapid may have", fields_[4]));
         }
         const double tool = number(5);
         constexpr double most_tools = 1e6;
         if (!(tool >= 0.0 && tool <= most_tools) || std::floor(tool) < tool) {
-            fail(fmt::format("'{}' is no tool", fields_[5]));
+            fail(fmt::format("'{}' is not a tool", fields_[5]));
         }
         point.tool = static_cast<int>(tool);
         return point;
@@ -79,7 +79,7 @@ private:
         double value = 0.0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-            fail(fmt::format("'{}' is no number", text));
+            fail(fmt::format("'{}' is not a number", text));
         }
         return value;
     }
@@ -127,8 +127,8 @@ CutPath read_path(std::string_view text, const std::filesystem::path& file, std:
         }
         if (number == 1 && line != title) {
             throw Error({.place = {.file = file, .line = 1},
-                         .message = "this is no path file",
-                         .hint = fmt::format("it begins with '{}'", title)});
+                         .message = "this is not a path file",
+                         .hint = fmt::format("the first line must be '{}'", title)});
         }
         if (number > 1 && !line.empty()) {
             path.push_back(Record(line, file, number).point());

@@ -38,13 +38,11 @@ public:
     program::Program build(const CutPath& path) {
         if (path.size() > most_program_points) {
             throw Error(
-                fmt::format(
-                    "a program of {} points; more than {} million would take more memory than is kept "
-                    "for it",
-                    path.size(),
-                    most_program_points / 1'000'000),
+                fmt::format("the program has {} points, but more than {} million would need too much memory",
+                            path.size(),
+                            most_program_points / 1'000'000),
                 {},
-                "take a larger step-over or pitch, fewer pixels or passes, or a part of the drawing");
+                "use a larger step-over or pitch, fewer pixels or passes, or part of the drawing");
         }
         constexpr std::size_t others = 8; // up, spindle, end
         program_.blocks.reserve(program_.blocks.size() + path.size() + others);
@@ -233,7 +231,7 @@ void expect_on_table(const CutPath& path, const kinematics::MachineModel& machin
         constexpr double rounding = 1e-4; // of a program's targets
         const bool below = low[n] < axis.min - rounding;
         if (fault.empty() && (below || high[n] > axis.max + rounding)) {
-            fault = fmt::format("axis {} would have to go to {:.3f}, outside {:.3f} ... {:.3f} mm",
+            fault = fmt::format("axis {} would have to move to {:.3f}, outside {:.3f} ... {:.3f} mm",
                                 axis.letter,
                                 below ? low[n] : high[n],
                                 axis.min,
@@ -247,11 +245,13 @@ void expect_on_table(const CutPath& path, const kinematics::MachineModel& machin
     }
     const Vec3 size = high - low;
     const std::string hint =
-        fits ? fmt::format("put its origin at {0:.3f}, {1:.3f}: Origin X and Y in the window, --origin "
+        fits ? fmt::format("set the origin to {0:.3f}, {1:.3f}: Origin X and Y in the window, --origin "
                            "{0:.3f},{1:.3f}",
                            better.x(),
                            better.y())
-             : fmt::format("it is {:.1f} x {:.1f} mm, too large for this machine", size.x(), size.y());
+             : fmt::format("use a larger machine, or a smaller drawing: it is {:.1f} x {:.1f} mm",
+                           size.x(),
+                           size.y());
     throw Error(fault, {}, hint);
 }
 
@@ -273,18 +273,19 @@ std::optional<Diagnostic> speeds_not_reached(const CutPath& path, const kinemati
             }
             if (++count == 1) {
                 first = {{},
-                         fmt::format("{:.0f} mm/min is more than {} reaches: its axis {} does {:.0f} mm/min",
+                         fmt::format("{:.0f} mm/min exceeds the maximum speed of {}: its axis {} is limited "
+                                     "to {:.0f} mm/min",
                                      to_mm_per_min(point.speed),
                                      machine.name(),
                                      axis.letter,
                                      to_mm_per_min(axis.max_velocity)),
-                         "it will be slower"};
+                         "the machine will be slower"};
             }
             break;
         }
     }
     if (count > 1) {
-        first->message += fmt::format("; so it is with {} more", counted(count - 1, "move"));
+        first->message += fmt::format("; the same applies to {} more", counted(count - 1, "move"));
     }
     return first;
 }
@@ -297,10 +298,10 @@ std::string plot_axes(const kinematics::MachineModel& machine) {
     std::string sorted = letters;
     std::ranges::sort(sorted);
     if (sorted != "XYZ") {
-        throw Error(
-            fmt::format("machine '{}' has the axes {}; plots and pictures are cut by X, Y and Z alone",
-                        machine.name(),
-                        letters));
+        throw Error(fmt::format(
+            "machine '{}' has the axes {}, but plots and pictures can only be cut with X, Y and Z",
+            machine.name(),
+            letters));
     }
     return letters;
 }

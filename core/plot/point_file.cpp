@@ -119,8 +119,8 @@ PointFile read_points(std::string_view text, const std::filesystem::path& file) 
             constexpr std::size_t most_shown = 60;
             read.diagnostics.push_back(
                 {.place = {.file = file, .line = number},
-                 .message = fmt::format("'{}' is no point", line.substr(0, most_shown)),
-                 .hint = "three numbers with commas or semicolons between: X, Y, Z"});
+                 .message = fmt::format("'{}' is not a point", line.substr(0, most_shown)),
+                 .hint = "write three numbers separated by commas or semicolons: X, Y, Z"});
         }
     }
     return read;

@@ -58,7 +58,7 @@ Strokes hatched(const Region& region, int pen, const StrokePlan& plan) {
         settings.cross = plan.hatch_cross;
         constexpr double most_lines = 1e6;
         if (line_count(region, settings) > most_lines) {
-            throw Error(fmt::format("a hatch of {} mm has more than a million lines", settings.pitch));
+            throw Error(fmt::format("a hatch of {} mm needs more than a million lines", settings.pitch));
         }
         append(strokes, hatch(region, settings, pen));
     }
@@ -106,12 +106,12 @@ void expect_one_diameter(const std::vector<Level>& levels, double usual) {
         const double diameter = level.tool_diameter.value_or(usual);
         const double known = diameters.emplace(level.tool, diameter).first->second;
         if (level.enabled && !exactly_equal(known, diameter)) {
-            throw Error(fmt::format("tool {} is {} mm wide in one level and {} mm in another",
+            throw Error(fmt::format("tool {} is {} mm wide in one level, but {} mm in another",
                                     level.tool,
                                     shortest(known),
                                     shortest(diameter)),
                         {},
-                        "give one of the levels another tool");
+                        "use another tool in one of the levels");
         }
     }
 }
@@ -129,9 +129,10 @@ StrokePlan with_cutters(StrokePlan plan, const std::vector<Level>& levels) {
         if (known == plan.cutters.end()) {
             plan.cutters.push_back(cutter);
         } else if (!(*known == cutter)) {
-            throw Error(fmt::format("two levels of pen {} have another side or cutter", level.pen),
+            throw Error(fmt::format("two levels of pen {} differ in side or cutter", level.pen),
                         {},
-                        "strokes of one pen are cut along one way: draw what differs with another pen");
+                        "use another pen for strokes with a different side or cutter: all strokes of one pen "
+                        "are cut along the same path");
         }
     }
     std::erase_if(plan.cutters, [&](const PenCutter& cutter) {
@@ -161,7 +162,9 @@ ShapedStrokes shaped(const Strokes& drawn, const StrokePlan& plan) {
                        own));
     }
     if (result.strokes.empty()) {
-        throw Error("nothing is left to cut", {}, "closed strokes may be too small for the tool");
+        throw Error("nothing is left to cut",
+                    {},
+                    "check the tool diameter: closed strokes may be too small for the tool");
     }
     return result;
 }

@@ -19,7 +19,7 @@ void expect_usable(const TimeModel& model) {
     const bool usable = model.cutting > 0.0 && model.travelling > 0.0 && model.lifting >= 0.0 &&
                         std::isfinite(model.cutting + model.travelling + model.lifting);
     if (!usable) {
-        throw Error("a time needs speeds above 0");
+        throw Error("a time estimate needs speeds above 0");
     }
 }
 

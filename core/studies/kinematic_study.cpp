@@ -109,9 +109,9 @@ private:
             return row_of(method, found, told);
         }
         StudyRow kept = row_of(method, nearest, told);
-        kept.note = worse ? "No sequence is better in every figure than the nearest branch; it is kept."
-                          : "No sequence is better in any figure, by a thousandth at least, than the nearest "
-                            "branch; it is kept.";
+        kept.note = worse ? "No sequence is better in every metric than the nearest branch, so it is kept."
+                          : "No sequence is better in any metric, by at least a thousandth, than the nearest "
+                            "branch, so it is kept.";
         kept.no_gain = true;
         return kept;
     }
@@ -144,9 +144,8 @@ void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
     if (!(now.mean <= before.mean && row_score(row) < (1.0 - visible_gain) * row_score(unmoved))) {
         row.figures = unmoved.figures;
         row.no_gain = true;
-        row.note =
-            fmt::format("Where the search would put the part it is no better than beside \"{}\": it stays.",
-                        label(unmoved.method));
+        row.note = fmt::format("The best position found is no better than that of \"{}\", so the part stays.",
+                               label(unmoved.method));
         return;
     }
     const auto tell = [&](double old_figure, double figure, const char* name) {
@@ -160,7 +159,7 @@ void compare_with_unmoved(StudyRow& row, const StudyRow& unmoved) {
     if (!row.loss.empty()) {
         row.note = with_sentence(
             std::move(row.note),
-            fmt::format("Without the set-up better, beside \"{}\": {}.", label(unmoved.method), row.loss));
+            fmt::format("Worse with the set-up than with \"{}\": {}.", label(unmoved.method), row.loss));
     }
 }
 
@@ -185,7 +184,7 @@ std::vector<StudyRow> unmoved_rows(const std::vector<StudyRow>& rows) {
     const auto kept = [&](StudyMethod method, StudyMethod without) {
         StudyRow row = row_with(rows, without);
         row.method = method;
-        row.note = "No place on the table changes the error by more than rounding: the part stays.";
+        row.note = "No position on the table changes the error by more than rounding, so the part stays.";
         row.no_gain = true;
         return row;
     };

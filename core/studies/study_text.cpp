@@ -135,12 +135,13 @@ std::string study_json(std::span<const StudyRow> rows) {
 
 std::string study_markdown(std::span<const StudyRow> rows) {
     std::string text =
-        "# Kinematic error by method\n\n"
+        "# Kinematic error by method\n"
+        "\n"
         "Each cell: largest / mean distance of the true tool tip from the surface, mm / largest angle\n"
-        "between tool axis and surface normal, deg; over the moves inside the tracks. No gain: nothing\n"
-        "better was found than what the method starts from, which is kept: the uniform grid, for a sequence\n"
-        "the chain by the nearest branches, for a set-up the place of before. In brackets else: what a\n"
-        "set-up makes larger beside the same method without it.\n";
+        "between tool axis and surface normal, deg; over the moves inside the tracks. No gain: the method\n"
+        "found nothing better than its start, which is kept: the uniform grid, for a sequence the chain by\n"
+        "the nearest branches, for a set-up the previous position. Other notes in brackets: figures that\n"
+        "are larger with a set-up than with the same method without it.\n";
     for (std::size_t from = 0; from < rows.size();) {
         std::size_t to = from;
         while (to < rows.size() && same_table(rows[from], rows[to])) {

@@ -27,7 +27,7 @@ TEST(Arm, SimulatesTheFileOfTheThesis) {
                                     " 2 := -90.00000 \n 3 := 90.00000 \n"));
     write_content(file, "X300 ;\nX3000 ;");
     EXPECT_THAT(run({"arm", "simulate", file, "--out", out}).err,
-                HasSubstr("three-lines.mot:2: the arm does not"));
+                HasSubstr("three-lines.mot:2: the arm cannot"));
 }
 
 /// A UR5 by its classical table, straight out at rest: motion begins where --start says.
@@ -71,7 +71,7 @@ TEST(Arm, SimulatesAnyArmFromWhereItIsToldToBegin) {
     write_content(file, "X-50 ;");
     const Ended far = run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "0,-1,2,0,-90,0"});
     EXPECT_EQ(far.exit_code, 1);
-    EXPECT_THAT(far.err, HasSubstr("square.mot:1: the arm does not reach "));
+    EXPECT_THAT(far.err, HasSubstr("square.mot:1: the arm cannot reach "));
     EXPECT_THAT(far.err, HasSubstr(" mm off"));
 }
 

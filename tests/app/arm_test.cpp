@@ -52,8 +52,9 @@ TEST(Arm, SaysWhyNothingReachesAPoint) {
     // Nearer than joint 3 can bend, though the links alone would reach it.
     const auto near = answer_to({"arm", "ik", "0", "200", "0", "0", "0", "1", "--json"});
     EXPECT_TRUE(near.at("solutions").empty());
-    EXPECT_EQ(near.at("reason").get<std::string>(),
-              "the wrist would be 200.000 mm from the shoulder; the arm reaches 291.924 to 1450.000");
+    EXPECT_EQ(
+        near.at("reason").get<std::string>(),
+        "the wrist would be 200.000 mm from the shoulder, but the arm reaches from 291.924 to 1450.000");
     const std::vector<std::string> leaning{"arm", "ik", "800", "100", "0", "0", "0.6", "0.8", "--json"};
     EXPECT_THAT(answer_to(leaning).at("reason").get<std::string>(), HasSubstr("out of the plane"));
     auto projected = leaning;
@@ -237,7 +238,7 @@ TEST(Arm, FkAndActuatorsAgreeOnWhatIsInsideTheLimits) {
     for (const auto& [joints, reason] :
          {std::pair(Joints{"0", "-90", "90", "0", "0"}, std::string()),
           {Joints{"0", "20", "60", "0", "0"}, "drive 2 would have to open its triangle"},
-          {Joints{"200", "-90", "90", "0", "0"}, "is outside of its limits"}}) {
+          {Joints{"200", "-90", "90", "0", "0"}, "is outside its limits"}}) {
         const auto answer_of = [&](const char* command) {
             std::vector<std::string> words{"arm", command, "--json"};
             words.insert(words.end(), joints.begin(), joints.end());

@@ -65,7 +65,7 @@ TEST_F(CarveCommand, AFloorIsClearedOrLeft) {
     EXPECT_NEAR(floor.at("floor_mm2").get<double>(), 256.0, 1e-3);
     EXPECT_EQ(floor.at("floor_left_mm2"), 0.0);
     EXPECT_NEAR(floor.at("ridge_mm").get<double>(), 0.25, 1e-6);
-    EXPECT_THAT(cleared.err, HasSubstr("256 mm2 of floor are cleared by the bit"));
+    EXPECT_THAT(cleared.err, HasSubstr("the bit clears 256 mm2 of floor"));
     const Ended left = carve({"--tool", "v:90:40", "--largest-depth", "2", "--leave-floor", "--json"});
     EXPECT_NEAR(json::parse(left.out).at("floor_left_mm2").get<double>(), 256.0, 1e-3);
     EXPECT_LT(json::parse(left.out).at("cut_mm"), floor.at("cut_mm"));
@@ -109,10 +109,9 @@ TEST_F(CarveCommand, SaysWhatIsWrongWithItsPlace) {
     const Ended open = carve({});
     EXPECT_EQ(open.exit_code, 1);
     EXPECT_THAT(open.err, HasSubstr("logo.plt"));
-    EXPECT_THAT(
-        open.err,
-        HasSubstr("no outline is closed, so nothing is inside: 1 open stroke is left out, the first from "
-                  "(0.000, 0.000) to (0.000, 20.000) mm, its ends 20.000 mm apart"));
+    EXPECT_THAT(open.err,
+                HasSubstr("no outline is closed, so there is nothing to carve: 1 open stroke is skipped, the "
+                          "first from (0.000, 0.000) to (0.000, 20.000) mm, with its ends 20.000 mm apart"));
     EXPECT_EQ(carve({"--close-gaps", "21"}).exit_code, 0);
     write_content(drawing, "IN;SP1;PU0,0;PD800,800,800,0,0,800,0,0;PU;");
     const Ended bow = carve({});
@@ -124,8 +123,8 @@ TEST_F(CarveCommand, SaysWhatIsWrongWithItsPlace) {
         EXPECT_NE(refused.exit_code, 0) << tool;
         EXPECT_THAT(refused.err, HasSubstr(tool));
     }
-    EXPECT_THAT(carve({"--tool", "flat:3"}).err, HasSubstr("flat:3 does not carve"));
-    EXPECT_THAT(carve({"--accuracy", "1e-6"}).err, HasSubstr("the tolerance has to be 0.0001 mm or more"));
+    EXPECT_THAT(carve({"--tool", "flat:3"}).err, HasSubstr("flat:3 cannot carve"));
+    EXPECT_THAT(carve({"--accuracy", "1e-6"}).err, HasSubstr("the tolerance must be 0.0001 mm or more"));
     EXPECT_NE(carve({"--largest-depth", "0"}).exit_code, 0);
 }
 

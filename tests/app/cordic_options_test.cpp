@@ -25,7 +25,7 @@ TEST_F(CordicOptions, RefuseArcsThatTheFormatCannotKeepWithinTheTolerance) {
     const Ended coarse = run({"cordic", "run", file, "--format", "q24.8", "--arc-tolerance", "1e-7"});
     EXPECT_EQ(coarse.exit_code, 1);
     EXPECT_EQ(coarse.out, "");
-    EXPECT_THAT(coarse.err, HasSubstr("f10.ngc:3:1: q24.8 holds the end of a chord 0.00"));
+    EXPECT_THAT(coarse.err, HasSubstr("f10.ngc:3:1: in q24.8 the end of a chord is 0.00"));
     const Ended whole = run({"cordic", "run", file, "--format", "q12.16", "--whole-arcs", "--json"});
     ASSERT_EQ(whole.exit_code, 0) << whole.err;
     const auto error_of = [](const Ended& ended) {
@@ -215,11 +215,11 @@ TEST_F(CordicOptions, TellThePlaceWhereAMicroprogramOrTheLogicHasNoAnswer) {
     EXPECT_THAT(empty.err, HasSubstr("empty.micro:1:1: the microprogram has no words"));
     const Ended off = run({"cordic", "run", halt, "--microprogram", written("off.micro", "CONT\n\nCONT\n")});
     EXPECT_EQ(off.exit_code, 1);
-    EXPECT_THAT(off.err, HasSubstr("off.micro:3:1: the microprogram ran behind its last word"));
+    EXPECT_THAT(off.err, HasSubstr("off.micro:3:1: the microprogram ran past its last word"));
     const std::string own = written("own.asm", "MOV P, 50\n  MUSER\nHLT\n");
     const Ended user = run({"cordic", "run", own, "--plc", "assets/samples/interlock.plc"});
     EXPECT_EQ(user.exit_code, 1);
-    EXPECT_THAT(user.err, HasSubstr("own.asm:2:3: M50 is none of the machine's own commands"));
+    EXPECT_THAT(user.err, HasSubstr("own.asm:2:3: M50 is not a user-defined command"));
 }
 
 TEST_F(CordicOptions, WarnOfRunsThatAreNotAsPromised) {
@@ -263,7 +263,7 @@ TEST_F(CordicOptions, ListWhatTheCompilerWarnsOf) {
     ASSERT_EQ(found.size(), 1U) << found;
     EXPECT_EQ(found[0].at("line"), 4);
     EXPECT_THAT(found[0].at("message").get<std::string>(),
-                HasSubstr("behind its start and is a full circle"));
+                HasSubstr("past its start and is run as a full circle"));
     EXPECT_THAT(ended.err, HasSubstr("hair.ngc:4"));
 }
 
@@ -272,7 +272,8 @@ TEST_F(CordicOptions, RefuseDirectionsThatSoFewIterationsDoNotReachBeforeAnythin
     const Ended ended = run({"cordic", "run", file, "--iterations", "2"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err, HasSubstr("back.ngc:3:1: a line in a direction that 2 iterations do not reach"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("back.ngc:3:1: the direction of a line cannot be reached with 2 iterations"));
 }
 
 TEST_F(CordicOptions, SayThatASpeedIsMissingOrNegativeWhereItIsRead) {
@@ -295,7 +296,7 @@ TEST_F(CordicOptions, SayThatASpeedIsMissingOrNegativeWhereItIsRead) {
 TEST_F(CordicOptions, SayThatAVectorIsBelowWhatTheFormatCanTell) {
     const Ended ended = run({"cordic", "rotate", "1e-9", "0", "30", "--format", "q2.22"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("(1e-09, 0) is less than q2.22 can tell"));
+    EXPECT_THAT(ended.err, HasSubstr("(1e-09, 0) is below the resolution of q2.22"));
     const Ended turned = run({"cordic", "rotate", "-0.5", "0", "0", "--format", "q2.22", "--json"});
     EXPECT_EQ(nlohmann::json::parse(turned.out).at("words").at(0).get<std::string>().size(), 8U)
         << "0x, 24 bits";
@@ -315,9 +316,9 @@ TEST_F(CordicOptions, AreForTheKindOfFileThatTheyAreFor) {
 TEST_F(CordicOptions, ShowBytesThatAreNoTextAsNumbers) {
     const Ended ended = run({"cordic", "run", written("raw.asm", "MOV \x1b[31m\x07\xff, 1\n")});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("raw.asm:1:5: \"\\x1b[31m\\x07\\xff\" is no register"));
+    EXPECT_THAT(ended.err, HasSubstr("raw.asm:1:5: \"\\x1b[31m\\x07\\xff\" is not a register"));
     const Ended umlaut = run({"cordic", "run", written("word.asm", "MOV \xc3\x84, 1\n")});
-    EXPECT_THAT(umlaut.err, HasSubstr("\"\xc3\x84\" is no register"));
+    EXPECT_THAT(umlaut.err, HasSubstr("\"\xc3\x84\" is not a register"));
 }
 
 TEST_F(CordicOptions, OfTheArithmeticAreRecordedInTheImage) {
@@ -366,7 +367,7 @@ TEST_F(CordicOptions, OfImagesOfVersionOneAreNotGuessed) {
     const Ended old = run({"cordic", "run", written("old.bin", bytes)});
     EXPECT_EQ(old.exit_code, 1);
     EXPECT_THAT(old.err,
-                HasSubstr("of version 1, which does not say what steps and rounding it is made for"));
+                HasSubstr("has version 1, which does not state the steps and rounding it is made for"));
     EXPECT_THAT(old.err, HasSubstr("write it with millwright cordic asm"));
 }
 
@@ -380,11 +381,11 @@ TEST_F(CordicOptions, WarnWithThePlaceOfMotionsThatLeadNowhere) {
     const std::string twice = written("twice.asm", "MOV XI, 1\nMOV Vmax, 1\nMOV Amax, 1\nG01\n  G01\nHLT\n");
     const Ended made = run({"cordic", "asm", twice, "--out", path("twice.bin")});
     EXPECT_EQ(made.exit_code, 0);
-    EXPECT_THAT(made.err, HasSubstr("twice.asm:5:3: a move without length"));
+    EXPECT_THAT(made.err, HasSubstr("twice.asm:5:3: a move has zero length"));
     const Ended vanished = run(
         {"cordic", "asm", written("dz.asm", "MOV Dz, 1e-9\n"), "--format", "q8.24", "--out", path("dz.bin")});
     EXPECT_EQ(vanished.exit_code, 1);
-    EXPECT_THAT(vanished.err, HasSubstr("dz.asm:1:9: 1e-9 is less than q8.24 can tell"));
+    EXPECT_THAT(vanished.err, HasSubstr("dz.asm:1:9: 1e-9 is below the resolution of q8.24"));
 }
 
 TEST_F(CordicOptions, PrintOneDocumentOfJson) {

@@ -52,7 +52,7 @@ TEST(Cordic, SaysWhatDoesNotFit) {
     EXPECT_THAT(large.err, HasSubstr("does not fit into q2.22"));
     const Ended format = run({"cordic", "rotate", "1", "0", "30", "--format", "q2"});
     EXPECT_EQ(format.exit_code, 2);
-    EXPECT_THAT(format.err, HasSubstr("\"q2\" is no number format"));
+    EXPECT_THAT(format.err, HasSubstr("\"q2\" is not a number format"));
     EXPECT_EQ(run({"cordic", "rotate", "1", "0"}).exit_code, 2);
     EXPECT_EQ(run({"cordic", "rotate", "1", "0", "10", "--iterations", "63"}).exit_code, 2);
 }
@@ -145,13 +145,13 @@ TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     write_content(file, "G21\nG0 X1\nG0 Z2 A3\nM2\n");
     const Ended axis = run({"cordic", "run", file.string()});
     EXPECT_EQ(axis.exit_code, 1);
-    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor has no axis A"));
+    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor does not support axis A"));
     EXPECT_EQ(run({"cordic", "run", file.string(), "--other-axes"}).exit_code, 0);
     const auto text = folder.path() / "wrong.asm";
     write_content(text, "G01\n MOV Q, 1\n");
     const Ended wrong = run({"cordic", "run", text.string()});
     EXPECT_EQ(wrong.exit_code, 1);
-    EXPECT_THAT(wrong.err, HasSubstr("wrong.asm:2:6: \"Q\" is no register"));
+    EXPECT_THAT(wrong.err, HasSubstr("wrong.asm:2:6: \"Q\" is not a register"));
     const auto endless = folder.path() / "endless.asm";
     write_content(endless, "again: MOV PC, again\n");
     const Ended stopped = run({"cordic", "run", endless.string(), "--clocks", "1000"});
@@ -171,26 +171,26 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
     const auto label = (folder.path() / "label.micro").string();
     write_content(label, "CONT\n CJP always NOWHERE\n");
     for (const Bad& bad : {
-             Bad{"a.ngc", "G21 F100\nG2 X1 Y0 I5 J0\nM2\n", "a.ngc:2:1: radius at the arc's start"},
+             Bad{"a.ngc", "G21 F100\nG2 X1 Y0 I5 J0\nM2\n", "a.ngc:2:1: the arc's radius is"},
              Bad{"b.ngc",
                  "G21 S100 M3\nG0 X1\n G33 Z1 K1\nM2\n",
-                 "b.ngc:3:2: the CORDIC processor has no feed"},
+                 "b.ngc:3:2: the CORDIC processor does not support feed"},
              Bad{"c.ngc",
                  "G21\nG0 X300\nM2\n",
                  "c.ngc:2:4: X 300 does not fit into q8.24",
                  {"--format", "q8.24", "--acceleration", "100"}},
              Bad{"d.asm",
                  ".format q4.12\nMOV X0, -7\nMOV Vmax, 1\nMOV XI, 7\nG01\nHLT\n",
-                 "d.asm:5:1: the processor stopped in the instruction at 0x000f: a number did not fit the "
-                 "word (choose a number format with more bits before the point)"},
+                 "d.asm:5:1: the processor stopped at the instruction at 0x000f: a number did not fit into "
+                 "the word (choose a number format with more integer bits)"},
              Bad{"j.ngc",
                  "G21 F100\nG0 X-100\nG1 X100\nM2\n",
-                 "j.ngc:3:1: the processor stopped in the instruction at",
+                 "j.ngc:3:1: the processor stopped at the instruction at",
                  {"--format", "q8.24", "--acceleration", "100"}},
-             Bad{"e.asm", "MOV PC, away\n", "e.asm:1:9: there is no label away"},
+             Bad{"e.asm", "MOV PC, away\n", "e.asm:1:9: label away is not defined"},
              Bad{"f.asm",
                  "HLT\n",
-                 "deep.micro:2:1: a microprogram called more than 4 deep",
+                 "deep.micro:2:1: a microprogram nested calls more than 4 deep",
                  {"--microprogram", micro}},
              Bad{"g.asm", "HLT\n", "label.micro:2:", {"--microprogram", label}},
              Bad{"h.bin", "MWCP?", "h.bin"},
@@ -208,8 +208,8 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
     write_content(still, "G21\nG0 X1\nG0 X1\nG0 X1.001\nM2\n");
     const Ended ended = run({"cordic", "run", still.string(), "--format", "q16.8"});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("still.ngc:3:1: a move without length is left out"));
-    EXPECT_THAT(ended.err, HasSubstr("still.ngc:4:1: a move of 0.001 mm is less than q16.8 can tell"));
+    EXPECT_THAT(ended.err, HasSubstr("still.ngc:3:1: a move of zero length is skipped"));
+    EXPECT_THAT(ended.err, HasSubstr("still.ngc:4:1: a move of 0.001 mm is below the resolution of q16.8"));
 }
 
 TEST(Cordic, PutsSetPointsInTimeAndMeasuresTheirPulses) {
@@ -309,7 +309,7 @@ TEST(Cordic, WritesHardwareForFixedPoint) {
     EXPECT_THAT(content_of(folder.path() / "cordic_pipeline_tb.v"), HasSubstr("vectors.hex"));
     const Ended floating = run({"cordic", "rtl", "--format", "f32", "--out", folder.path().string()});
     EXPECT_EQ(floating.exit_code, 1);
-    EXPECT_THAT(floating.err, HasSubstr("hardware is made for fixed point"));
+    EXPECT_THAT(floating.err, HasSubstr("hardware can only be generated for fixed point"));
 }
 
 TEST(Cordic, WritesTheWholeProcessorAsHardware) {
@@ -407,7 +407,7 @@ TEST(Cordic, RunsBesideTheLogicOfAMachine) {
     write_content(wrong, "LD I0\nST I1\n");
     const Ended refused = run({"cordic", "run", thesis_arc, "--plc", wrong.string()});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("wrong.plc:2:4: I1 is not for the logic to set"));
+    EXPECT_THAT(refused.err, HasSubstr("wrong.plc:2:4: I1 cannot be set by the logic"));
     EXPECT_EQ(run({"cordic", "run", thesis_arc, "--inputs", "x"}).exit_code, 2);
 }
 

@@ -219,7 +219,7 @@ void Guide::run_shown(const std::string& command) {
         "MILLWRIGHT_PMAC_PORT='" + (checkout / "tmp/pmac").string() + "' timeout 300 ";
     ShellRun run = shell(checkout.path(), environment + here(command));
     // The guard of a PMAC takes the power then, as it should, and the command says so.
-    const char* const was_busy = "it heard nothing from this computer for 50 ms";
+    const char* const was_busy = "the card received nothing from this computer for 50 ms";
     for (int n = 0; n < 4 && run.output.find(was_busy) != std::string::npos; ++n) {
         run = shell(checkout.path(), environment + here(command));
     }

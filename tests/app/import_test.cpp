@@ -95,7 +95,7 @@ TEST_F(ImportCommand, PointsInRowsAreMetExactly) {
     write_content(path("comma.csv"), "1,5;2,5;3\n");
     const Ended comma = run({"import", path("comma.csv"), "--out", path("comma.json")});
     EXPECT_EQ(comma.exit_code, 1);
-    EXPECT_THAT(comma.err, HasSubstr("comma.csv:1: '1,5' has a comma as decimal point"));
+    EXPECT_THAT(comma.err, HasSubstr("comma.csv:1: '1,5' has a decimal comma"));
     EXPECT_EQ(run({"import", "assets/samples/cover.step", "--cloud"}).exit_code, 2);
 }
 
@@ -152,7 +152,7 @@ TEST_F(ImportCommand, TrianglesBehindThoseThatAMeshCountsAreTold) {
     std::memcpy(bytes.data() + 80, &count, sizeof count);
     const std::string mesh = written("counted.stl", bytes);
     const auto sentence = fmt::format(
-        "150 bytes behind the {} triangles that the header counts are not read: room for 3 more", count);
+        "150 bytes after the {} triangles declared in the header are ignored: enough for 3 more", count);
     EXPECT_THAT(run({"import", mesh}).err, HasSubstr("note: " + sentence));
     const Ended ended = run({"import", mesh, "--out", path("counted.json"), "--json"});
     EXPECT_THAT(ended.err, HasSubstr("note: " + sentence));
@@ -222,7 +222,7 @@ TEST_F(ImportCommand, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"import", exported("e.step"), "--out", path("p.json"), "--degree", "40"}),
                 HasSubstr("'40' is not a degree"));
     EXPECT_THAT(refusal({"export", "assets/projects/dome.json", "--out", path("dome.dwg")}),
-                HasSubstr("dome.dwg: a design is not written"));
+                HasSubstr("dome.dwg: a design cannot be written"));
 }
 
 } // namespace

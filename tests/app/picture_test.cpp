@@ -344,10 +344,10 @@ TEST(PictureCommand, SaysWhatIsWrong) {
     write_content(folder / "junk.png", std::string(1000, '\xff'));
     write_content(folder / "pixel.bmp", bmp(1, 1, {255}));
     write_content(folder / "wide.bmp", bmp(2, 1, {255, 0}));
-    EXPECT_THAT(relief("junk.png", {"--depth", "1"}).err, HasSubstr("this is no picture that can be read"));
+    EXPECT_THAT(relief("junk.png", {"--depth", "1"}).err, HasSubstr("the picture format is not supported"));
     EXPECT_THAT(relief("none.png", {"--depth", "1"}).err, HasSubstr("none.png"));
     EXPECT_THAT(relief("pixel.bmp", {"--depth", "1", "--tool", "drill:3"}).err,
-                HasSubstr("'drill:3' is no tool"));
+                HasSubstr("'drill:3' is not a tool"));
     for (const auto& [option, value] : {std::pair("--gray-steps", "1"),
                                         std::pair("--gray-steps", "257"),
                                         std::pair("--gray-steps", "-1"),
@@ -359,7 +359,8 @@ TEST(PictureCommand, SaysWhatIsWrong) {
     }
     EXPECT_THAT(
         relief("pixel.bmp", {"--depth", "1", "--gray-steps", "1"}).err,
-        HasSubstr("--gray-steps: 1 gray steps are not possible (2 to 256, or 0: the picture as it is)"));
+        HasSubstr(
+            "--gray-steps: 1 gray levels are not possible (use 2 to 256, or 0 for the picture as it is)"));
     EXPECT_THAT(relief("pixel.bmp", {"--depth", "-1"}).err, HasSubstr("--depth: \"-1\" must be above 0"));
     EXPECT_EQ(relief("pixel.bmp", {}).exit_code, 2);
     EXPECT_EQ(relief("pixel.bmp", {"--depth", "1", "--width", "3", "--dpi", "96"}).exit_code, 2);

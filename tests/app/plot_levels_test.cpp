@@ -56,10 +56,10 @@ TEST(PlotCommand, EachPenHasItsSideItsCutterAndItsTool) {
         low.err,
         HasSubstr("--change-position: the tool change position at Z 4 mm is below the safe height of 5 mm"));
     EXPECT_THAT(cut({"--level", "2:cutter=6"}).err,
-                HasSubstr("tool 1 is 6 mm wide in one level and 3 mm in another"));
+                HasSubstr("tool 1 is 6 mm wide in one level, but 3 mm in another"));
     EXPECT_THAT(cut({"--level", "2:order=8,side=inside", "--level", "2:order=9"}).err,
-                HasSubstr("two levels of pen 2 have another side or cutter"));
-    EXPECT_THAT(cut({"--level", "2:side=left"}).err, HasSubstr("'left' is no side"));
+                HasSubstr("two levels of pen 2 differ in side or cutter"));
+    EXPECT_THAT(cut({"--level", "2:side=left"}).err, HasSubstr("'left' is not a cutter side"));
 }
 
 TEST(PlotCommand, LevelsThatContradictEachOtherAreRefused) {

@@ -73,7 +73,7 @@ TEST(ProgramsAsPlots, InfoCountsNoWayThatTheProgramDoesNotSay) {
     const auto told = nlohmann::json::parse(run({"plot", "info", file, "--json"}).out);
     EXPECT_NEAR(told.at("feed_mm"), 252.89, 0.02);
     EXPECT_NEAR(told.at("feed_s"), told.at("feed_mm").get<double>() / 5.0, 1e-3);
-    EXPECT_THAT(told.at("diagnostics").at(0).at("message"), HasSubstr("no height is named"));
+    EXPECT_THAT(told.at("diagnostics").at(0).at("message"), HasSubstr("no height is given"));
     EXPECT_THAT(run({"plot", "info", file}).out, HasSubstr("every feed move across is a cut\n"));
     EXPECT_THAT(run({"plot", "info", file}).err, HasSubstr("compensation-right.ngc:5: no height"));
 }
@@ -138,8 +138,8 @@ TEST(ProgramsAsPlots, AnOriginWithoutZPlacesNothingInZ) {
     };
     EXPECT_EQ(cut("10,10").exit_code, 1);
     EXPECT_THAT(cut("10,10").err,
-                HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero "
-                          "lies on the machine is not known in Z"));
+                HasSubstr(":5:1: G53 moves to a machine position, but the program zero in machine "
+                          "coordinates is unknown in Z"));
     EXPECT_EQ(cut("10,10,-60").exit_code, 0) << cut("10,10,-60").err;
 }
 
@@ -248,8 +248,9 @@ TEST(ProgramsAsPlots, WhatIsNoPathIsRefusedWithTheLine) {
     std::filesystem::remove(out);
     const Ended ended = run({"plot", "toolpath", ramp, "--out", out, "--order"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("ramp.ngc:3: this cut goes from z 0.000 to -2.000 mm: --order applies only to"));
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("ramp.ngc:3: this cut changes height from z 0.000 to -2.000 mm: --order applies only to"));
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -262,14 +263,14 @@ TEST(ProgramsAsPlots, ACutFromAnUnknownPlaceIsRefusedWithItsLine) {
     const Ended ended = run({"plot", "toolpath", file, "--out", out, "--machine", "router-xyz"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
-                HasSubstr("41.ngc:4: this cut begins where the program has not said what X and Y are "
-                          "(name X and Y in a rapid before the first cut)"));
+                HasSubstr("41.ngc:4: this cut starts before the program has stated where X and Y are (add a "
+                          "rapid move with X and Y before the first cut)"));
     EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_EQ(run({"plot", "decode", file, "--velocity", "10", "--period", "0.01", "--out", out}).exit_code,
               1);
     const Ended info = run({"plot", "info", file});
     EXPECT_EQ(info.exit_code, 0);
-    EXPECT_THAT(info.err, HasSubstr("this cut begins where the program has not said")) << "only looked at";
+    EXPECT_THAT(info.err, HasSubstr("this cut starts before the program has stated")) << "only looked at";
 }
 
 TEST(ProgramsAsPlots, OptionsOfTheOtherKindOfFileAreRefused) {

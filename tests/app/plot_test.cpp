@@ -282,7 +282,7 @@ TEST(PlotCommand, SaysThatNothingIsClosedWhereItIsToBeFilled) {
                              "--out",
                              (folder / "out.ngc").string()});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("no stroke is closed: none is filled or compensated"));
+    EXPECT_THAT(ended.err, HasSubstr("no stroke is closed, so nothing is filled or compensated"));
 }
 
 // An outline of four LINE entities was cut on the line, with a notice: 3 mm too small.
@@ -325,7 +325,7 @@ TEST(PlotCommand, SaysThatNothingKeepsLinksInside) {
         words.insert(words.end(), more.begin(), more.end());
         return run(words).err;
     };
-    EXPECT_THAT(linked({"--inside"}), HasSubstr("no stroke is closed: nothing keeps the links inside"));
+    EXPECT_THAT(linked({"--inside"}), HasSubstr("no stroke is closed, so links are not kept inside"));
     EXPECT_THAT(linked({}), Not(HasSubstr("no stroke is closed")));
 }
 
@@ -360,7 +360,7 @@ TEST(PlotCommand, SaysWhatIsTooNarrowForTheTool) {
                              "--out",
                              (folder / "out.ngc").string()});
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.err, HasSubstr("1 closed part is too narrow for the tool: nothing is cut there"));
+    EXPECT_THAT(ended.err, HasSubstr("1 closed area is too narrow for the tool and is not cut"));
 }
 
 TEST(PlotCommand, InfoOfNoPlotFails) {
@@ -530,7 +530,7 @@ TEST(PlotCommand, StrictReadingEndsAtTheFirstFault) {
     EXPECT_EQ(run({"plot", "info", file}).exit_code, 0);
     const Ended ended = run({"plot", "info", file, "--strict"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("byte 20: QX is no command of HPGL"));
+    EXPECT_THAT(ended.err, HasSubstr("byte 20: QX is not an HPGL command"));
 }
 
 TEST(PlotCommand, JunkIsNotDecoded) {

@@ -15,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 /// The guard in the card takes the power then, as it should, and what was asked for is not done.
-constexpr const char* computer_was_busy = "it heard nothing from this computer for 50 ms";
+constexpr const char* computer_was_busy = "the card received nothing from this computer for 50 ms";
 
 struct Pmac : testing::Test {
     ScratchFolder scratch;
@@ -43,17 +43,18 @@ TEST_F(Pmac, AnswersCommands) {
     EXPECT_EQ(ended.out, "PMAC1,ISA,BATTERY,PID,CLOCK X1\n42\n");
     const Ended refused = run({"pmac", "X100", "P5", "--port", port});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("'X100' is refused: ERR005, no buffer is open"));
+    EXPECT_THAT(refused.err, HasSubstr("'X100' is rejected: ERR005, no buffer is open"));
     EXPECT_EQ(refused.out, "");
     const Ended powered = run({"pmac", "#1J/", "--port", port});
     EXPECT_EQ(powered.exit_code, 1);
-    EXPECT_THAT(powered.err, HasSubstr("would give power to joint 1"));
+    EXPECT_THAT(powered.err, HasSubstr("would enable joint 1"));
     EXPECT_THAT(powered.err, HasSubstr("--power"));
     const Ended stopped = run({"pmac", "A", "--port", port});
     EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
     EXPECT_THAT(stopped.out, HasSubstr("nothing moves"));
-    EXPECT_THAT(run({"pmac", "I130=99999999", "--port", port}).err, HasSubstr("more than 24 bits"));
-    EXPECT_THAT(run({"pmac", "I111=0", "--port", port}).err, HasSubstr("not stopped by a following error"));
+    EXPECT_THAT(run({"pmac", "I130=99999999", "--port", port}).err, HasSubstr("at most 24 bits"));
+    EXPECT_THAT(run({"pmac", "I111=0", "--port", port}).err,
+                HasSubstr("a following error does not stop motor 1"));
     const Ended reset = run({"pmac", "$$$", "--port", port});
     EXPECT_THAT(reset.err, HasSubstr("the card was reset"));
     EXPECT_EQ(reset.err.find("the card was reset"), reset.err.rfind("the card was reset"));
@@ -78,8 +79,7 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     Emulator emulator(port, {}, "pmac");
     const Ended ended = run({"pmac", "I131", "--load", (scratch / "pmac.ini").string(), "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("pmac.ini:2:1: I125 bit 17: motor 1: its limit switches are not looked at"));
+    EXPECT_THAT(ended.err, HasSubstr("pmac.ini:2:1: I125 bit 17: motor 1: its limit switches are ignored"));
     EXPECT_THAT(ended.err, HasSubstr("pmac.ini:3:1: I111=0"));
     EXPECT_THAT(ended.err, HasSubstr("pmac.ini:5:1: NONSENSE is left out"));
     EXPECT_EQ(ended.out, ""); // nothing more was sent
@@ -87,7 +87,7 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     write_content(scratch / "pmac.ini", "I131=many\nI130=702");
     const Ended refused = run({"pmac", "--load", (scratch / "pmac.ini").string(), "--port", port});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("pmac.ini:1: 'I131=many' is refused"));
+    EXPECT_THAT(refused.err, HasSubstr("pmac.ini:1: 'I131=many' is rejected"));
     EXPECT_EQ(run({"pmac", "I130", "--port", port}).out, "702\n"); // the others are sent
 }
 
@@ -128,7 +128,7 @@ TEST_F(Pmac, WaitsForWhatACommandSetsGoingAndTakesNoEndlessJog) {
     EXPECT_THAT(went.out, testing::ContainsRegex("^(599|600)"));
     const Ended endless = run({"pmac", "#1J+", "--port", port});
     EXPECT_EQ(endless.exit_code, 1);
-    EXPECT_THAT(endless.err, HasSubstr("until somebody thinks of stopping it"));
+    EXPECT_THAT(endless.err, HasSubstr("would jog without an end"));
     Program far({"pmac", "#1J:2000000", "--power", "--port", port});
     far.wait_for_error_text("Ctrl+C stops them");
     far.send(SIGINT);
@@ -173,8 +173,9 @@ TEST_F(Pmac, TellsWhichProtectionsTheCardHasOff) {
     EXPECT_EQ(run({"pmac", "TYPE", "--port", port}).err, "");
     (void)run({"pmac", "I111=0", "I225=$13C004", "--port", port});
     const Ended off = run({"pmac", "TYPE", "--port", port});
-    EXPECT_THAT(off.err, HasSubstr("motor 1 is not stopped when it does not follow (I111 = 0)"));
-    EXPECT_THAT(off.err, HasSubstr("motor 2 goes on when its amplifier reports a fault (I225 bit 20)"));
+    EXPECT_THAT(off.err,
+                HasSubstr("motor 1 has no following-error limit and is not stopped by it (I111 = 0)"));
+    EXPECT_THAT(off.err, HasSubstr("motor 2 continues if its amplifier reports a fault (I225 bit 20)"));
     EXPECT_EQ(run({"pmac", "--load", "assets/samples/pmac-arm.ini", "--port", port}).err, "");
 }
 
@@ -194,7 +195,7 @@ TEST_F(Pmac, IsToldFromSomethingElse) {
     Emulator emulator(port, {});
     const Ended ended = run({"pmac", "#1P", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("what answers is not what a PMAC would"));
+    EXPECT_THAT(ended.err, HasSubstr("the device that answers is not a PMAC"));
     EXPECT_EQ(run({"pmac", "--port", port}).exit_code, 1);
 }
 
@@ -204,7 +205,7 @@ TEST_F(Pmac, AMotionProgramIsLookedThroughBeforeAnybodyIsAsked) {
     const Ended ended = run({"send", file, "--driver", "pmac", "--port", (scratch / "none").string()});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("moves.pmc:4"));
-    EXPECT_THAT(ended.err, HasSubstr("'DRILL' is no line of a motion program"));
+    EXPECT_THAT(ended.err, HasSubstr("'DRILL' is not a line of a motion program"));
     const Ended later =
         run({"send", file, "--from-line", "2", "--driver", "pmac", "--port", (scratch / "none").string()});
     EXPECT_EQ(later.exit_code, 1);
@@ -257,8 +258,7 @@ TEST_F(Pmac, SaysThatACardHasNoMotorForAFifthAxis) {
     Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
     const Ended ended = roll(arm_ini, {});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err,
-                HasSubstr("where a motor is not active (Ix00 = 0): load the settings of the card"));
+    EXPECT_THAT(ended.err, HasSubstr("if a motor is not active (Ix00 = 0): load the card's settings"));
 }
 
 // F4.
@@ -268,7 +268,7 @@ TEST_F(Pmac, ChecksThatJogsAndProgramsGoTheSameWay) {
     ASSERT_EQ(run({"pmac", "--load", (scratch / "arm.ini").string(), "TYPE", "--port", port}).exit_code, 0);
     const Ended still = run({"arm", "direction", "1", "--port", port});
     EXPECT_EQ(still.exit_code, 1);
-    EXPECT_THAT(still.err, HasSubstr("motor 1 has no power"));
+    EXPECT_THAT(still.err, HasSubstr("motor 1 is disabled"));
     const Ended same = run({"arm", "direction", "1", "--power", "--port", port});
     EXPECT_EQ(same.exit_code, 0) << same.err;
     EXPECT_THAT(

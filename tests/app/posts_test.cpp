@@ -52,7 +52,7 @@ TEST_F(Posts, ConvertSaysWhatTheControlHasToHave) {
     write_content(file, "G21 G90 G54\nT1 M6\nG43 H1\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG49\nM2\n");
     const Ended plain = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "linuxcnc-xyz"});
     EXPECT_EQ(plain.exit_code, 0);
-    EXPECT_THAT(plain.err, HasSubstr("length.ngc:3:5: the tool has no length here"));
+    EXPECT_THAT(plain.err, HasSubstr("length.ngc:3:5: the tool length is unknown"));
     const Ended placed = run(
         {"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl", "--origin", "100,100,-50"});
     EXPECT_THAT(placed.err, HasSubstr("with a work offset (G54) of zero"));
@@ -85,7 +85,7 @@ TEST_F(Posts, ConvertWritesRotaryAxesForGrblsThatHaveThem) {
     EXPECT_EQ(run({"gcode", "check", out, "--dialect", "grbl", "--axes", "XYZAC"}).exit_code, 0);
     const Ended three = run({"gcode", "check", out, "--dialect", "grbl"});
     EXPECT_EQ(three.exit_code, 1);
-    EXPECT_THAT(three.err, HasSubstr("this Grbl has the axes XYZ and does not know A words (error 20)"));
+    EXPECT_THAT(three.err, HasSubstr("this Grbl has the axes XYZ and does not support A words (error 20)"));
 }
 
 TEST_F(Posts, ConvertMakesArcsOfArcsAgain) {
@@ -183,23 +183,22 @@ TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise
     Ended ended = convert("router-xyz", "grbl");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err, HasSubstr(":3:1: nothing is probed"));
+    EXPECT_THAT(ended.err, HasSubstr(":3:1: probing (G38) is not possible"));
     write_content(part, "G21 G90 S500 M3\nG0 X0 Y0 Z5\nG33.1 Z-10 K1.5\nM2\n");
     ended = convert("router-xyz", "linuxcnc");
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr(":3:1: a feed cannot be kept in step with the spindle"));
+    EXPECT_THAT(ended.err, HasSubstr(":3:1: spindle-synchronized feed is not possible here"));
     write_content(part, "G21 G90\nM7\nG0 X0 Y0 Z5\nG1 X9 F300\nG53 G0 Z0\nM2\n");
     ended = convert("router-xyz", "grbl");
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err,
-                HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero lies"));
+    EXPECT_THAT(ended.err, HasSubstr(":5:1: G53 moves to a machine position, but the program zero"));
     ended = convert("router-xyz", "grbl", {"--origin", "1,2"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out, "");
     EXPECT_THAT(ended.err,
-                HasSubstr(":5:1: G53 goes to a machine position, and where the program's zero lies on "
-                          "the machine is not known in Z (say where"));
+                HasSubstr(":5:1: G53 moves to a machine position, but the program zero in machine "
+                          "coordinates is unknown in Z (give the program zero"));
     ended = convert("router-xyz", "grbl", {"--origin", "1,2,-20"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("warning: " + part + ":2:1: mist (M7)"));
@@ -233,22 +232,23 @@ TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 1); // which counted as 0
     EXPECT_THAT(ended.err,
-                HasSubstr(":3:1: G53 goes to a machine position, and the rotation of G54 is not known"));
+                HasSubstr(":3:1: G53 moves to a machine position, but the rotation of G54 is unknown"));
     write_content(remembered, "5210 0\n5221 1\n5222 2\n5230 0\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr(":4:1: G53 goes to a machine position"));
+    EXPECT_THAT(ended.err, HasSubstr(":4:1: G53 moves to a machine position"));
     write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG0 Z[0-#5223]\nM2\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err,
-                HasSubstr(":3:8: #5223 is an offset of G54, and its value is not known (say where"));
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr(":3:8: #5223 is an offset of G54, but its value is unknown (give the program zero"));
     EXPECT_EQ(run({"gcode", "check", part}).exit_code, 0); // rs274 takes 0
     write_content(remembered, "5163\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("linuxcnc.var:1: a line has the number of a parameter and its value"));
+    EXPECT_THAT(ended.err, HasSubstr("linuxcnc.var:1: a line must have a parameter number and a value"));
 }
 
 /// One block had F500.1: its end is rounded, and its time was not.
@@ -277,7 +277,7 @@ TEST_F(Posts, ConvertMovesNoAxisThatTheProgramHasNotNamed) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("\nG0 X-7.0000 Y13.0000\nZ10.0000\n"));
     EXPECT_THAT(ended.out, testing::Not(HasSubstr("X0.0000 Y0.0000")));
-    EXPECT_THAT(ended.err, HasSubstr("where Z is at the start is not known"));
+    EXPECT_THAT(ended.err, HasSubstr("the start position of Z is unknown"));
 }
 
 /// A feed to where the axes may or may not be has no length: it was refused.
@@ -355,7 +355,8 @@ TEST_F(Posts, ConvertSaysWhatCannotBe) {
     write_content(part, "G21 G90\nG0 Z500\nM2\n");
     ended = convert("ac-table", "linuxcnc", {"--out", out});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("axis Z would have to go to 500.000, outside -300.000 ... 400.000 mm"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("axis Z would have to move to 500.000, outside -300.000 ... 400.000 mm"));
     EXPECT_FALSE(fs::exists(out));
 }
 
@@ -384,7 +385,7 @@ TEST_F(Posts, TakesAPostFileOfOnesOwnAndSaysWhatIsWrongInIt) {
     write_content(file, own); // such a text never says that it ends
     Ended ended = convert("router-xyz", file);
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("part.ngc:4:1: the program does not end: M2, M30 or % is missing"));
+    EXPECT_THAT(ended.err, HasSubstr("part.ngc:4:1: the program has no end: M2, M30 or % is missing"));
     write_content(file, shipped.substr(0, 400));
     ended = convert("router-xyz", file);
     EXPECT_EQ(ended.exit_code, 1);

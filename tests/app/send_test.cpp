@@ -241,7 +241,7 @@ TEST_F(Send, DispatchesAFileToTheCordicProcessor) {
     };
     const Ended ended = with({});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor passes through corners"));
+    EXPECT_THAT(ended.err, HasSubstr("zigzag:2:1: the CORDIC processor does not stop at corners"));
     EXPECT_EQ(last_record(logs).at("end"), "done");
     EXPECT_THAT(with({"--clock", "1000"}).err, HasSubstr("took longer to compute at 0.001 MHz"));
     EXPECT_THAT(with({"--from-line", "3"}).err, HasSubstr("from the beginning"));
@@ -469,7 +469,7 @@ TEST_F(Send, PlansNoPositionsThatNobodyCanKnow) {
         }
         const Ended ended = run(words);
         EXPECT_EQ(ended.exit_code, 1) << driver;
-        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:4:1: G53 goes to a machine position")) << driver;
+        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:4:1: G53 moves to a machine position")) << driver;
         words.insert(words.end(), {"--origin", "0,0,5"});
         const Ended placed = run(words);
         EXPECT_EQ(placed.exit_code, 0) << driver << placed.err;
@@ -547,7 +547,8 @@ TEST_F(Send, RefusesMistWhereGrblWasBuiltWithoutIt) {
         Emulator emulator(port, {"--speed", "20"});
         const Ended ended = run(words());
         EXPECT_EQ(ended.exit_code, 1);
-        EXPECT_THAT(ended.err, HasSubstr("zigzag.ngc:2:1: this Grbl has no mist coolant, M7 (error 20)"));
+        EXPECT_THAT(ended.err,
+                    HasSubstr("zigzag.ngc:2:1: this Grbl does not support mist coolant, M7 (error 20)"));
         (void)emulator.stop();
     }
     Emulator emulator(port, {"--speed", "20", "--mist"});

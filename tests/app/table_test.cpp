@@ -352,8 +352,8 @@ TEST(TableCommand, EachBadLineOfAPointFileIsToldWithItsLine) {
     };
     EXPECT_THAT(played("0.00,0.00,0.00\n\n0.29,0.29,0.00\n"), HasSubstr("points.csv:3: axis X"));
     const std::string bad = played("0,0,0\n1;2\n\nnone\n");
-    EXPECT_THAT(bad, HasSubstr("points.csv:2: '1;2' is no point"));
-    EXPECT_THAT(bad, HasSubstr("points.csv:4: 'none' is no point"));
+    EXPECT_THAT(bad, HasSubstr("points.csv:2: '1;2' is not a point"));
+    EXPECT_THAT(bad, HasSubstr("points.csv:4: 'none' is not a point"));
 }
 
 TEST(TableCommand, TheHelpSaysThatFaultsComeAfterBytes) {

@@ -18,10 +18,9 @@ namespace millwright::cordic::internal {
 /// Throws Error if a value of the iteration did not fit.
 inline void refuse_overflow(bool overflow, const NumberFormat& format, const char* room) {
     if (overflow) {
-        throw Error(
-            fmt::format("the result or a number on the way to it does not fit into {}", to_text(format)),
-            {},
-            room);
+        throw Error(fmt::format("the result or an intermediate value does not fit into {}", to_text(format)),
+                    {},
+                    room);
     }
 }
 
@@ -46,9 +45,10 @@ inline void refuse_vanished(const NumberFormat& format, const Decimal& x, const 
     const long double wanted_x = x.nearest_long_double();
     const long double wanted_y = y.nearest_long_double();
     if (!is_held && (std::abs(wanted_x) > 0.0L || std::abs(wanted_y) > 0.0L)) {
-        throw Error(fmt::format("({:g}, {:g}) is less than {} can tell", wanted_x, wanted_y, to_text(format)),
-                    {},
-                    "choose a number format with more bits behind the point");
+        throw Error(
+            fmt::format("({:g}, {:g}) is below the resolution of {}", wanted_x, wanted_y, to_text(format)),
+            {},
+            "choose a number format with more fraction bits");
     }
 }
 

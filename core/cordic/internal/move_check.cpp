@@ -33,7 +33,7 @@ std::string_view MoveCheck::idle(const Instruction& next) {
 
 std::string_view MoveCheck::with_speed(std::string_view found) {
     const bool missing = is_zero(Register::Vmax) || is_zero(Register::Amax);
-    return found.empty() && missing ? "a motion without Vmax or Amax: the processor will stop" : found;
+    return found.empty() && missing ? "a motion has no Vmax or Amax: the processor will stop" : found;
 }
 
 std::string_view MoveCheck::line(bool in_space) {
@@ -44,7 +44,7 @@ std::string_view MoveCheck::line(bool in_space) {
     if (in_space) {
         at(Register::Z0) = at(Register::Z);
     }
-    return stands ? "a move without length: the end is where the axes are" : "";
+    return stands ? "a move has zero length: its end is where the axes are" : "";
 }
 
 std::string_view MoveCheck::arc(bool rises) {
@@ -53,11 +53,11 @@ std::string_view MoveCheck::arc(bool rises) {
     const bool climbs = rises && !is_zero(Register::Z);
     std::string_view found;
     if (is_zero(Register::N)) {
-        found = "an arc of no chord, N being 0: the processor will stop";
+        found = "an arc has no chords (N is 0): the processor will stop";
     } else if (is_zero(Register::Dz) && !climbs) {
-        found = "an arc that does not turn, Dz being 0";
+        found = "an arc does not turn: Dz is 0";
     } else if (lies_in_centre && !climbs) {
-        found = "an arc without radius: its centre is where the axes are";
+        found = "an arc has zero radius: its centre is where the axes are";
     }
     at(Register::X0).reset();
     at(Register::Y0).reset();

@@ -37,7 +37,7 @@ std::string selection(const Verilog& verilog) {
 
 std::string core_module(const Verilog& verilog) {
     const Sequence& sequence = verilog.sequence();
-    std::string text = verilog.head("CORDIC, one step or correction a clock.");
+    std::string text = verilog.head("CORDIC, one step or correction per clock.");
     text += R"(module cordic_core (
     input wire clk,
     input wire reset,

@@ -41,9 +41,9 @@ public:
         const ProcessorState& state = processor.state();
         while (state.stop == Stop::none) {
             if (state.clocks.total >= most_clocks) {
-                throw Error(fmt::format("the program has more than {} clocks", most_clocks),
+                throw Error(fmt::format("the program runs for more than {} clocks", most_clocks),
                             {},
-                            "choose a shorter one: a simulation compares every clock");
+                            "choose a shorter program: the simulation compares every clock");
             }
             processor.clock();
             pins = std::rotl(pins, 1) ^ pin_bits(state.bus.pins, state.stop != Stop::beyond_bus);
@@ -327,7 +327,7 @@ ProcessorVectors processor_vectors(const Verilog& verilog,
         page += processor.memory().pages();
     }
     if (page > most_pages) {
-        throw Error(fmt::format("the programs have {} pages, the test bench holds {}", page, most_pages));
+        throw Error(fmt::format("the programs have {} pages, but the test bench holds {}", page, most_pages));
     }
     return vectors;
 }

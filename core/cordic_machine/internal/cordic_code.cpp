@@ -62,7 +62,7 @@ std::optional<Word> CordicCode::number(double value, std::string_view what, cons
     if (overflow) {
         fault(word,
               fmt::format("{} {} does not fit into {}", what, value, cordic::to_text(settings_.format)),
-              "choose a number format with more bits before the point");
+              "choose a number format with more integer bits");
         return std::nullopt;
     }
     return bits;

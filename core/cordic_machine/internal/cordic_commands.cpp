@@ -28,20 +28,20 @@ Refused refused(gcode::CommandKind kind) {
     case gcode::CommandKind::orient_spindle:
         return {"spindle orientation", 'M'};
     case gcode::CommandKind::change_tool_number:
-        return {"tool number that is set", 'M'};
+        return {"setting the tool number (M61)", 'M'};
     case gcode::CommandKind::start_speed_feed_synch:
-        return {"feed a revolution", 'G'};
+        return {"feed per revolution", 'G'};
     case gcode::CommandKind::wait_input:
-        return {"input", 'M'};
+        return {"inputs", 'M'};
     case gcode::CommandKind::set_motion_output_bit:
     case gcode::CommandKind::clear_motion_output_bit:
     case gcode::CommandKind::set_aux_output_bit:
     case gcode::CommandKind::clear_aux_output_bit:
     case gcode::CommandKind::set_motion_output_value:
     case gcode::CommandKind::set_aux_output_value:
-        return {"output", 'M'};
+        return {"outputs", 'M'};
     case gcode::CommandKind::control_tip:
-        return {"tool tip control", 'G'};
+        return {"tool-tip control", 'G'};
     default:
         return {};
     }
@@ -64,8 +64,8 @@ void CordicCommands::hand_over(Opcode opcode,
     const auto whole = static_cast<Word>(std::llround(parameter));
     if (whole == 0 && parameter > 0.0) {
         return code_.fault(word,
-                           fmt::format("{} of {:.6g} would be 0 in register P", what, parameter),
-                           "P holds whole numbers");
+                           fmt::format("{} of {:.6g} would be rounded to 0 in register P", what, parameter),
+                           "use a whole number: P cannot hold fractions");
     }
     code_.mov(Register::P, whole);
     hand_over(opcode, word.source);
@@ -92,7 +92,7 @@ void CordicCommands::user_command(const gcode::Command& command) {
     const FaultyWord word{command.source, 'M', static_cast<double>(command.index)};
     if (command.value > no_word || command.value_2 > no_word) {
         return code_.fault(word,
-                           fmt::format("the CORDIC processor passes no P and Q on to M{}", command.index));
+                           fmt::format("the CORDIC processor cannot pass P and Q to M{}", command.index));
     }
     hand_over(Opcode::muser, command.index, word, "a command's number");
 }
@@ -106,10 +106,10 @@ void CordicCommands::warn_of_corners(const gcode::Command& command) {
         return; // what a cycle changes on its own is as the program had it
     }
     code_.warn(word,
-               rests ? "the CORDIC processor passes through corners, it does not rest in them as G61.1 asks"
-                     : "the CORDIC processor rounds no corner, as it might with this tolerance: its path "
+               rests ? "the CORDIC processor does not stop at corners, as G61.1 requires"
+                     : "the CORDIC processor does not round corners, as this tolerance would allow: its path "
                        "leads through the programmed points",
-               rests ? "G4 between two moves lets the axes rest" : "");
+               rests ? "insert G4 between two moves to let the axes stop" : "");
 }
 
 void CordicCommands::end(gcode::SourcePlace source) {
@@ -170,7 +170,8 @@ void CordicCommands::command(const gcode::Command& command) {
         return;
     default:
         if (const Refused cannot = refused(command.kind); cannot.letter != '\0') {
-            code_.fault({source, cannot.letter}, fmt::format("the CORDIC processor has no {}", cannot.what));
+            code_.fault({source, cannot.letter},
+                        fmt::format("the CORDIC processor does not support {}", cannot.what));
         }
     }
 }

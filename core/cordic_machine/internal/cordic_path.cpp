@@ -18,7 +18,7 @@ using cordic::Word;
 
 namespace {
 
-constexpr const char* finer = "choose a number format with more bits behind the point or a larger tolerance";
+constexpr const char* finer = "choose a number format with more fraction bits, or a larger tolerance";
 
 /// Fewer rotations than these are not worth loading the registers of an arc.
 constexpr std::int64_t least_rotations = 2;
@@ -61,9 +61,10 @@ bool CordicPath::is_held(const HeldPlace& to) const {
 bool CordicPath::load(Register target, double value, std::string_view what, const FaultyWord& word) {
     const auto found = code_.number(value, what, word);
     if (found && value > 0.0 && !(turner_.number(*found) > 0.0)) {
-        code_.fault(word,
-                    fmt::format("{} {:.3g} is less than {} can tell", what, value, to_text(settings_.format)),
-                    "choose a number format with more bits behind the point");
+        code_.fault(
+            word,
+            fmt::format("{} {:.3g} is below the resolution of {}", what, value, to_text(settings_.format)),
+            "choose a number format with more fraction bits");
         return false;
     }
     if (found) {
@@ -88,11 +89,11 @@ void CordicPath::line(const LineOpcodes& opcodes, const Place3& to, const FeedOf
         go(opcodes, *wanted, to, feed);
     } else if (length > gcode::same_place) {
         code_.warn({feed.source},
-                   fmt::format("a move of {:.3g} mm is less than {} can tell and is left out",
+                   fmt::format("a move of {:.3g} mm is below the resolution of {} and is skipped",
                                length,
                                to_text(settings_.format)));
     } else {
-        code_.warn({feed.source}, "a move without length is left out");
+        code_.warn({feed.source}, "a move of zero length is skipped");
     }
 }
 
@@ -102,9 +103,9 @@ void CordicPath::go(const LineOpcodes& opcodes,
                     const FeedOf& feed) {
     if (!turner_.reaches(held_.words, to.words)) {
         code_.fault({feed.source, 'G'},
-                    fmt::format("a line in a direction that {} iterations do not reach",
+                    fmt::format("the direction of a line cannot be reached with {} iterations",
                                 settings_.processor.sequence.step_count),
-                    "take 4 iterations or more");
+                    "use 4 or more iterations");
         held_ = to;
         return;
     }
@@ -135,8 +136,8 @@ bool CordicPath::chord(const Place3& to, const FeedOf& feed, double slack) {
     const double aside = distance(wanted->place, to);
     if (aside > slack) {
         code_.fault({feed.source, 'G'},
-                    fmt::format("{} holds the end of a chord {:.3g} mm aside, too much for a chord tolerance "
-                                "of {:.3g} mm, of which {:.3g} mm are left for rounding",
+                    fmt::format("in {} the end of a chord is {:.3g} mm off, too much for a chord tolerance "
+                                "of {:.3g} mm, which leaves {:.3g} mm for rounding",
                                 to_text(settings_.format),
                                 aside,
                                 settings_.chord_tolerance,
@@ -212,15 +213,15 @@ void CordicPath::whole_arc(const DividedTurn& arc, const FeedOf& feed) {
     }
     if (!(rotations.aside > slack_of(turn))) {
         code_.fault({feed.source, 'G'},
-                    fmt::format("{} cannot turn the chords of an arc of radius {:.3g} mm",
+                    fmt::format("{} cannot represent the chords of an arc of radius {:.3g} mm",
                                 to_text(settings_.format),
                                 turn.radius()),
                     "choose a number format with more bits");
         return;
     }
     code_.fault({feed.source, 'G'},
-                fmt::format("rounding in {} leads this arc {:.3g} mm astray, too much for a chord tolerance "
-                            "of {:.3g} mm, of which its chords leave {:.3g} mm for that",
+                fmt::format("rounding in {} moves this arc {:.3g} mm off, too much for a chord tolerance of "
+                            "{:.3g} mm, whose chords leave {:.3g} mm for rounding",
                             to_text(settings_.format),
                             rotations.aside,
                             settings_.chord_tolerance,
@@ -244,7 +245,7 @@ void CordicPath::arc_in_parts(const DividedTurn& arc, const Place3& end, const F
     }
     if (code_.result().points.size() == points_before) {
         code_.warn({feed.source},
-                   fmt::format("an arc of radius {:.3g} mm is less than {} can tell and is left out",
+                   fmt::format("an arc of radius {:.3g} mm is below the resolution of {} and is skipped",
                                turn.radius(),
                                to_text(settings_.format)));
     }
@@ -280,7 +281,7 @@ bool CordicPath::rotate(const DividedTurn& arc,
     const auto& [turn, words] = arc;
     if (!turns(words)) {
         code_.fault({feed.source, 'G'},
-                    fmt::format("the angle of a chord, {:.3g} rad, is less than {} can tell",
+                    fmt::format("the angle of a chord, {:.3g} rad, is below the resolution of {}",
                                 std::abs(turn.sweep) / static_cast<double>(turn.chords),
                                 to_text(settings_.format)),
                     finer);

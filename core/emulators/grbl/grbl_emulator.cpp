@@ -24,9 +24,9 @@ GrblEmulatorOptions checked(GrblEmulatorOptions options) {
                        std::ranges::adjacent_find(sorted) == sorted.end() &&
                        axes.find_first_not_of("XYZABCUVW") == std::string::npos;
     if (!known) {
-        throw Error("a controller of this kind has no axes '" + axes + "'",
+        throw Error("this controller type does not support the axes '" + axes + "'",
                     {},
-                    "XYZ, and up to three of A B C U V W behind");
+                    "use XYZ, followed by up to three of A B C U V W");
     }
     return options;
 }

@@ -67,14 +67,14 @@ void StreamEmulator::take(std::string_view line) {
         return;
     }
     if (!(period_ > 0.0)) {
-        bad(line, "a sample came before a heading");
+        bad(line, "a sample arrived before a heading");
         return;
     }
     std::vector<double> sample;
     for (const std::string_view word : words_between_spaces(line)) {
         const auto value = number_in_record(word);
         if (!value) {
-            bad(line, "this is no number");
+            bad(line, "this is not a number");
             return;
         }
         sample.push_back(*value);
@@ -99,12 +99,12 @@ void StreamEmulator::take_heading(std::string_view line) {
     const auto words = words_between_spaces(known ? line.substr(heading_words.size()) : std::string_view());
     const auto period = words.empty() ? std::nullopt : number_in_record(words.front());
     if (!period || !(*period > 0.0) || words.size() < 3 || words.size() % 2 == 0) {
-        bad(line, "this is no heading of a coordinate stream");
+        bad(line, "this is not a coordinate stream heading");
         return;
     }
     for (std::size_t n = 1; n < words.size(); n += 2) {
         if (words[n].size() != 1 || (words[n + 1] != "mm" && words[n + 1] != "deg")) {
-            bad(line, "this is no axis with its unit");
+            bad(line, "this is not an axis with its unit");
             axes_.clear();
             return;
         }

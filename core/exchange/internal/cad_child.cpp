@@ -49,7 +49,7 @@ Descriptor in_memory(std::string_view bytes, const std::filesystem::path& file) 
         bytes.remove_prefix(static_cast<std::size_t>(count));
     }
     if (memory.number < 0 || !bytes.empty() || ::lseek(memory.number, 0, SEEK_SET) != 0) {
-        throw Error("there is no memory to pass the surface on", file);
+        throw Error("not enough memory to pass on the surface", file);
     }
     return memory;
 }
@@ -68,7 +68,7 @@ CadChild::CadChild(std::vector<std::string> arguments,
     const Descriptor heard = in_memory(input, file);
     std::array<int, 2> said{};
     if (::pipe2(said.data(), O_CLOEXEC) != 0) {
-        throw Error("no pipe can be made", file);
+        throw Error("no pipe can be created", file);
     }
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);

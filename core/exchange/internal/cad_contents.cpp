@@ -79,7 +79,7 @@ bool is_empty_assembly(const ModelCounts& counts) {
 
 std::vector<std::string> parts_of(const ModelCounts& counts) {
     std::vector<std::string> parts;
-    add(parts, counts.products, "product without a shape", "products without a shape");
+    add(parts, counts.products, "product without shape", "products without shape");
     if (!is_empty_assembly(counts)) {
         add(parts, counts.curves, "curve", "curves");
         add(parts, counts.points, "point", "points");
@@ -89,23 +89,24 @@ std::vector<std::string> parts_of(const ModelCounts& counts) {
 
 std::string hint_for(const ModelCounts& counts, bool without_shape) {
     if (counts.unknown > 0) {
-        return "what is not known cannot be read: write exact surfaces, as STEP AP203, AP214 or AP242";
+        return "export exact surfaces, as STEP AP203, AP214 or AP242: entities of unknown types cannot be "
+               "read";
     }
     if (without_shape && is_empty_assembly(counts)) {
-        return "an assembly may have its parts in files of their own: import those";
+        return "import the files of the parts: an assembly may keep its parts in separate files";
     }
     return counts.curves + counts.points > 0 || !without_shape
-               ? "curves and points alone cannot be cut as a surface"
-               : "was anything chosen to be written, and is the file whole?";
+               ? "export surfaces: curves and points alone cannot be machined"
+               : "check that something was selected for export and that the file is complete";
 }
 
 } // namespace
 
 void expect_not_too_many(int faces, const std::filesystem::path& file) {
     if (faces > most_cad_faces) {
-        throw Error(fmt::format("the file has {} faces, more than {}", faces, most_cad_faces),
+        throw Error(fmt::format("the file has {} faces, but at most {} are supported", faces, most_cad_faces),
                     file,
-                    "write the body or the faces that are to be cut to a file of their own");
+                    "export the body or the faces to be machined to a separate file");
     }
 }
 
@@ -114,7 +115,7 @@ void refuse_without_face(const TopoDS_Shape& shape,
                          const std::string& lost,
                          const std::filesystem::path& file) {
     if (!lost.empty()) {
-        throw Error(lost, file, "the file is damaged there: write it once more");
+        throw Error(lost, file, "export the file again: it is damaged there");
     }
     const ModelCounts counts = counts_of(model);
     std::vector<std::string> parts = shape.IsNull() ? std::vector<std::string>{} : parts_of(shape);
@@ -123,12 +124,12 @@ void refuse_without_face(const TopoDS_Shape& shape,
         parts = parts_of(counts);
     }
     const std::string hint = hint_for(counts, without_shape);
-    add(parts, counts.unknown, "entity of an unknown kind", "entities of unknown kinds");
+    add(parts, counts.unknown, "entity of unknown type", "entities of unknown type");
     if (parts.empty()) {
-        add(parts, model.NbEntities(), "entity that is no shape", "entities that are no shape");
+        add(parts, model.NbEntities(), "entity that is not a shape", "entities that are not shapes");
     }
-    throw Error(parts.empty() ? "the file holds nothing: it has no entities"
-                              : fmt::format("the file holds no face: {}", listed_parts(parts)),
+    throw Error(parts.empty() ? "the file contains no entities"
+                              : fmt::format("the file contains no face: {}", listed_parts(parts)),
                 file,
                 hint);
 }

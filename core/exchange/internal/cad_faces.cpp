@@ -236,22 +236,22 @@ void take_boundary(CadFace& result, const TopoDS_Face& face, const Knots& knots)
 
 CadFace cad_face(const TopoDS_Face& original, int number) {
     const TopoDS_Face face =
-        told_as("its surface cannot be made a B-spline", [&] { return as_nurbs(original); });
+        told_as("its surface cannot be converted to a B-spline", [&] { return as_nurbs(original); });
     const Bounded part = told_as("its boundary does not lie on its surface", [&] { return bounded(face); });
     auto [result, knots] =
         told_as("its surface cannot be divided into patches", [&] { return raster_of(part); });
     result.number = number;
-    told_as("its boundary cannot be followed on its surface",
+    told_as("its boundary cannot be traced on its surface",
             [&, &result = result, &knots = knots] { take_boundary(result, face, knots); });
     if (face.Orientation() == TopAbs_REVERSED) {
         turn_over(result);
     }
     result.box =
-        told_as("its size cannot be told", [&, &result = result] { return box_of(result, original); });
+        told_as("its size cannot be determined", [&, &result = result] { return box_of(result, original); });
     return result;
 }
 
-constexpr const char* write_fewer = "write the body or the faces that are to be cut to a file of their own";
+constexpr const char* write_fewer = "export the body or the faces to be machined to a separate file";
 
 /// The faces in the order of the file.
 std::vector<TopoDS_Face> faces_listed(const TopoDS_Shape& shape, const std::filesystem::path& file) {

@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    [[noreturn]] static void fail() { throw Error("what the reader of the file says is not understood"); }
+    [[noreturn]] static void fail() { throw Error("the output of the file reader is invalid"); }
     std::string_view bytes(std::uint64_t count) {
         if (count > left_.size()) {
             fail();
@@ -159,7 +159,7 @@ std::optional<Frame> take_frame(std::string& stream) {
     }
     const auto kind = static_cast<FrameKind>(stream.front());
     if (kind != FrameKind::progress && kind != FrameKind::error && kind != FrameKind::model) {
-        throw Error("what the reader of the file says is not understood");
+        throw Error("the output of the file reader is invalid");
     }
     std::uint64_t length = 0;
     std::memcpy(&length, stream.data() + 1, sizeof length);

@@ -76,11 +76,11 @@ std::string lost_faces(const XSControl_Reader& reader) {
             lost.push_back(label);
         }
         if (const std::string fault = fault_of(found); first_fault.empty() && !fault.empty()) {
-            first_fault = fmt::format("; the first fault, {}: {}", label, fault);
+            first_fault = fmt::format("; the first error, {}: {}", label, fault);
         }
     }
     return lost.empty() ? std::string()
-                        : fmt::format("{} of {} faces of the file could not be made by Open CASCADE ({}){}",
+                        : fmt::format("Open CASCADE could not create {} of {} faces of the file ({}){}",
                                       lost.size(),
                                       faces,
                                       listed_labels(lost),

@@ -29,14 +29,14 @@ void expect_usable_number(const std::string& word, bool coordinate, const Number
     const auto refuse = [&](const std::string& why) {
         throw Error(Diagnostic{{place.file, place.line},
                                fmt::format("{}: \"{}\" {}", place.of, word, why),
-                               "write the file anew with the program that made it"});
+                               "export the file again with the program that made it"});
     };
     const bool whole = end == word.c_str() + word.size();
     if (!std::isfinite(value) || (!whole && (coordinate || *end == '#'))) {
-        refuse("is no finite number");
+        refuse("is not a finite number");
     }
     if (coordinate && std::abs(value) > farthest_coordinate) {
-        refuse(fmt::format("is no coordinate of a part, they end at {:.0f}", farthest_coordinate));
+        refuse(fmt::format("is not a valid part coordinate, the limit is {:.0f}", farthest_coordinate));
     }
 }
 

@@ -149,12 +149,12 @@ void refuse_fold(const Fold& fold) {
     constexpr double negligible = 1e-4; // of the area: a corner whose sides are nearly in line turns over
     if (fold.share > negligible) {
         throw Error(fmt::format("the fitted patch folds over itself: {:.2g} % of its area faces backwards, "
-                                "mostly near u {:.2f}, v {:.2f}",
+                                "mainly near u {:.2f}, v {:.2f}",
                                 100.0 * fold.share,
                                 fold.at.x(),
                                 fold.at.y()),
                     {},
-                    "choose another degree, or the side seen from another direction");
+                    "choose another degree, or view the side from another direction");
     }
 }
 
@@ -170,16 +170,16 @@ void refuse_leaving(const Deviation& deviation, const FitTarget& target, bool fo
     const double most = std::max(far_off * box.diagonal().norm(), times_as_far * deviation.max);
     if (deviation.patch_max > most) {
         const char* name = target.face != nullptr ? "face" : "mesh";
-        throw Error(fmt::format("the fitted patch leaves the {0}: near u {1:.2f}, v {2:.2f} it is {3:.3g} mm "
-                                "away from it, but no point of the {0} is farther than {4:.3g} mm from the "
-                                "patch",
-                                name,
-                                deviation.patch_max_at.x(),
-                                deviation.patch_max_at.y(),
-                                deviation.patch_max,
-                                deviation.max),
-                    {},
-                    "choose a lower degree");
+        throw Error(
+            fmt::format("the fitted patch deviates from the {0}: near u {1:.2f}, v {2:.2f} it is {3:.3g} mm "
+                        "away, but no point of the {0} is farther than {4:.3g} mm from the patch",
+                        name,
+                        deviation.patch_max_at.x(),
+                        deviation.patch_max_at.y(),
+                        deviation.patch_max,
+                        deviation.max),
+            {},
+            "choose a lower degree");
     }
 }
 

@@ -11,10 +11,11 @@ namespace {
 int corner_from(std::string_view word, const Soup& soup, int line) {
     const auto number = number_from<int>(word.substr(0, word.find('/')));
     if (!number || *number == 0) {
-        soup.fail(fmt::format("'{}' is no corner of a face", word.substr(0, 40)), line);
+        soup.fail(fmt::format("'{}' is not a valid corner of a face", word.substr(0, 40)), line);
     }
     if (*number > soup.point_count() || *number < -soup.point_count()) {
-        soup.fail(fmt::format("a face has a corner {}, there are {} points", *number, soup.point_count()),
+        soup.fail(fmt::format(
+                      "a face refers to point {}, but there are only {} points", *number, soup.point_count()),
                   line);
     }
     return *number > 0 ? *number - 1 : static_cast<int>(soup.point_count() + *number);
@@ -50,7 +51,7 @@ void read_obj(std::string_view bytes, Soup& soup, const Progress& progress) {
         }
     }
     if (goes_on) {
-        soup.fail("the file ends inside of a face", lines.number());
+        soup.fail("the file ends in the middle of a face", lines.number());
     }
 }
 

@@ -44,7 +44,7 @@ template <typename Work> auto with_occt(const std::filesystem::path& file, Work 
     } catch (const Standard_Failure& failure) {
         const char* const reason = failure.GetMessageString();
         throw Error(
-            fmt::format("Open CASCADE gives up: {}",
+            fmt::format("Open CASCADE failed: {}",
                         reason != nullptr && *reason != '\0' ? reason : failure.DynamicType()->Name()),
             file);
     }

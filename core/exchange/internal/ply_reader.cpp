@@ -65,7 +65,7 @@ public:
     [[nodiscard]] Head read() {
         const auto* first = lines_.next();
         if (first == nullptr || first->size() != 1 || first->front() != "ply") {
-            soup_.fail("a PLY file begins with the word ply", 1);
+            soup_.fail("a PLY file must start with the word ply", 1);
         }
         while (const auto* words = lines_.next()) {
             if (words->empty() || words->front() == "comment" || words->front() == "obj_info") {
@@ -76,7 +76,7 @@ public:
             }
             take(*words);
         }
-        soup_.fail("the file has no end_header", lines_.number());
+        soup_.fail("the header has no end_header", lines_.number());
     }
 
 private:
@@ -87,7 +87,8 @@ private:
             const auto count = number_from<std::int64_t>(words[2]);
             // Each takes a byte at least.
             if (!count || *count < 0 || *count > std::ssize(lines_.rest())) {
-                soup_.fail(fmt::format("'{}' is no number of elements in this file", words[2].substr(0, 40)),
+                soup_.fail(fmt::format("'{}' is not a valid number of elements for this file",
+                                       words[2].substr(0, 40)),
                            lines_.number());
             }
             head_.elements.push_back({words[1], *count, {}});
@@ -98,7 +99,7 @@ private:
             head_.elements.back().properties.push_back({words[4], scalar(words[3]), scalar(words[2])});
         } else {
             soup_.fail(
-                fmt::format("'{}' is not understood in the head of a PLY file", words[0].substr(0, 40)),
+                fmt::format("'{}' is not supported in the header of a PLY file", words[0].substr(0, 40)),
                 lines_.number());
         }
     }
@@ -107,14 +108,14 @@ private:
             return Order::text;
         }
         if (word != "binary_little_endian" && word != "binary_big_endian") {
-            soup_.fail(fmt::format("'{}' is no format of a PLY file", word.substr(0, 40)), lines_.number());
+            soup_.fail(fmt::format("'{}' is not a PLY format", word.substr(0, 40)), lines_.number());
         }
         return word == "binary_little_endian" ? Order::little : Order::big;
     }
     [[nodiscard]] Scalar scalar(std::string_view word) const {
         const auto found = scalar_named(word);
         if (!found) {
-            soup_.fail(fmt::format("'{}' is no type of a PLY file", word.substr(0, 40)), lines_.number());
+            soup_.fail(fmt::format("'{}' is not a PLY data type", word.substr(0, 40)), lines_.number());
         }
         return *found;
     }
@@ -159,7 +160,7 @@ public:
         if (order_ != Order::text) {
             return bytes_.find_first_not_of(" \t\r\n") == std::string_view::npos
                        ? ""
-                       : fmt::format("{} bytes behind the elements that the head counts are not read",
+                       : fmt::format("{} bytes after the elements declared in the header are ignored",
                                      bytes_.size());
         }
         while (words_ == nullptr || word_ == words_->size()) {
@@ -169,8 +170,9 @@ public:
                 return "";
             }
         }
-        return fmt::format("what follows the elements that the head counts, from line {} on, is not read",
-                           lines_.number());
+        return fmt::format(
+            "everything after the elements declared in the header, from line {} on, is ignored",
+            lines_.number());
     }
     /// 0 in a binary file.
     [[nodiscard]] int line() const { return order_ == Order::text ? lines_.number() : 0; }
@@ -198,7 +200,7 @@ private:
         }
         const auto number = number_from<double>((*words_)[word_]);
         if (!number) {
-            soup_.fail(fmt::format("'{}' is no number", (*words_)[word_].substr(0, 40)), lines_.number());
+            soup_.fail(fmt::format("'{}' is not a number", (*words_)[word_].substr(0, 40)), lines_.number());
         }
         ++word_;
         return *number;
@@ -239,7 +241,7 @@ private:
 int whole(double value, const Soup& soup, int line) {
     constexpr double largest = 2147483647.0;
     if (!(value >= 0.0 && value <= largest) || std::floor(value) < value) {
-        soup.fail(fmt::format("{} is no index and no length of a list", value), line);
+        soup.fail(fmt::format("{} is not a valid index or list length", value), line);
     }
     return static_cast<int>(value);
 }

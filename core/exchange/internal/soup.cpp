@@ -78,21 +78,23 @@ void Soup::add_point(const Vec3& point, int line) {
     const Vec3 scaled = unit_ * point;
     constexpr double farthest = 1e12; // mm: areas of such triangles are still finite
     if (!is_finite(scaled) || !(scaled.cwiseAbs().maxCoeff() <= farthest)) {
-        fail("a corner is not a finite number, or beyond a million kilometres", line);
+        fail("a corner is not a finite number, or more than a million kilometres away", line);
     }
     mesh_.points.push_back(scaled);
 }
 
 void Soup::add_face(std::span<const int> corners, int line) {
     if (corners.size() < 3) {
-        fail(fmt::format("a face has {}", counted(corners.size(), "corner")), line);
+        fail(fmt::format("a face has only {}", counted(corners.size(), "corner")), line);
     }
     if (std::ssize(corners) > most_corners) {
         fail(fmt::format("a face has more than {} corners", most_corners), line);
     }
     for (const int corner : corners) {
         if (corner < 0 || corner >= point_count()) {
-            fail(fmt::format("a face has a corner {}, there are {} points", corner, point_count()), line);
+            fail(
+                fmt::format("a face refers to point {}, but there are only {} points", corner, point_count()),
+                line);
         }
     }
     if (corners.size() == 3) {
@@ -104,7 +106,7 @@ void Soup::add_face(std::span<const int> corners, int line) {
     if (std::ssize(mesh_.triangles) > most_mesh_triangles) {
         fail(fmt::format("more than {} triangles", most_mesh_triangles),
              line,
-             "let the program that made the file reduce it");
+             "reduce the mesh in the program that made the file");
     }
 }
 

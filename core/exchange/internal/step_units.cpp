@@ -58,10 +58,10 @@ public:
             look_at_context(model_.Value(n));
         }
         if (contexts_ == 0) {
-            notes_.emplace_back("the file names no unit of length: mm are taken");
+            notes_.emplace_back("the file does not state a unit of length: mm is assumed");
         }
         if (told_.size() > notes_.size()) {
-            notes_.push_back(fmt::format("and {} more like these", told_.size() - notes_.size()));
+            notes_.push_back(fmt::format("and {} more of this kind", told_.size() - notes_.size()));
         }
         return std::move(notes_);
     }
@@ -142,7 +142,7 @@ private:
         }
         if (!taken.LengthDone() && !told && is_to_be_told(context)) {
             notes_.push_back(
-                fmt::format("{} has no unit of length that is understood: mm are taken", place(context)));
+                fmt::format("{} has no unit of length that can be read: mm is assumed", place(context)));
         }
     }
 
@@ -156,16 +156,13 @@ private:
         const double mm = taken.LengthDone() ? taken.LengthFactor() : 1.0;
         if (!(std::isfinite(mm) && mm > 0.0)) {
             throw Error(Diagnostic{{file_, line_of(label(unit))},
-                                   fmt::format("{}: a unit of length of {:g} mm", label(unit), mm),
-                                   "write the file anew with the program that made it"});
+                                   fmt::format("{}: {:g} mm is not a valid unit of length", label(unit), mm),
+                                   "export the file again with the program that made it"});
         }
         const std::string fault = fault_of(unit);
         if (!fault.empty() && is_to_be_told(unit)) {
-            notes_.push_back(
-                fmt::format("the unit of length {} is not understood ({}): one of {:g} mm is taken",
-                            place(unit),
-                            fault,
-                            mm));
+            notes_.push_back(fmt::format(
+                "the unit of length {} cannot be read ({}): {:g} mm is assumed", place(unit), fault, mm));
         }
         return !fault.empty();
     }
@@ -181,7 +178,7 @@ private:
             if (base.IsNull()) {
                 return "its factor has no unit";
             }
-            return base->IsKind(STANDARD_TYPE(LengthConversion)) ? "its conversions come to no unit"
+            return base->IsKind(STANDARD_TYPE(LengthConversion)) ? "its conversions do not lead to a unit"
                                                                  : fault_of(base);
         }
         const auto si = Handle(StepBasic_SiUnit)::DownCast(unit);
@@ -189,7 +186,7 @@ private:
         if (number > 0 && model_.Check(number, Standard_True)->HasFailed()) {
             return model_.Check(number, Standard_True)->CFail(1);
         }
-        return si.IsNull() || si->Name() != StepBasic_sunMetre ? "it is no metre" : "";
+        return si.IsNull() || si->Name() != StepBasic_sunMetre ? "it is not a metre" : "";
     }
 
     const StepData_StepModel& model_;

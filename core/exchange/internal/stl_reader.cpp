@@ -36,7 +36,7 @@ template <typename Value> Value value_at(std::string_view bytes, std::size_t pla
 
 /// Of a file that holds more than its header counts.
 std::string left_over_text(std::uint32_t count, std::uint64_t bytes) {
-    return fmt::format("{} bytes behind the {} that the header counts are not read: room for {} more",
+    return fmt::format("{} bytes after the {} declared in the header are ignored: enough for {} more",
                        bytes,
                        count == 1 ? "triangle" : fmt::format("{} triangles", count),
                        bytes / facet_size);
@@ -45,15 +45,16 @@ std::string left_over_text(std::uint32_t count, std::uint64_t bytes) {
 void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
     if (bytes.size() < stl_head_size) {
         soup.fail(
-            fmt::format("neither text, nor the {} bytes that a binary STL file begins with", stl_head_size));
+            fmt::format("neither text nor the {} bytes that a binary STL file starts with", stl_head_size));
     }
     const auto count = value_at<std::uint32_t>(bytes, 80);
     const std::uint64_t wanted = stl_head_size + std::uint64_t{count} * facet_size;
     if (bytes.size() < wanted) {
-        soup.fail(fmt::format("{} triangles take {} bytes, the file has {}", count, wanted, bytes.size()));
+        soup.fail(
+            fmt::format("{} triangles need {} bytes, but the file has {}", count, wanted, bytes.size()));
     }
     if (count == 0 && bytes.size() >= stl_head_size + facet_size) {
-        soup.fail(fmt::format("the header counts no triangle, and there is room for {}",
+        soup.fail(fmt::format("the header declares no triangles, but there is data for {}",
                               (bytes.size() - stl_head_size) / facet_size));
     }
     if (bytes.size() > wanted) {
@@ -101,24 +102,24 @@ void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
             corners = 0;
         } else if (word == "vertex") {
             if (corners < 0) {
-                soup.fail("a vertex outside of a loop", lines.number());
+                soup.fail("a vertex is outside a loop", lines.number());
             }
             soup.add_point(vector_from(*words, 1, soup, lines.number()), lines.number());
             ++corners;
         } else if (word == "endloop") {
             if (corners != 3) {
-                soup.fail(fmt::format("a loop of {}", counted(std::max(corners, 0), "corner")),
+                soup.fail(fmt::format("a loop has {}", counted(std::max(corners, 0), "corner")),
                           lines.number());
             }
             const int last = static_cast<int>(soup.point_count());
             soup.add_face(std::array{last - 3, last - 2, last - 1}, lines.number());
             corners = -1;
         } else if (word != "facet" && word != "endfacet" && word != "solid" && word != "endsolid") {
-            soup.fail(fmt::format("'{}' is no word of an STL file", word.substr(0, 40)), lines.number());
+            soup.fail(fmt::format("'{}' is not an STL keyword", word.substr(0, 40)), lines.number());
         }
     }
     if (corners >= 0) {
-        soup.fail("the file ends inside of a loop", lines.number());
+        soup.fail("the file ends in the middle of a loop", lines.number());
     }
 }
 

@@ -40,7 +40,7 @@ Vec3 vector_from(const std::vector<std::string_view>& words, std::size_t first, 
     for (std::size_t k = 0; k < 3; ++k) {
         const auto number = number_from<double>(words[first + k]);
         if (!number) {
-            soup.fail(fmt::format("'{}' is no number", words[first + k].substr(0, 40)), line);
+            soup.fail(fmt::format("'{}' is not a number", words[first + k].substr(0, 40)), line);
         }
         result[static_cast<Eigen::Index>(k)] = *number;
     }

@@ -75,7 +75,7 @@ Vec2 centre_from_radius(
                    "the radius {:.4f} is too small to reach the end: it is {:.4f} away", radius, 2.0 * half));
     }
     if (2.0 * half < shortest_chord * radius) {
-        refuse(column, "the ends of the arc are so near each other that the radius does not tell its centre");
+        refuse(column, "the ends of the arc are too close together for the radius to determine its centre");
     }
     const double sine = half > radius * (1.0 - semicircle_within) ? 1.0 : half / radius;
     const double offset = radius * std::sqrt(std::max(0.0, 1.0 - sine * sine));
@@ -94,22 +94,22 @@ void check_centre(const Vec2& start,
     const double at_start = (start - centre).norm();
     const double at_end = (end - centre).norm();
     if (!(at_start >= within.smallest_radius && at_end >= within.smallest_radius)) {
-        refuse(
-            column,
-            fmt::format("the arc has no radius: {:.5f} at its start, {:.5f} at its end", at_start, at_end));
+        refuse(column,
+               fmt::format(
+                   "the arc has a zero radius: {:.5f} at its start, {:.5f} at its end", at_start, at_end));
     }
     const double difference = std::abs(at_start - at_end);
     const bool too_different = difference > within.greatest_difference ||
                                difference > relative_difference * std::max(at_start, at_end);
     if (difference > within.free_difference && too_different) {
         refuse(column,
-               fmt::format(
-                   "radius at the arc's start {:.4f}, at its end {:.4f}: no circle about {} {:.4f} {:.4f}",
-                   at_start,
-                   at_end,
-                   plane_letters(plane),
-                   centre.x(),
-                   centre.y()));
+               fmt::format("the arc's radius is {:.4f} at its start and {:.4f} at its end: not a circle "
+                           "about {} {:.4f} {:.4f}",
+                           at_start,
+                           at_end,
+                           plane_letters(plane),
+                           centre.x(),
+                           centre.y()));
     }
     if (!(at_start <= within.largest_radius)) {
         refuse(column, fmt::format("the radius {:.0f} is larger than 1 km", at_start));

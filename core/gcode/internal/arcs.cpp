@@ -39,13 +39,13 @@ void expect_one_form(const Block& block, const ModalState& s, Dialect dialect) {
         refuse(column, "an arc needs its centre (I J K) or its radius (R)");
     }
     if (block.has('R') && by_centre) {
-        refuse(block.column_of('R'), "an arc has either a centre (I J K) or a radius (R)");
+        refuse(block.column_of('R'), "an arc needs either a centre (I J K) or a radius (R), not both");
     }
     const CentreWords words = centre_words(s.plane);
     if (by_centre && block.has(words.across) && dialect != Dialect::grbl) {
         refuse(block.column_of(words.across),
                fmt::format(
-                   "{} does not belong to an arc in the {} plane", words.across, plane_letters(s.plane)));
+                   "{} is not allowed for an arc in the {} plane", words.across, plane_letters(s.plane)));
     }
     if (by_centre && s.absolute_centres && !(block.has(words.first) && block.has(words.second))) {
         refuse(column,
@@ -63,7 +63,7 @@ void expect_one_form(const Block& block, const ModalState& s, Dialect dialect) {
 int turns_of(const Block& block, int motion) {
     const double turns = std::round(block.value_or('P', 1.0));
     if (turns > most_turns) {
-        refuse(block.column_of('P'), fmt::format("an arc makes at most {:.0f} turns", most_turns));
+        refuse(block.column_of('P'), fmt::format("an arc may have at most {:.0f} turns", most_turns));
     }
     constexpr int clockwise = 20;
     return motion == clockwise ? -static_cast<int>(turns) : static_cast<int>(turns);
@@ -102,7 +102,7 @@ void make_arc(Run& run, const Block& block, int motion) {
         refuse(column, "the move after cutter compensation must be straight, not an arc");
     }
     if (s.plane > Plane::yz) {
-        refuse(column, "no arcs in the planes G17.1, G18.1 and G19.1");
+        refuse(column, "arcs are not possible in the planes G17.1, G18.1 and G19.1");
     }
     expect_one_form(block, s, run.settings.dialect);
     expect_feed(run, block, motion);
@@ -130,9 +130,9 @@ void make_arc(Run& run, const Block& block, int motion) {
     } catch (Refusal& refusal) {
         if (is_circle_about_absolute_centre(block, s, start_2, end_2, centre, within)) {
             refusal.hint = run.settings.dialect == Dialect::grbl
-                               ? "its centre words are absolute, and Grbl counts them from the start of the "
-                                 "arc (G91.1): set the CAM program to incremental centres"
-                               : "its centre words are absolute, as G90.1 takes them: put G90.1 before it";
+                               ? "set the CAM program to incremental centres (G91.1): the centre words are "
+                                 "absolute, but Grbl measures from the start of the arc"
+                               : "put G90.1 before it: the arc's centre words are absolute";
         }
         throw;
     }

@@ -127,7 +127,8 @@ void execute_comment(Run& run, std::string_view text) {
         return;
     }
     if (begins_with(text, "abort,")) {
-        refuse(1, fmt::format("the program says:{}", expanded(text.substr(6), run.variables)));
+        refuse(1,
+               fmt::format("the program stopped with a message:{}", expanded(text.substr(6), run.variables)));
     }
     run.out.post(command_of(CommandKind::comment, text));
 }

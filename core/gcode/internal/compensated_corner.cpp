@@ -46,7 +46,7 @@ Vec2 between_lines(const ConcaveCorner& c) {
     const Vec2 n2 = c.side * left_of(c.next.direction);
     const double denominator = 1.0 + n1.dot(n2);
     if (!(denominator > 0.0)) {
-        refuse(1, "a corner of zero degrees has no room for the tool");
+        refuse(1, "a zero-degree corner has no room for the tool");
     }
     return c.corner + c.radius / denominator * (n1 + n2);
 }
@@ -57,7 +57,7 @@ Vec2 between_arcs(const ConcaveCorner& c) {
     const Vec2 apart = c.next.centre - c.before.centre;
     const double distance = apart.norm();
     if (!(r1 > 0.0 && distance > 0.0)) {
-        refuse(1, "two arcs about one centre do not make a corner");
+        refuse(1, "two arcs about the same centre do not form a corner");
     }
     const double cosine = (r1 * r1 + distance * distance - r2 * r2) / (2.0 * r1 * distance);
     if (!(std::abs(cosine) <= 1.0)) {

@@ -25,12 +25,12 @@ struct Cutter {
 Cutter cutter_of_words(const Block& block, const ModalState& s, int code) {
     const int column = block.column_of(GGroup::cutter_compensation);
     if (!block.has('D')) {
-        refuse(column, fmt::format("G{}.1 needs the cutter's diameter, D", code / 10));
+        refuse(column, fmt::format("G{}.1 needs the cutter diameter, D", code / 10));
     }
     const int orientation = block.has('L') ? static_cast<int>(block['L']) : 0;
     if (block.has('L') && s.plane != Plane::xz) {
         refuse(block.column_of('L'),
-               fmt::format("L of G{}.1 is for lathe tools in the XZ plane (G18)", code / 10));
+               fmt::format("L of G{}.1 is only for lathe tools in the XZ plane (G18)", code / 10));
     }
     return {0.5 * block['D'], orientation};
 }
@@ -51,7 +51,7 @@ Cutter cutter_of_table(Run& run, const Block& block, int code) {
         const double d = block['D'];
         const int number = static_cast<int>(std::round(d));
         if (std::abs(d - number) > whole_within || number < 0) {
-            refuse(block.column_of('D'), fmt::format("D of G{} is a tool number", code / 10));
+            refuse(block.column_of('D'), fmt::format("D of G{} must be a tool number", code / 10));
         }
         const int row = run.row_of_tool(number);
         if (row < 0) {
@@ -149,7 +149,7 @@ void enter_straight(Run& run, Move move, const AxisValues& end) {
     const Vec2 from = in_plane(s.position, axes);
     const Vec2 to = in_plane(end, axes);
     if (!(std::hypot(to.x() - from.x(), to.y() - from.y()) > s.cutter.radius)) {
-        refuse(1, "the move onto the compensated path must be longer than the tool's radius");
+        refuse(1, "the entry move to the compensated path must be longer than the tool radius");
     }
     const Vec2 direction = (to - from).normalized();
     const Vec2 normal = towards_tool(direction, left_or_right(s));
@@ -172,7 +172,7 @@ void enter_arc(Run& run, Move arc, int column) {
     const Vec2 to = in_plane(arc.target, axes);
     const Vec2 centre(arc.centre_1, arc.centre_2);
     if (!((to - from).norm() > s.cutter.radius)) {
-        refuse(column, "the arc onto the compensated path must be longer than the tool's radius");
+        refuse(column, "the entry arc to the compensated path must be longer than the tool radius");
     }
     const AxisValues programmed = arc.target;
     const Vec2 inward = (centre - to).normalized();
@@ -184,7 +184,7 @@ void enter_arc(Run& run, Move arc, int column) {
     const double along = inward.dot(back);
     constexpr double least_cosine = 1e-6;
     if (!(along >= least_cosine * back.norm())) {
-        refuse(column, "the arc onto the compensated path is too short for the tool's radius");
+        refuse(column, "the entry arc to the compensated path is too short for the tool radius");
     }
     const Vec2 new_centre = end + 0.5 * back.squaredNorm() / along * inward;
     check_centre(from, end, new_centre, arc_tolerances(s.unit, run.settings.dialect), s.plane, column);
@@ -211,7 +211,7 @@ void expect_fit(const Run& run, const Move& arc, const Vec2& end, int column) {
     const double left = radius - run.state.cutter.radius;
     const double least = arc_tolerances(run.state.unit, run.settings.dialect).smallest_radius;
     if (tool_inside_arc(arc.turns, left_or_right(run.state)) && !(left >= least)) {
-        refuse(column, "the tool's radius is not less than the arc's");
+        refuse(column, "the tool radius must be less than the arc radius");
     }
 }
 
@@ -224,7 +224,7 @@ void start_compensation(Run& run, const Block& block, int code) {
         refuse(column, "cutter compensation works in the XY and XZ planes only (G17, G18)");
     }
     if (s.cutter.on()) {
-        refuse(column, "cutter compensation is on already");
+        refuse(column, "cutter compensation is already on");
     }
     const bool by_words = code == 411 || code == 421;
     const Cutter cutter = by_words ? cutter_of_words(block, s, code) : cutter_of_table(run, block, code);

@@ -61,7 +61,7 @@ void ControlFlow::execute(Cursor& cursor) {
         break; // the beginning of a subprogram that is also run through
     case OWord::unknown:
         refuse(cursor.column(),
-               "an O-word is followed by sub, endsub, call, return, if, while, do, repeat ...");
+               "an O-word must be followed by sub, endsub, call, return, if, while, do, repeat ...");
     }
 }
 
@@ -104,10 +104,10 @@ void ControlFlow::note_label(const Line& line) {
     const auto [entry, is_new] = labels_.try_emplace(scope() + "#" + line.label, Label{line.word, place});
     if (!is_new && !(entry->second.place == place)) {
         refuse(line.column,
-               fmt::format("label O{} is in use since line {}", line.label, entry->second.place.line));
+               fmt::format("label O{} is already used in line {}", line.label, entry->second.place.line));
     }
     if (labels_.size() > most_labels) {
-        refuse(line.column, fmt::format("a program has at most {} labels", most_labels));
+        refuse(line.column, fmt::format("a program may have at most {} labels", most_labels));
     }
 }
 
@@ -193,7 +193,7 @@ void ControlFlow::begin_repeat(const Line& line, Cursor& cursor) {
     const double count = std::nearbyint(read_bracketed(cursor, run_.variables));
     constexpr double most_repeats = 1e9;
     if (!(count <= most_repeats)) {
-        refuse(column, "a repeat of more than 1e9 times");
+        refuse(column, "a repeat count must not exceed 1e9");
     }
     open_block(line, cursor, OWord::repeat);
     open_.back().repeats = static_cast<int>(std::max(0.0, count)) - 1;
@@ -250,7 +250,7 @@ void ControlFlow::break_or_continue(const Line& line, Cursor& line_end) {
     expect_end_of_line(line_end);
     const Open* open = find_open(line.label);
     if (open == nullptr || (open->kind != OWord::while_ && open->kind != OWord::do_)) {
-        refuse(line.column, fmt::format("O{} is no while and no do that could be left here", line.label));
+        refuse(line.column, fmt::format("O{} is not an open while or do loop", line.label));
     }
     const bool is_while = open->kind == OWord::while_;
     const SourcePlace place = run_.out.place();
@@ -294,7 +294,7 @@ OWord ControlFlow::skip_to(const std::string& label,
             return head->word;
         }
         if (head && head->word == OWord::sub && defines) {
-            refuse(1, "a subroutine is defined inside of a subroutine");
+            refuse(1, "a subroutine definition must not contain another one");
         }
     }
     refuse(1, fmt::format("O{} of line {} is not closed", label, opened.line));

@@ -47,7 +47,7 @@ void CutProgramBuilder::add(const program::Block& block, int tool) {
         if (block.pause == program::PauseKind::tool_change) {
             return change_tool(tool);
         }
-        return leave_out(block, "stops for a person");
+        return leave_out(block, "operator stops");
     case program::BlockKind::dwell:
         made_.dwell_time += block.duration;
         return leave_out(block, "dwells");
@@ -71,7 +71,7 @@ CutProgram CutProgramBuilder::take() {
     for (const auto& [what, first] : left_out_) {
         made_.notices.push_back(
             {.place = {.file = file_, .line = first.line},
-             .message = fmt::format("a path has no {}: left out{}",
+             .message = fmt::format("a path cannot contain {}: ignored{}",
                                     what,
                                     first.count > 1 ? fmt::format(" {} times", first.count) : ""),
              .hint = {}});
@@ -155,10 +155,10 @@ void CutProgramBuilder::expect_known_place(const program::Block& first_feed) {
     if (!unknown.empty()) {
         made_.unplaced.push_back(
             {.place = {.file = file_, .line = first_feed.source_line},
-             .message = fmt::format("this cut begins where the program has not said what {} {}",
+             .message = fmt::format("this cut starts before the program has stated where {} {}",
                                     unknown,
                                     unknown.size() > 1 ? "are" : "is"),
-             .hint = fmt::format("name {} in a rapid before the first cut", unknown)});
+             .hint = fmt::format("add a rapid move with {} before the first cut", unknown)});
     }
 }
 
@@ -168,12 +168,11 @@ void CutProgramBuilder::begin(const program::Block& first_feed) {
     if (named_.contains(2)) {
         return append(at_, 0.0, plot::CutMove::rapid);
     }
-    made_.notices.push_back(
-        {.place = {.file = file_, .line = first_feed.source_line},
-         .message = fmt::format("no height is named before this feed: it is taken for {:.3f} mm, and the "
-                                "tool is lowered to it from above",
-                                at_.z()),
-         .hint = "name Z before the first cut"});
+    made_.notices.push_back({.place = {.file = file_, .line = first_feed.source_line},
+                             .message = fmt::format("no height is given before this feed move: {:.3f} mm is "
+                                                    "assumed, and the tool is lowered to it from above",
+                                                    at_.z()),
+                             .hint = "give Z before the first cut"});
     made_.lowers_unasked = true;
     constexpr double usual = 5.0;
     append(
@@ -253,10 +252,10 @@ void CutProgramBuilder::turn_spindle(const program::Block& block) {
         made_.spindle_rpm = std::abs(block.spindle_rpm);
     }
     if (std::abs(block.spindle_rpm) > made_.spindle_rpm || std::abs(block.spindle_rpm) < made_.spindle_rpm) {
-        leave_out(block, "second speed of the spindle");
+        leave_out(block, "a second spindle speed");
     }
     if (block.spindle_rpm < 0.0) {
-        leave_out(block, "spindle that turns backwards");
+        leave_out(block, "reverse spindle rotation");
     }
 }
 
@@ -287,11 +286,11 @@ void CutProgramBuilder::tell_travel() {
     }
     made_.notices.push_back(
         {.place = {.file = file_, .line = first_air_},
-         .message = fmt::format("{:.3f} mm of feeds at or above z {:.3f} mm, where the program goes across "
-                                "at rapid, are taken for travel",
+         .message = fmt::format("{:.3f} mm of feed moves at or above z {:.3f} mm, where the program also "
+                                "moves across at rapid, are treated as travel",
                                 air_at_feed_,
                                 made_.safe_height.value_or(0.0)),
-         .hint = "--safe-height says from which height on a feed cuts nothing"});
+         .hint = "set the height from which feed moves do not cut with --safe-height"});
 }
 
 void CutProgramBuilder::see_from_above(const Stroke& stroke) {
@@ -301,10 +300,11 @@ void CutProgramBuilder::see_from_above(const Stroke& stroke) {
     if (high.z() - low.z() > same_height) {
         z.reset();
         if (!made_.uneven) {
-            made_.uneven = Diagnostic{
-                .place = {.file = file_, .line = stroke.line},
-                .message = fmt::format("this cut goes from z {:.3f} to {:.3f} mm", high.z(), low.z()),
-                .hint = {}};
+            made_.uneven =
+                Diagnostic{.place = {.file = file_, .line = stroke.line},
+                           .message = fmt::format(
+                               "this cut changes height from z {:.3f} to {:.3f} mm", high.z(), low.z()),
+                           .hint = {}};
         }
     }
     plot::Stroke drawn;

@@ -155,11 +155,11 @@ void check_spindle(const ModalState& s, int motion, int column) {
         return;
     }
     if (s.spindle == SpindleTurning::stopped) {
-        refuse(column, fmt::format("{} needs a turning spindle", g_name(motion)));
+        refuse(column, fmt::format("{} needs a running spindle", g_name(motion)));
     }
     const bool clockwise = s.spindle == SpindleTurning::clockwise;
     if ((motion == 740 && clockwise) || (motion == 840 && !clockwise)) {
-        refuse(column, fmt::format("the spindle turns the wrong way for {}", g_name(motion)));
+        refuse(column, fmt::format("{} needs the opposite spindle direction", g_name(motion)));
     }
 }
 
@@ -178,14 +178,16 @@ void check_cycle_words(const Block& block, const ModalState& s, int motion, cons
     const std::string name = g_name(motion);
     const bool uvw = s.plane > Plane::yz;
     if (block.has_any(uvw ? words_of("XYZ") : words_of("UVW"))) {
-        refuse(column, fmt::format("{} moves the axes of the active plane and the one across only", name));
+        refuse(column,
+               fmt::format("{} can only move the axes of the active plane and the axis perpendicular to it",
+                           name));
     }
     if (!first_of_its_kind) {
         return;
     }
     const auto expect = [&](char letter) {
         if (!block.has(letter)) {
-            refuse(column, fmt::format("{} needs {} when it begins", name, letter));
+            refuse(column, fmt::format("{} needs {} when the cycle starts", name, letter));
         }
     };
     expect('R');
@@ -206,16 +208,16 @@ void check_cycle_words(const Block& block, const ModalState& s, int motion, cons
 void check_modes(const Block& block, const ModalState& s) {
     const int column = block.column_of(GGroup::motion);
     if (s.feed_mode == FeedMode::inverse_time) {
-        refuse(column, "canned cycles do not go with inverse time feed (G93)");
+        refuse(column, "canned cycles cannot be used with inverse time feed (G93)");
     }
     if (exactly_equal(s.feed_rate, 0.0)) {
-        refuse(column, "a canned cycle with a feed of zero", "give F");
+        refuse(column, "the feed rate of a canned cycle is zero", "set the feed rate with F");
     }
     if (s.cutter.on()) {
-        refuse(column, "canned cycles do not go with cutter compensation");
+        refuse(column, "canned cycles cannot be used with cutter compensation");
     }
     if (block.has('L') && !(block['L'] >= 1.0)) {
-        refuse(block.column_of('L'), "a canned cycle is done once at least: L1");
+        refuse(block.column_of('L'), "the repeat count L of a canned cycle must be at least 1");
     }
 }
 
@@ -303,10 +305,10 @@ void make_cycle(Run& run, Block& block, int motion) {
     s.cycle = memory;
     const Hole hole = hole_of(run, axes, memory.initial_level);
     if (hole.r < hole.bottom) {
-        refuse(block.column_of('R'), fmt::format("R of {} lies below the bottom", g_name(motion)));
+        refuse(block.column_of('R'), fmt::format("R of {} is below the bottom of the hole", g_name(motion)));
     }
     if ((motion == 730 || motion == 830) && !(hole.q > 0.0)) {
-        refuse(block.column_of('Q'), fmt::format("Q of {} has to be more than 0", g_name(motion)));
+        refuse(block.column_of('Q'), fmt::format("Q of {} must be greater than 0", g_name(motion)));
     }
     check_spindle(s, motion, column);
     constexpr double up_to_r = 1.0;

@@ -251,13 +251,13 @@ void execute_g_codes(Run& run, Block& block) {
 void refuse_codes_of_others(const Run& run, const Block& block) {
     constexpr int g43_4 = 434;
     if (block.code(GGroup::tool_length) == g43_4 && run.settings.dialect != Dialect::fanuc) {
-        refuse(block.column_of(GGroup::tool_length), fmt::format("{} is not known", g_name(g43_4)));
+        refuse(block.column_of(GGroup::tool_length), fmt::format("{} is not supported", g_name(g43_4)));
     }
     constexpr int last_user_code = 199;
     const int user = block.code(MGroup::user);
     const auto& remapped = run.settings.remapped_m;
     if (user > last_user_code && std::find(remapped.begin(), remapped.end(), user) == remapped.end()) {
-        refuse(block.column_of(MGroup::user), fmt::format("M{} is not known", user));
+        refuse(block.column_of(MGroup::user), fmt::format("M{} is not supported", user));
     }
 }
 

@@ -45,7 +45,7 @@ bool nearly_equal(double a, double b) {
 
 double power(double a, double b, int column) {
     if (a < 0.0 && !exactly_equal(std::floor(b), b)) {
-        refuse(column, "a negative number has no power that is not whole");
+        refuse(column, "a negative number can only be raised to an integer power");
     }
     return std::pow(a, b);
 }
@@ -92,14 +92,16 @@ const Operator& read_operator(Cursor& cursor) {
         }
     }
     if (cursor.at_end()) {
-        refuse(cursor.column(), "the expression is not closed by ]");
+        refuse(cursor.column(), "the closing ] of the expression is missing");
     }
-    refuse(cursor.column(), "an operator or ] is expected", "+ - * / ** MOD AND OR XOR EQ NE GT GE LT LE");
+    refuse(cursor.column(),
+           "an operator or ] is expected",
+           "use one of + - * / ** MOD AND OR XOR EQ NE GT GE LT LE");
 }
 
 double checked(double value, int column) {
     if (!std::isfinite(value)) {
-        refuse(column, "the result is too large, or no number at all");
+        refuse(column, "the result is too large or not a number");
     }
     return value;
 }
@@ -128,7 +130,7 @@ struct NamedFunction {
 
 void expect_sine(double x, int column) {
     if (!(x >= -1.0 && x <= 1.0)) {
-        refuse(column, "ASIN and ACOS take values from -1 to 1");
+        refuse(column, "the argument of ASIN and ACOS must be from -1 to 1");
     }
 }
 
@@ -141,7 +143,7 @@ double square_root(double x, int column) {
 
 double logarithm(double x, int column) {
     if (!(x > 0.0)) {
-        refuse(column, "LN takes values above zero");
+        refuse(column, "the argument of LN must be greater than 0");
     }
     return std::log(x);
 }
@@ -175,7 +177,7 @@ constexpr std::array<NamedFunction, 12> functions{{
 double read_arc_tangent(Cursor& cursor, const Variables& variables) {
     const double y = read_bracketed(cursor, variables);
     if (!cursor.take('/')) {
-        refuse(cursor.column(), "ATAN is written ATAN[y]/[x]: the / is missing");
+        refuse(cursor.column(), "the / of ATAN[y]/[x] is missing");
     }
     const double x = read_bracketed(cursor, variables);
     return to_degrees(std::atan2(y, x));
@@ -184,12 +186,12 @@ double read_arc_tangent(Cursor& cursor, const Variables& variables) {
 /// EXISTS[#<name>] or EXISTS[#number].
 double read_exists(Cursor& cursor, const Variables& variables) {
     if (!cursor.take('[') || !cursor.take('#')) {
-        refuse(cursor.column(), "EXISTS asks for a parameter: EXISTS[#<name>]");
+        refuse(cursor.column(), "EXISTS needs a parameter: EXISTS[#<name>]");
     }
     const bool exists = cursor.peek() == '<' ? variables.named(read_name(cursor)).has_value()
                                              : Variables::is_number(read_integer(cursor, variables));
     if (!cursor.take(']')) {
-        refuse(cursor.column(), "the expression is not closed by ]");
+        refuse(cursor.column(), "the closing ] of the expression is missing");
     }
     return truth(exists);
 }
@@ -208,8 +210,8 @@ double read_function(Cursor& cursor, const Variables& variables) {
         }
     }
     refuse(column,
-           "neither a number nor a function",
-           "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");
+           "a number or a function is expected",
+           "use a number, or one of ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");
 }
 
 double read_parameter(Cursor& cursor, const Variables& variables) {
@@ -226,7 +228,7 @@ double read_parameter(Cursor& cursor, const Variables& variables) {
     if (!value) {
         refuse(column,
                fmt::format("the parameter #<{}> is not defined", name),
-               "a line sets parameters when all of it is read");
+               "assign the parameter in an earlier line: parameters are set after the whole line is read");
     }
     variables.note_read(name, column);
     return *value;
@@ -278,7 +280,7 @@ double read_any(Cursor& cursor, const Variables& variables) {
     case '#':
         return read_parameter(cursor, variables);
     case '\0':
-        refuse(cursor.column(), "a value is missing at the end of the line");
+        refuse(cursor.column(), "the line ends where a value is expected");
     default:
         return read_function(cursor, variables);
     }
@@ -307,7 +309,7 @@ int read_integer(Cursor& cursor, const Variables& variables) {
     constexpr double largest = 1e9;
     const double whole = std::round(value);
     if (!(std::abs(value) <= largest) || std::abs(value - whole) > whole_within) {
-        refuse(column, "a whole number is expected");
+        refuse(column, "an integer is expected");
     }
     return static_cast<int>(whole);
 }
@@ -318,7 +320,7 @@ std::string read_name(Cursor& cursor) {
     std::string name;
     for (char c = cursor.peek(); c != '>'; c = cursor.peek()) {
         if (c == '\0') {
-            refuse(column, "the name is not closed by >");
+            refuse(column, "the closing > of the name is missing");
         }
         name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
         cursor.advance();

@@ -21,11 +21,11 @@ void check_tool_length(const Block& block) {
     }
     const int column = block.column_of(GGroup::tool_length);
     if (code != dynamic_length && block.has_any(axis_words)) {
-        refuse(column, "Grbl does nothing with axis words beside G49");
+        refuse(column, "Grbl ignores axis words in a line with G49");
     }
     const bool only_z = block.has('Z') && !block.has_any(words_of("XYABCUVW"));
     if (code == dynamic_length && !only_z) {
-        refuse(column, "G43.1 of Grbl needs Z and no other axis word (error 37)");
+        refuse(column, "G43.1 in Grbl needs Z and no other axis word (error 37)");
     }
 }
 
@@ -38,7 +38,7 @@ void check_g92(const Block& block, const ModalState& state) {
     }
     if (block.code(GGroup::non_modal) == g92_1 && block.has_any(axis_words) && shifted) {
         refuse(block.column_of(GGroup::non_modal),
-               "Grbl moves by the old G92 in a line with G92.1",
+               "in a line with G92.1, Grbl still moves by the old G92 offset",
                "split it into two lines");
     }
 }
@@ -49,7 +49,7 @@ void check_cancelled_motion(const Block& block, const ModalState& state) {
     const int given = block.code(GGroup::motion);
     if ((given == no_code ? state.motion : given) == g80 && block.has_any(axis_words)) {
         refuse(given == no_code ? 1 : block.column_of(GGroup::motion),
-               "Grbl takes no axis words while G80 is in force (error 31)",
+               "Grbl does not accept axis words while G80 is active (error 31)",
                "activate G0 or G1 first");
     }
 }
@@ -85,13 +85,13 @@ void check_arc(const Block& block, const ModalState& state) {
     const int column = block.code(GGroup::motion) == no_code ? 1 : block.column_of(GGroup::motion);
     const PlaneWords plane = words_of_plane(block, state);
     if (!block.has_any(axis_words)) {
-        refuse(column, "an arc of Grbl needs axis words (error 26)");
+        refuse(column, "an arc in Grbl needs axis words (error 26)");
     }
     if (!block.has_any(plane.axes)) {
-        refuse(column, "an arc of Grbl needs an axis word of its plane (error 32)");
+        refuse(column, "an arc in Grbl needs an axis word of its plane (error 32)");
     }
     if (!block.has('R') && !block.has_any(plane.offsets)) {
-        refuse(column, "an arc needs its radius, R, or its centre in the plane (error 35)");
+        refuse(column, "an arc needs its radius R, or its centre in the plane (error 35)");
     }
     const std::uint32_t used = block.has('R') ? 0U : words_of("IJK"); // K of an arc in XY is read over
     for (const char letter : {'I', 'J', 'K', 'P'}) {
@@ -108,21 +108,21 @@ void check_grbl_g10(const Block& block) {
     }
     const int column = block.column_of(GGroup::non_modal);
     if (!block.has_any(axis_words)) {
-        refuse(column, "G10 of Grbl needs axis words (error 26)");
+        refuse(column, "G10 in Grbl needs axis words (error 26)");
     }
     if (!block.has('L') && !block.has('P')) {
-        refuse(column, "G10 of Grbl needs L and P (error 28)");
+        refuse(column, "G10 in Grbl needs L and P (error 28)");
     }
     if (block.value_or('P', 0.0) >= 7.0) {
         refuse(block.column_of('P'), "Grbl has coordinate systems 1 to 6, G54 to G59 (error 29)");
     }
     const int kind = static_cast<int>(block.value_or('L', 0.0));
     if (kind != 2 && kind != 20) {
-        refuse(column, "G10 of Grbl needs L2 or L20 (error 20)");
+        refuse(column, "G10 in Grbl needs L2 or L20 (error 20)");
     }
     if (block.has('R')) {
         refuse(block.column_of('R'),
-               kind == 2 ? "G10 L2 of Grbl has no rotation (error 20)"
+               kind == 2 ? "G10 L2 in Grbl does not support rotation (error 20)"
                          : "R is not used by G10 L20 (error 36)");
     }
 }

@@ -149,9 +149,9 @@ private:
             }
             ++n;
             if (kept_.size() > longest_grbl_line) {
-                refuse(
-                    column(longest_grbl_line),
-                    fmt::format("a line for Grbl has at most {} characters (error 11)", longest_grbl_line));
+                refuse(column(longest_grbl_line),
+                       fmt::format("a line for Grbl may have at most {} characters (error 11)",
+                                   longest_grbl_line));
             }
         }
     }
@@ -163,8 +163,9 @@ private:
             if (letter < ' ' || letter > '~') {
                 return n + 1; // no character of a program, whoever reads it
             }
-            refuse(column(n),
-                   fmt::format("{} does not know '{}' in a program (error 1)", controller_.firmware, letter));
+            refuse(
+                column(n),
+                fmt::format("{} does not support '{}' in a program (error 1)", controller_.firmware, letter));
         }
         std::size_t end = n + 1;
         end += end < kept_.size() && (kept_[end].c == '-' || kept_[end].c == '+') ? 1 : 0;
@@ -177,7 +178,8 @@ private:
             digits = digits || is_digit(c);
         }
         if (!digits) {
-            refuse(column(n), fmt::format("{} has no number that Grbl can read (error 2)", letter));
+            refuse(column(n),
+                   fmt::format("{} is followed by no number that Grbl can read (error 2)", letter));
         }
         take(letter, {n, end});
         return end;
@@ -207,20 +209,22 @@ private:
     refuse_code(const GrblCode& code, const std::string& text, int column, int error) const {
         if (has_beyond_grbl(controller_.firmware, text.front(), code.whole)) {
             refuse(column,
-                   fmt::format("{} is no code of Grbl 1.1: {} may have it, but nothing here follows it",
-                               text,
-                               controller_.firmware),
-                   "post the program for Grbl: cycles as single moves, tools one at a time");
+                   fmt::format(
+                       "{} is not a code of Grbl 1.1: {} may support it, but Millwright cannot simulate it",
+                       text,
+                       controller_.firmware),
+                   "post-process the program for Grbl, with cycles as single moves and one tool per program");
         }
-        refuse(column, fmt::format("{} does not know {} (error {})", controller_.firmware, text, error));
+        refuse(column, fmt::format("{} does not support {} (error {})", controller_.firmware, text, error));
     }
 
     static void enter(std::string& group, const std::string& text, int column) {
         if (!group.empty()) {
             refuse(column,
-                   fmt::format("{} and {} are of one modal group and cannot stand in one line (error 21)",
-                               group,
-                               text));
+                   fmt::format(
+                       "{} and {} belong to the same modal group and cannot be in the same line (error 21)",
+                       group,
+                       text));
         }
         group = text;
     }
@@ -229,7 +233,7 @@ private:
         if (!axis_user_.empty()) {
             refuse(
                 column,
-                fmt::format("{} and {} both use axis words and cannot stand in one line of Grbl (error 24)",
+                fmt::format("{} and {} both use axis words and cannot be in the same line in Grbl (error 24)",
                             axis_user_,
                             text));
         }
@@ -284,7 +288,7 @@ private:
         constexpr int mist_on = 7;
         if (code.whole == mist_on && !controller_.mist) {
             refuse(column,
-                   "this Grbl has no mist coolant, M7 (error 20)",
+                   "this Grbl does not support mist coolant, M7 (error 20)",
                    "use M8, or build Grbl with ENABLE_M7");
         }
         if (rule == m_rules.end()) {
@@ -303,29 +307,30 @@ private:
         const bool is_axis = all_axes.find(letter) != std::string_view::npos;
         if (is_axis && controller_.axes.find(letter) == std::string_view::npos) {
             refuse(place,
-                   fmt::format("this Grbl has the axes {} and does not know {} words (error 20)",
+                   fmt::format("this Grbl has the axes {} and does not support {} words (error 20)",
                                controller_.axes,
                                letter),
-                   "make the program for these axes, or connect a controller that has all");
+                   "generate the program for these axes, or connect a controller that has all axes");
         }
         if (!is_axis && known.find(letter) == std::string_view::npos) {
             refuse(place,
-                   fmt::format("{} does not know {} words (error 20)", controller_.firmware, letter),
-                   letter == 'E' ? "in a number like 1e5? Numbers have no exponent here" : "");
+                   fmt::format("{} does not support {} words (error 20)", controller_.firmware, letter),
+                   letter == 'E' ? "write numbers without an exponent (not 1e5)" : "");
         }
         if (letter == 'T' && value > last_tool) {
-            refuse(place, "Grbl has tools up to 255 (error 38)");
+            refuse(place, "the highest tool number in Grbl is 255 (error 38)");
         }
         const std::uint32_t bit = 1U << static_cast<unsigned>(letter - 'A');
         if ((letters_ & bit) != 0) {
-            refuse(place, fmt::format("a line has one {} word at most (error 25)", letter));
+            refuse(place, fmt::format("a line may have only one {} word (error 25)", letter));
         }
         letters_ |= bit;
         if (value < 0.0 && not_negative.find(letter) != std::string_view::npos) {
-            refuse(place, fmt::format("{} must not be negative (Grbl's error 4)", letter));
+            refuse(place, fmt::format("{} must not be negative (error 4)", letter));
         }
         if (letter == 'N' && value > last_line_number) {
-            refuse(place, fmt::format("Grbl counts lines up to {:.0f} (error 27)", last_line_number));
+            refuse(place,
+                   fmt::format("the highest line number in Grbl is {:.0f} (error 27)", last_line_number));
         }
         if (letter == 'N') {
             blank(kept_[word.first].at, kept_[word.end - 1].at + 1);

@@ -36,7 +36,7 @@ void move_arc_end(const Run& run, Waiting& waiting, const Vec2& end) {
     const Vec2 centre(waiting.move.centre_1, waiting.move.centre_2);
     const double before = (in_plane(waiting.move.target, axes) - centre).norm();
     if (!(std::abs(before - (end - centre).norm()) <= arc_mismatch)) {
-        refuse(1, "cutter compensation finds no arc here: the radii of its ends differ");
+        refuse(1, "the arc cannot be compensated: the radii at its ends differ");
     }
     const double programmed = std::abs(waiting.sweep);
     if (programmed > 0.0 && run.compensated_begin_known) {

@@ -24,14 +24,14 @@ constexpr double code_within = 0.001;
     const char c = cursor.at_end() ? '\0' : *cursor.position();
     if (c < ' ' || c > '~') {
         refuse(cursor.column(),
-               fmt::format("byte 0x{:02X} is no character of a program", static_cast<unsigned char>(c)));
+               fmt::format("byte 0x{:02X} is not valid in a program", static_cast<unsigned char>(c)));
     }
-    refuse(cursor.column(), fmt::format("'{}' begins no word", c));
+    refuse(cursor.column(), fmt::format("'{}' is not a valid word letter", c));
 }
 
 void expect_magnitude(double value, int column) {
     if (!(std::abs(value) <= largest_value)) {
-        refuse(column, "a value is larger than 1e9");
+        refuse(column, "a value must not exceed 1e9");
     }
 }
 
@@ -39,12 +39,12 @@ void read_g(Cursor& cursor, const Variables& variables, Block& block, int column
     const double tenths = 10.0 * read_value(cursor, variables);
     const double whole = std::round(tenths);
     if (!(tenths >= 0.0 && tenths < 1000.0) || std::abs(tenths - whole) > code_within) {
-        refuse(column, "a G-code is a number from 0 to 99.9 with at most one decimal");
+        refuse(column, "a G-code must be a number from 0 to 99.9 with at most one decimal");
     }
     const int code = static_cast<int>(whole);
     const int group = group_of_g(code);
     if (group < 0) {
-        refuse(column, fmt::format("{} is not known", g_name(code)));
+        refuse(column, fmt::format("{} is not supported", g_name(code)));
     }
     const auto n = static_cast<std::size_t>(group);
     const std::uint32_t bit = 1U << n;
@@ -55,7 +55,7 @@ void read_g(Cursor& cursor, const Variables& variables, Block& block, int column
     }
     if (taken && block.g[n] != g80) {
         refuse(column,
-               fmt::format("{} and {} are of one modal group and cannot stand in one line",
+               fmt::format("{} and {} belong to the same modal group and cannot be in the same line",
                            g_name(block.g[n]),
                            g_name(code)));
     }
@@ -68,18 +68,19 @@ void read_m(Cursor& cursor, const Variables& variables, Block& block, int column
     const int code = read_integer(cursor, variables);
     const int group = group_of_m(code);
     if (group < 0) {
-        refuse(column, fmt::format("M{} is not known", code));
+        refuse(column, fmt::format("M{} is not supported", code));
     }
     const auto n = static_cast<std::size_t>(group);
     const std::uint32_t bit = 1U << n;
     if ((block.m_groups & bit) != 0) {
-        refuse(
-            column,
-            fmt::format("M{} and M{} are of one modal group and cannot stand in one line", block.m[n], code));
+        refuse(column,
+               fmt::format("M{} and M{} belong to the same modal group and cannot be in the same line",
+                           block.m[n],
+                           code));
     }
     constexpr int most_m_codes = 4;
     if (++block.m_count > most_m_codes) {
-        refuse(column, "a line has at most four M-codes");
+        refuse(column, "a line may have at most four M-codes");
     }
     block.m_groups |= bit;
     block.m[n] = code;
@@ -98,7 +99,7 @@ double read_word_value(char letter, Cursor& cursor, const Variables& variables, 
     expect_magnitude(value, column);
     const bool unsigned_word = letter == 'F' || letter == 'S' || whole;
     if (unsigned_word && value < 0.0) {
-        refuse(column, fmt::format("{} cannot be negative", letter));
+        refuse(column, fmt::format("{} must not be negative", letter));
     }
     return value;
 }
@@ -115,7 +116,7 @@ void read_letter(char letter, Cursor& cursor, const Variables& variables, Block&
         return;
     }
     if (block.has(letter)) {
-        refuse(column, fmt::format("a line has one {} word at most", letter));
+        refuse(column, fmt::format("a line may have only one {} word", letter));
     }
     block.set(letter, read_word_value(letter, cursor, variables, column), column);
 }
@@ -126,7 +127,7 @@ void read_polar(Cursor& cursor, const Variables& variables, Block& block) {
     cursor.advance();
     bool& given = is_radius ? block.polar_radius : block.polar_angle;
     if (given) {
-        refuse(column, "a line has one @ and one ^ at most");
+        refuse(column, "a line may have only one @ and one ^");
     }
     const double value = read_value(cursor, variables);
     expect_magnitude(value, column);
@@ -140,10 +141,10 @@ void read_spindle(Cursor& cursor, const Variables& variables, Block& block) {
     cursor.advance();
     const int spindle = read_integer(cursor, variables);
     if (block.spindle_column > 0) {
-        refuse(column, "a line has one $ word at most");
+        refuse(column, "a line may have only one $ word");
     }
     if (spindle != 0 && spindle != -1) {
-        refuse(column, "there is one spindle only: $0, or $-1 for all");
+        refuse(column, "there is only one spindle: use $0, or $-1 for all");
     }
     block.all_spindles = spindle == -1;
     block.spindle_column = column;
@@ -161,11 +162,11 @@ void read_assignment(Cursor& cursor, const Variables& variables, std::vector<Ass
         variables.check_settable(assignment.number, column);
     }
     if (!cursor.take('=')) {
-        refuse(cursor.column(), "= is missing behind the parameter that is set");
+        refuse(cursor.column(), "the = after the parameter is missing");
     }
     assignment.value = read_value(cursor, variables);
     if (assignments.size() == most_assignments) {
-        refuse(column, fmt::format("a line sets at most {} parameters", most_assignments));
+        refuse(column, fmt::format("a line may set at most {} parameters", most_assignments));
     }
     assignments.push_back(std::move(assignment));
 }
@@ -182,11 +183,11 @@ std::string_view read_comment(Cursor& cursor) {
     const char* const text = cursor.position() + 1;
     const char* const closed = std::find(text, cursor.end(), ')');
     if (closed == cursor.end()) {
-        refuse(column, "the comment is not closed by )");
+        refuse(column, "the closing ) of the comment is missing");
     }
     const char* const nested = std::find(text, closed, '(');
     if (nested != closed) {
-        refuse(column + static_cast<int>(nested - text) + 1, "a comment inside of a comment");
+        refuse(column + static_cast<int>(nested - text) + 1, "a comment must not contain another comment");
     }
     cursor.move_to(closed + 1);
     return {text, static_cast<std::size_t>(closed - text)};

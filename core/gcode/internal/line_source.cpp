@@ -109,7 +109,7 @@ void LineSource::skip_rest_of_line() {
         }
         skipped += end;
         if (skipped > longest_skipped_line) {
-            throw Error("a line is longer than 16 MiB: this is no text", name_);
+            throw Error("a line is longer than 16 MiB: this is not a text file", name_);
         }
         if (!fill()) {
             return;

@@ -48,7 +48,7 @@ void Losses::move(const Move& move, std::string_view line) {
              move.source,
              line,
              'G',
-             "nothing is probed by a motion that is planned beforehand (G38)");
+             "probing (G38) is not possible in a motion that is planned in advance");
     }
 }
 
@@ -61,15 +61,15 @@ void Losses::command(const Command& command, std::string_view line) {
     };
     switch (command.kind) {
     case CommandKind::start_speed_feed_synch:
-        return lose('G', "a feed cannot be kept in step with the spindle here (G33, G33.1, G76)");
+        return lose('G', "spindle-synchronized feed is not possible here (G33, G33.1, G76)");
     case CommandKind::set_spindle_mode:
-        return command.value > 0.0 ? lose('G', "the spindle cannot follow the diameter here (G96)") : void();
+        return command.value > 0.0 ? lose('G', "constant surface speed is not possible here (G96)") : void();
     case CommandKind::wait_input:
-        return lose('M', "nothing waits for an input here (M66)");
+        return lose('M', "inputs are not waited for here (M66)");
     case CommandKind::mist_on:
-        return simplify('M', "mist (M7) is not told from flood (M8)");
+        return simplify('M', "mist coolant (M7) is treated as flood (M8)");
     case CommandKind::orient_spindle:
-        return simplify('M', "the spindle is not brought to an angle (M19)");
+        return simplify('M', "the spindle is not oriented (M19)");
     case CommandKind::set_motion_output_bit:
     case CommandKind::clear_motion_output_bit:
     case CommandKind::set_aux_output_bit:
@@ -78,17 +78,17 @@ void Losses::command(const Command& command, std::string_view line) {
     case CommandKind::set_aux_output_value:
         return simplify('M', "outputs are not switched (M62 to M65, M67, M68)");
     case CommandKind::user_command:
-        return simplify('M', "commands of the machine's owner are left out (M100 to M199)");
+        return simplify('M', "user-defined commands are ignored (M100 to M199)");
     case CommandKind::disable_feed_override:
     case CommandKind::disable_speed_override:
     case CommandKind::enable_adaptive_feed:
     case CommandKind::disable_feed_hold:
-        return simplify('M', "overrides and holds stay possible throughout (M49 to M53, G74, G84)");
+        return simplify('M', "overrides and feed hold remain enabled (M49 to M53, G74, G84)");
     case CommandKind::use_tool_length_offset:
         if (is_zero(command.axes) && line.find_first_of("Hh") != std::string_view::npos) {
             simplify('H',
-                     "the tool has no length here, so that of G43 is taken for 0: a tool table (--tools) "
-                     "says the lengths");
+                     "the tool length is unknown, so the length offset of G43 is taken as 0: give the tool "
+                     "lengths with a tool table (--tools)");
         }
         return;
     case CommandKind::set_g5x_offset:
@@ -97,8 +97,7 @@ void Losses::command(const Command& command, std::string_view line) {
                  command.source,
                  line,
                  'G',
-                 fmt::format("nobody told the offset of {}: it is taken for 0",
-                             name_of_system(command.index)));
+                 fmt::format("the offset of {} is unknown and is taken as 0", name_of_system(command.index)));
         }
         return;
     default:

@@ -18,7 +18,8 @@ constexpr double unlimited_rpm = 1e30; // LinuxCNC's word for no limit in G96
 
 void forbid_m_code_with_compensation(const Run& run, const Block& block, MGroup group) {
     if (run.state.cutter.on()) {
-        refuse(block.column_of(group), fmt::format("M{} while cutter compensation is on", block.code(group)));
+        refuse(block.column_of(group),
+               fmt::format("M{} cannot be used while cutter compensation is on", block.code(group)));
     }
 }
 
@@ -28,8 +29,7 @@ int channel(const Block& block, char letter, int code) {
     const double value = block.value_or(letter, -1.0);
     const int whole = static_cast<int>(std::round(value));
     if (!block.has(letter) || value < 0.0 || std::abs(value - whole) > 1e-4) {
-        refuse(block.column_of(letter),
-               fmt::format("M{} needs its channel, {}, a whole number", code, letter));
+        refuse(block.column_of(letter), fmt::format("M{} needs an integer channel number {}", code, letter));
     }
     return whole;
 }
@@ -38,18 +38,18 @@ void wait_for_input(Run& run, const Block& block) {
     const int mode = static_cast<int>(block.value_or('L', 0.0));
     const double timeout = block.value_or('Q', 0.0);
     if (block.has('P') && block.has('E')) {
-        refuse(block.column_of('E'), "M66 waits for a digital input, P, or an analog one, E, not both");
+        refuse(block.column_of('E'), "M66 needs either a digital input, P, or an analog input, E, not both");
     }
     const bool analog = block.has('E');
     Command wait = command_of(CommandKind::wait_input, channel(block, analog ? 'E' : 'P', 66));
     if (mode > 4) {
-        refuse(block.column_of('L'), "L of M66 is 0 to 4");
+        refuse(block.column_of('L'), "L of M66 must be 0 to 4");
     }
     if (mode > 0 && !(timeout > 0.0)) {
-        refuse(block.column_of('L'), "M66 that waits needs a time, Q");
+        refuse(block.column_of('L'), "M66 with a wait mode needs a timeout, Q");
     }
     if (mode > 0 && analog) {
-        refuse(block.column_of('L'), "M66 reads an analog input at once: L0");
+        refuse(block.column_of('L'), "M66 can only read an analog input immediately: use L0");
     }
     constexpr int analog_mode = 5;
     wait.mode = analog ? analog_mode : mode;
@@ -117,7 +117,7 @@ void orient_spindle(Run& run, const Block& block) {
     }
     if (block.has('Q')) {
         if (!(block['Q'] > 0.0)) {
-            refuse(block.column_of('Q'), "Q of M19 has to be more than 0");
+            refuse(block.column_of('Q'), "Q of M19 must be greater than 0");
         }
         run.out.post(CommandKind::wait_spindle_orient, 0, block['Q']);
     }

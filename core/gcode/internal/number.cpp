@@ -16,7 +16,7 @@ public:
     explicit Gathered(Cursor& cursor) {
         for (char c = cursor.peek(); is_digit(c) || c == '.'; c = cursor.peek()) {
             if (size_ == text_.size()) {
-                refuse(cursor.column(), "a number has at most 300 digits");
+                refuse(cursor.column(), "a number may have at most 300 digits");
             }
             text_[size_++] = c;
             cursor.advance();
@@ -37,7 +37,7 @@ double read_slowly(Cursor& cursor) {
     const auto read = std::from_chars(gathered.begin(), gathered.end(), value, std::chars_format::fixed);
     if (read.ec != std::errc{} || read.ptr != gathered.end()) {
         refuse(column,
-               fmt::format("'{}' is no number",
+               fmt::format("'{}' is not a number",
                            std::string_view(gathered.begin(),
                                             static_cast<std::size_t>(gathered.end() - gathered.begin()))));
     }
@@ -68,12 +68,12 @@ double read_number(Cursor& cursor) {
 int read_unsigned(Cursor& cursor) {
     const int column = cursor.column();
     if (!is_digit(cursor.peek())) {
-        refuse(column, "a whole number without a sign is expected");
+        refuse(column, "an integer without a sign is expected");
     }
     int value = 0;
     for (char c = cursor.peek(); is_digit(c); c = cursor.peek()) {
         if (value > 99'999'999) {
-            refuse(column, "a whole number has at most nine digits");
+            refuse(column, "an integer may have at most nine digits");
         }
         value = value * 10 + (c - '0');
         cursor.advance();

@@ -94,7 +94,7 @@ void expect_end_of_line(Cursor& cursor, std::string_view what) {
         static_cast<void>(read_comment(cursor));
     }
     if (!cursor.at_end() && cursor.peek() != ';') {
-        refuse(cursor.column(), fmt::format("only a comment may stand behind {}", what));
+        refuse(cursor.column(), fmt::format("only a comment may follow {}", what));
     }
 }
 

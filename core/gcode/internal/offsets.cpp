@@ -245,7 +245,7 @@ void set_tool_data(Run& run, const Block& block) {
         refuse(block.column_of('P'), fmt::format("tool {} is not in the tool table", number));
     }
     if (!block.has_any(axis_words | words_of("RIJQ"))) {
-        refuse(block.column_of(GGroup::non_modal), "G10 L1 without offsets has no effect");
+        refuse(block.column_of(GGroup::non_modal), "G10 L1 needs at least one offset");
     }
     Tool& tool = run.tools.at_row(row);
     const AxisValues old_offset = run.to_program(tool.offset);
@@ -267,7 +267,7 @@ void set_tool_data(Run& run, const Block& block) {
     if (block.has('Q')) {
         const double q = block['Q'];
         if (!(q >= 0.0 && q <= 9.0) || std::abs(q - std::round(q)) > 1e-4) {
-            refuse(block.column_of('Q'), "Q of G10 is a tool orientation, 0 to 9");
+            refuse(block.column_of('Q'), "Q of G10 is a tool orientation and must be 0 to 9");
         }
         tool.orientation = static_cast<int>(std::round(q));
     }
@@ -288,10 +288,10 @@ void set_system_data(Run& run, const Block& block) {
     const int system = given == 0 ? s.coordinate_system : given;
     const bool active = system == s.coordinate_system;
     if (block.has_any(words_of("IJ"))) {
-        refuse(block.column_of(block.has('I') ? 'I' : 'J'), "G10 L2 takes no I and no J");
+        refuse(block.column_of(block.has('I') ? 'I' : 'J'), "G10 L2 does not accept I or J");
     }
     if (relative && block.has('R')) {
-        refuse(block.column_of('R'), "G10 L20 takes no R");
+        refuse(block.column_of('R'), "G10 L20 does not accept R");
     }
     if (active) {
         forbid_with_compensation(run, block, "the active coordinate system cannot change");

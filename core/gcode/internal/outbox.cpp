@@ -36,11 +36,11 @@ void Outbox::expect_room_for(double count) const {
 }
 
 void Outbox::refuse_line() const {
-    refuse(1, fmt::format("a line makes at most {} moves", most_moves_));
+    refuse(1, fmt::format("a line may generate at most {} moves", most_moves_));
 }
 
 void Outbox::refuse_program() {
-    refuse(1, fmt::format("canned cycles make at most {} moves", most_further_moves));
+    refuse(1, fmt::format("a program may generate at most {} canned-cycle moves", most_further_moves));
 }
 
 void Outbox::send(const Move& move) {

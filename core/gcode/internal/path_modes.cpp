@@ -28,7 +28,7 @@ void set_path_mode(Run& run, const Block& block, int code) {
     }
     for (const char letter : {'P', 'Q'}) {
         if (block.value_or(letter, 0.0) < 0.0) {
-            refuse(block.column_of(letter), "a tolerance is 0 or more");
+            refuse(block.column_of(letter), "a tolerance must be 0 or more");
         }
     }
     s.path_mode = program::PathMode::continuous;

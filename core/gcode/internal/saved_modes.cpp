@@ -135,7 +135,7 @@ void execute_saved_modes(Run& run, const Block& block, int code) {
     } else if (code == 71) {
         run.saved.reset();
     } else if (!run.saved) {
-        refuse(block.column_of(MGroup::spindle), "M72 without an M70 or M73 before it");
+        refuse(block.column_of(MGroup::spindle), "M72 needs an M70 or M73 before it");
     } else {
         restore_modes(run, SavedModes(*run.saved));
     }

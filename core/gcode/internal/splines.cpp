@@ -19,10 +19,10 @@ constexpr double highest_order = 20.0;
 void expect_flat(const Run& run, const Block& block) {
     const int column = block.column_of(GGroup::motion);
     if (run.state.cutter.on()) {
-        refuse(column, "splines do not go with cutter compensation");
+        refuse(column, "splines cannot be used with cutter compensation");
     }
     if (run.state.plane != Plane::xy) {
-        refuse(column, "splines are for the XY plane (G17)");
+        refuse(column, "splines are only possible in the XY plane (G17)");
     }
     if (block.has_any(words_of("ZABC"))) {
         refuse(column, "a spline cannot move Z, A, B or C");
@@ -38,7 +38,7 @@ void send_curve(Run& run, std::span<const ControlPoint> points, int order) {
 /// The first inner point of G5: given, or the last one of the G5 before, mirrored.
 Vec2 first_handle(const Block& block, const Run& run) {
     if (block.has('I') != block.has('J')) {
-        refuse(block.column_of(block.has('I') ? 'I' : 'J'), "G5 takes both I and J, or neither");
+        refuse(block.column_of(block.has('I') ? 'I' : 'J'), "G5 needs both I and J, or neither");
     }
     if (block.has('I')) {
         return {block['I'], block['J']};
@@ -91,7 +91,7 @@ void add_nurbs_point(Run& run, const Block& block) {
     expect_flat(run, block);
     expect_feed(run, block, g5_2);
     if (block.has('X') != block.has('Y')) {
-        refuse(column, "G5.2 takes both X and Y");
+        refuse(column, "G5.2 needs both X and Y");
     }
     if (s.motion != g5_2) {
         nurbs = {};
@@ -104,18 +104,18 @@ void add_nurbs_point(Run& run, const Block& block) {
     if (first) {
         nurbs.points.push_back({s.position[Axis::x], s.position[Axis::y], block.has('X') ? 1.0 : weight});
     } else if (!block.has('X')) {
-        refuse(column, "only the first G5.2 may go without X and Y");
+        refuse(column, "only the first G5.2 may omit X and Y");
     }
     if (block.has('L') && block['L'] > 3.0) {
         if (block['L'] > highest_order) {
             refuse(block.column_of('L'),
-                   fmt::format("the order of a NURBS, L, is at most {}", highest_order));
+                   fmt::format("the order of a NURBS, L, must be at most {}", highest_order));
         }
         nurbs.order = static_cast<int>(block['L']);
     }
     if (block.has('X')) {
         if (nurbs.points.size() >= most_points) {
-            refuse(column, fmt::format("a NURBS has at most {} control points", most_points));
+            refuse(column, fmt::format("a NURBS may have at most {} control points", most_points));
         }
         const AxisValues end = end_of_move(block, s);
         nurbs.points.push_back({end[Axis::x], end[Axis::y], weight});
@@ -128,10 +128,11 @@ void make_nurbs(Run& run, const Block& block) {
     constexpr int g5_2 = 52;
     constexpr int none = 800;
     if (run.state.motion != g5_2) {
-        refuse(column, "G5.3 without a G5.2 before it");
+        refuse(column, "G5.3 needs a G5.2 before it");
     }
     if (static_cast<int>(run.nurbs.points.size()) < run.nurbs.order) {
-        refuse(column, fmt::format("a NURBS of order {} needs as many control points", run.nurbs.order));
+        refuse(column,
+               fmt::format("a NURBS of order {} needs at least as many control points", run.nurbs.order));
     }
     send_curve(run, run.nurbs.points, run.nurbs.order);
     run.nurbs = {};

@@ -24,7 +24,7 @@ void send_straight(Run& run, MoveKind kind, const AxisValues& end) {
 
 void expect_turning_spindle(const Run& run, const Block& block, int motion) {
     if (run.state.spindle == SpindleTurning::stopped) {
-        refuse(block.column_of(GGroup::motion), fmt::format("{} needs a turning spindle", g_name(motion)));
+        refuse(block.column_of(GGroup::motion), fmt::format("{} needs a running spindle", g_name(motion)));
     }
 }
 
@@ -36,15 +36,16 @@ void expect_feed(const Run& run, const Block& block, int motion) {
     if (s.feed_mode == FeedMode::inverse_time) {
         if (!block.has('F')) {
             refuse(column,
-                   fmt::format("in inverse time mode (G93) {} needs an F in its line", g_name(motion)));
+                   fmt::format("in inverse time mode (G93), {} needs an F word in the same line",
+                               g_name(motion)));
         }
         return;
     }
     if (exactly_equal(s.feed_rate, 0.0)) {
-        refuse(column, fmt::format("{} with a feed of zero", g_name(motion)), "give F");
+        refuse(column, fmt::format("{} has a feed rate of zero", g_name(motion)), "set the feed rate with F");
     }
     if (s.feed_mode == FeedMode::per_revolution && exactly_equal(s.spindle_speed, 0.0)) {
-        refuse(column, "feed a revolution (G95) with a spindle speed of zero");
+        refuse(column, "feed per revolution (G95) needs a spindle speed above zero");
     }
 }
 
@@ -74,7 +75,7 @@ void make_straight(Run& run, const Block& block, int motion) {
     if (compensated) {
         constexpr int g53 = 530;
         if (block.code(GGroup::non_modal) == g53) {
-            refuse(block.column_of(GGroup::non_modal), "G53 while cutter compensation is on");
+            refuse(block.column_of(GGroup::non_modal), "G53 cannot be used while cutter compensation is on");
         }
         compensate_straight(run, feed ? MoveKind::feed : MoveKind::traverse, end);
         return;
@@ -87,7 +88,7 @@ void make_synchronised(Run& run, const Block& block, int motion) {
     s.cutter.arc_forbidden = false;
     if (s.cutter.on()) {
         refuse(block.column_of(GGroup::motion),
-               fmt::format("{} while cutter compensation is on", g_name(motion)));
+               fmt::format("{} cannot be used while cutter compensation is on", g_name(motion)));
     }
     expect_turning_spindle(run, block, motion);
     s.motion = motion;
@@ -124,13 +125,13 @@ void make_probe(Run& run, const Block& block, int motion) {
     ModalState& s = run.state;
     const int column = block.column_of(GGroup::motion);
     if (s.cutter.on()) {
-        refuse(column, "probing while cutter compensation is on");
+        refuse(column, "probing is not possible while cutter compensation is on");
     }
     if (exactly_equal(s.feed_rate, 0.0)) {
-        refuse(column, "probing with a feed of zero", "give F");
+        refuse(column, "the feed rate of the probing move is zero", "set the feed rate with F");
     }
     if (s.feed_mode == FeedMode::per_revolution) {
-        refuse(column, "probing with feed a revolution (G95)");
+        refuse(column, "probing is not possible with feed per revolution (G95)");
     }
     Move move = run.out.new_move(MoveKind::probe);
     move.probe = static_cast<std::uint8_t>(motion - 380);
@@ -141,7 +142,7 @@ void make_probe(Run& run, const Block& block, int motion) {
         moves = moves || !exactly_equal(move.target[n], s.position[n]);
     }
     if (fails_if_not_tripped && !moves) {
-        refuse(column, "the probe is where it is to be moved to");
+        refuse(column, "the probing move has no length");
     }
     run.out.send(CommandKind::turn_probe_on);
     run.out.send(move);

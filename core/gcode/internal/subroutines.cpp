@@ -22,15 +22,15 @@ void ControlFlow::define(const Line& line, Cursor& cursor) {
     expect_end_of_line(cursor);
     const SourcePlace place = run_.out.place();
     if (in_subroutine()) {
-        refuse(line.column, "a subroutine is defined inside of a subroutine");
+        refuse(line.column, "a subroutine definition must not contain another one");
     }
     const auto [entry, is_new] = defined_at_.try_emplace(line.label, place);
     if (!is_new && !(entry->second == place)) {
         refuse(line.column,
-               fmt::format("subroutine O{} was defined in line {}", line.label, entry->second.line));
+               fmt::format("subroutine O{} is already defined in line {}", line.label, entry->second.line));
     }
     if (defined_at_.size() > most_subroutines) {
-        refuse(line.column, fmt::format("a program has at most {} subroutines", most_subroutines));
+        refuse(line.column, fmt::format("a program may have at most {} subroutines", most_subroutines));
     }
     subroutines_.insert_or_assign(line.label, files_.here());
     skip_to(line.label, {OWord::endsub}, nullptr, place);
@@ -45,7 +45,8 @@ void ControlFlow::call(const Line& line, Cursor& cursor) {
             continue;
         }
         if (count == arguments.size()) {
-            refuse(cursor.column(), fmt::format("a subroutine takes at most {} arguments", argument_count));
+            refuse(cursor.column(),
+                   fmt::format("a subroutine may have at most {} arguments", argument_count));
         }
         arguments[count++] = read_bracketed(cursor, run_.variables);
     }
@@ -61,7 +62,7 @@ void ControlFlow::call(const Line& line, Cursor& cursor) {
 void ControlFlow::enter(const std::string& name, bool fanuc, int repeats) {
     constexpr std::size_t deepest_calls = 9; // LinuxCNC's INTERP_SUB_ROUTINE_LEVELS is 10, with the program
     if (frames_.size() >= deepest_calls) {
-        refuse(1, fmt::format("subroutines call each other more than {} deep", deepest_calls));
+        refuse(1, fmt::format("subroutine calls are nested more than {} deep", deepest_calls));
     }
     const Bookmark return_to = files_.here();
     go_to_subroutine(name, fanuc ? OWord::bare : OWord::sub);
@@ -102,13 +103,13 @@ void ControlFlow::go_to_subroutine(const std::string& name, OWord head) {
     files_.go_to(before);
     refuse(1,
            in_file ? fmt::format("the file of subroutine O<{}> does not define it", name)
-                   : fmt::format("subroutine O<{}> is neither defined nor in a file {}.ngc", name, name));
+                   : fmt::format("subroutine O<{}> is not defined, and there is no file {}.ngc", name, name));
 }
 
 /// As in LinuxCNC, the label of the line does not matter.
 void ControlFlow::leave_subroutine(const Line& line, Cursor& cursor) {
     if (!in_subroutine() || frames_.back().fanuc) {
-        refuse(line.column, "endsub and return stand in a subroutine only");
+        refuse(line.column, "endsub and return are only allowed in a subroutine");
     }
     const bool returns_value = cursor.peek() == '[';
     run_.variables.program.return_value = returns_value ? read_bracketed(cursor, run_.variables) : 0.0;
@@ -140,12 +141,12 @@ void ControlFlow::call_fanuc(const ParsedLine& line) {
     constexpr std::uint32_t used = words_of("PL");
     if ((block.words & ~used) != 0 || block.g_groups != 0 || block.m_groups != 0 || block.polar() ||
         !line.assignments.empty()) {
-        refuse(1, "only P and L may stand beside M98: nothing else in its line would be executed");
+        refuse(1, "only P and L may be in a line with M98: anything else would not be executed");
     }
     const double p = block.value_or('P', -1.0);
     constexpr double largest_number = 1e8;
     if (!(p >= 0.0 && p <= largest_number) || std::abs(p - std::round(p)) > 1e-4) {
-        refuse(block.column_of('P'), "M98 needs the number of a subprogram, P");
+        refuse(block.column_of('P'), "M98 needs a subprogram number, P");
     }
     const int repeats = static_cast<int>(block.value_or('L', 1.0));
     if (repeats > 0) {
@@ -159,12 +160,12 @@ bool ControlFlow::return_fanuc(Cursor& cursor) {
     }
     if (cursor.peek() == 'P') {
         refuse(cursor.column(),
-               "M99 with P goes on at another line of the caller, which LinuxCNC does not know",
-               "return with M99 alone");
+               "M99 with P continues at another line of the caller, which LinuxCNC does not support",
+               "use M99 without P");
     }
     expect_end_of_line(cursor, "M99");
     if (!frames_.back().fanuc) {
-        refuse(1, "M99 returns from a subprogram that M98 called; this one ends by endsub");
+        refuse(1, "M99 ends a subprogram called by M98, but this one ends with endsub");
     }
     if (frames_.back().repeats-- > 0) {
         note_turn(outer_depth() - 1, frames_.back().called_from);

@@ -27,7 +27,7 @@ constexpr std::array<std::uint8_t, 26> axis_of_letter = make_axis_of_letter();
 /// Machine coordinates: only X and Y depend on each other, by the rotation.
 AxisValues end_in_machine(const Block& block, const ModalState& s) {
     if (block.polar()) {
-        refuse(1, "G53 takes no polar coordinates");
+        refuse(1, "G53 cannot be used with polar coordinates");
     }
     AxisValues machine = rotated(s.position + s.g92_offset, s.rotation_deg) + s.g5x_offset + s.tool_offset;
     for (std::size_t n = 0; n < axis_count; ++n) {
@@ -57,7 +57,7 @@ void set_polar(AxisValues& end, const Block& block, const ModalState& s) {
     const double y = end[Axis::y];
     const bool at_origin = exactly_equal(x, 0.0) && exactly_equal(y, 0.0);
     if (at_origin && (s.incremental || !block.polar_angle)) {
-        refuse(1, "at the origin a polar coordinate needs its angle, and G90");
+        refuse(1, "at the origin, a polar coordinate needs its angle and G90");
     }
     double radius = std::hypot(x, y);
     double angle = std::atan2(y, x);

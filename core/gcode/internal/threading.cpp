@@ -75,18 +75,18 @@ void check_threading_words(const Block& block) {
         refuse(block.column_of('I'), "I of G76 must not be 0");
     }
     if (!(block['J'] > 0.0)) {
-        refuse(block.column_of('J'), "J of G76 has to be more than 0");
+        refuse(block.column_of('J'), "J of G76 must be greater than 0");
     }
     if (!(block['K'] > block['J'])) {
-        refuse(block.column_of('K'), "K of G76 has to be more than J");
+        refuse(block.column_of('K'), "K of G76 must be greater than J");
     }
     constexpr double steepest = 80.0;
     if (std::abs(block.value_or('Q', 0.0)) > steepest) {
-        refuse(block.column_of('Q'), "Q of G76 is an angle between -80 and 80 degrees");
+        refuse(block.column_of('Q'), "Q of G76 must be an angle between -80 and 80 degrees");
     }
     constexpr double most_springs = 1000.0;
     if (block.value_or('H', 0.0) > most_springs) {
-        refuse(block.column_of('H'), "G76 makes at most 1000 spring passes");
+        refuse(block.column_of('H'), "G76 may have at most 1000 spring passes");
     }
 }
 
@@ -113,14 +113,14 @@ Thread thread_of(Run& run, const Block& block, const AxisValues& end) {
 void expect_ready(const Run& run, const Block& block, const AxisValues& end) {
     const int column = block.column_of(GGroup::motion);
     if (run.state.cutter.on()) {
-        refuse(column, "G76 while cutter compensation is on");
+        refuse(column, "G76 cannot be used while cutter compensation is on");
     }
     if (run.state.spindle == SpindleTurning::stopped) {
-        refuse(column, "G76 needs a turning spindle");
+        refuse(column, "G76 needs a running spindle");
     }
     for (std::size_t n = 3; n < axis_count; ++n) {
         if (end[n] < run.state.position[n] || end[n] > run.state.position[n]) {
-            refuse(column, "G76 moves X, Y and Z only");
+            refuse(column, "G76 can only move X, Y and Z");
         }
     }
 }

@@ -84,7 +84,8 @@ bool Variables::is_read_only(int number) {
 
 double Variables::numbered(int number, int column) const {
     if (!is_number(number)) {
-        refuse(column, fmt::format("#{} is no parameter: numbers are 1 to {}", number, parameter_count - 1));
+        refuse(column,
+               fmt::format("#{} is not a parameter: numbers are 1 to {}", number, parameter_count - 1));
     }
     if (number >= first_position && number <= last_position) {
         if (state_->cutter.on()) {
@@ -134,22 +135,23 @@ void Variables::note_read(std::string_view name, int column) const {
 
 void Variables::check_settable(int number, int column) const {
     if (!is_number(number)) {
-        refuse(column, fmt::format("#{} is no parameter: numbers are 1 to {}", number, parameter_count - 1));
+        refuse(column,
+               fmt::format("#{} is not a parameter: numbers are 1 to {}", number, parameter_count - 1));
     }
     if (is_read_only(number)) {
-        refuse(column, fmt::format("#{} can only be read", number));
+        refuse(column, fmt::format("#{} is read-only", number));
     }
 }
 
 void Variables::check_settable(std::string_view name, int column) const {
     if (name.empty()) {
-        refuse(column, "a parameter's name is empty");
+        refuse(column, "the parameter name is empty");
     }
     if (predefined_value(name, *state_, program)) {
-        refuse(column, fmt::format("#<{}> can only be read", name));
+        refuse(column, fmt::format("#<{}> is read-only", name));
     }
     if (global_.size() + local_.size() >= most_names) {
-        refuse(column, fmt::format("a program has at most {} named parameters", most_names));
+        refuse(column, fmt::format("a program may have at most {} named parameters", most_names));
     }
 }
 

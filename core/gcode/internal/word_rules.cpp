@@ -30,7 +30,7 @@ void expect_offset_axes(const Block& block, int non_modal) {
         return;
     }
     if (block.polar()) {
-        refuse(1, "polar coordinates are for motion only");
+        refuse(1, "polar coordinates can only be used for motion");
     }
     if (!block.has_any(axis_words)) {
         refuse(block.column_of(GGroup::non_modal), fmt::format("{} needs axis words", g_name(non_modal)));
@@ -42,14 +42,14 @@ void check_given_motion(const Block& block, int motion, int non_modal) {
     constexpr int g80 = 800;
     if (motion == g80) {
         if (block.moves_axes() && !takes_axes(non_modal)) {
-            refuse(column, "G80 takes no axis words");
+            refuse(column, "G80 must not have axis words");
         }
         expect_offset_axes(block, non_modal);
         return;
     }
     if (takes_axes(non_modal)) {
         refuse(column,
-               fmt::format("{} and {} both use axis words and cannot stand in one line",
+               fmt::format("{} and {} both use axis words and cannot be in the same line",
                            g_name(non_modal),
                            g_name(motion)));
     }
@@ -88,16 +88,17 @@ void find_motion(Block& block, const ModalState& state) {
         block.motion = modal_motion(block, state);
     }
     if (block.polar() && block.motion == no_code) {
-        refuse(1, "polar coordinates are for motion only");
+        refuse(1, "polar coordinates can only be used for motion");
     }
 }
 
 void check_polar(const Block& block, const ModalState& state) {
     if (state.plane != Plane::xy) {
-        refuse(1, "polar coordinates @ and ^ work in the XY plane (G17) only");
+        refuse(1, "polar coordinates @ and ^ can only be used in the XY plane (G17)");
     }
     if (block.has_any(words_of("XY"))) {
-        refuse(block.column_of(block.has('X') ? 'X' : 'Y'), "X and Y cannot stand beside polar coordinates");
+        refuse(block.column_of(block.has('X') ? 'X' : 'Y'),
+               "X and Y cannot be combined with polar coordinates");
     }
 }
 
@@ -111,14 +112,14 @@ void check_g10(const Block& block) {
     }
     const double p = block.value_or('P', -1.0);
     if (std::abs(p - std::round(p)) > 1e-4) {
-        refuse(block.column_of('P'), "P of G10 is a whole number");
+        refuse(block.column_of('P'), "P of G10 must be an integer");
     }
     const bool of_system = kind == 2 || kind == 20;
     if (of_system && !(p > -0.5 && p < 9.5)) {
-        refuse(block.column_of('P'), fmt::format("P of G10 L{} is a coordinate system, 0 to 9", kind));
+        refuse(block.column_of('P'), fmt::format("P of G10 L{} must be a coordinate system, 0 to 9", kind));
     }
     if (!of_system && !(p > 0.5)) {
-        refuse(block.column_of('P'), fmt::format("P of G10 L{} is a tool number, 1 or more", kind));
+        refuse(block.column_of('P'), fmt::format("P of G10 L{} must be a tool number, 1 or more", kind));
     }
 }
 
@@ -128,12 +129,12 @@ void check_g53(const Block& block, const ModalState& state, Dialect dialect) {
         const int given =
             block.code(GGroup::motion); // G53 may stand alone there, and is absolute under G91 too
         if (!one_of(given == no_code ? state.motion : given, {0, 10})) {
-            refuse(column, "G53 goes with G0 or G1 only (error 30)");
+            refuse(column, "G53 can only be used with G0 or G1 (error 30)");
         }
         return;
     }
     if (block.motion != 0 && block.motion != 10) {
-        refuse(column, "G53 goes with G0 or G1 only");
+        refuse(column, "G53 can only be used with G0 or G1");
     }
     const int distance = block.code(GGroup::distance);
     constexpr int g90 = 900;
@@ -147,10 +148,10 @@ void check_non_modal(const Block& block, const ModalState& state, Dialect dialec
     switch (block.code(GGroup::non_modal)) {
     case 40:
         if (!block.has('P') || block['P'] < 0.0) {
-            refuse(block.column_of('P'), "G4 needs its time, P, 0 or more");
+            refuse(block.column_of('P'), "G4 needs a time P of 0 or more");
         }
         if (is_arc(block.code(GGroup::motion))) {
-            refuse(column, "G4 and an arc both use P and cannot stand in one line");
+            refuse(column, "G4 and an arc both use P and cannot be in the same line");
         }
         break;
     case 100:
@@ -158,7 +159,7 @@ void check_non_modal(const Block& block, const ModalState& state, Dialect dialec
         break;
     case 53:
         if (block.code(GGroup::motion) != no_code && block.code(GGroup::motion) != 52) {
-            refuse(column, "between G5.2 and G5.3 only G5.2 may stand");
+            refuse(column, "between G5.2 and G5.3 only G5.2 is allowed");
         }
         break;
     case 530:
@@ -272,7 +273,7 @@ void check_spindle(const Block& block) {
                          block.code(GGroup::spindle_mode) != no_code;
     const bool for_all = one_of(block.code(MGroup::spindle), {3, 4, 5}) || block.has('S');
     if (block.all_spindles && (for_one || !for_all)) {
-        refuse(block.spindle_column, "$-1 is for M3, M4, M5 and S only");
+        refuse(block.spindle_column, "$-1 can only be used with M3, M4, M5 and S");
     }
     if (!for_one && !for_all) {
         refuse(block.spindle_column,
@@ -288,7 +289,7 @@ void check_uses(const Block& block) {
         if (block.has(use.letter) && !use.used(block)) {
             refuse(block.column_of(use.letter),
                    fmt::format("{} word without anything that uses it ({})", use.letter, use.users),
-                   use.letter == 'E' ? "in a number like 1e5? Numbers have no exponent here" : "");
+                   use.letter == 'E' ? "write numbers without an exponent (not 1e5)" : "");
         }
     }
 }
@@ -299,20 +300,20 @@ void check_turns(const Block& block) {
     const double p = block['P'];
     constexpr double p_whole_within = 0.001;
     if (std::abs(p - std::round(p)) > p_whole_within) {
-        refuse(block.column_of('P'), "P of an arc is a whole number of turns");
+        refuse(block.column_of('P'), "P of an arc must be an integer number of turns");
     }
     if (std::round(p) < 1.0) {
-        refuse(block.column_of('P'), "P of an arc is 1 or more");
+        refuse(block.column_of('P'), "P of an arc must be 1 or more");
     }
 }
 
 void check_orientation(const Block& block) {
     if (block.has('R') && !(block['R'] >= 0.0 && block['R'] <= 360.0)) {
-        refuse(block.column_of('R'), "R of M19 is an angle from 0 to 360");
+        refuse(block.column_of('R'), "R of M19 must be an angle from 0 to 360");
     }
     const double p = block.value_or('P', 0.0);
     if (!(p >= 0.0 && p <= 2.0) || std::abs(p - std::round(p)) > 0.001) {
-        refuse(block.column_of('P'), "P of M19 is 0, 1 or 2");
+        refuse(block.column_of('P'), "P of M19 must be 0, 1 or 2");
     }
 }
 
@@ -323,15 +324,15 @@ void check_motion_words(const Block& block) {
     }
     if (block.motion == 330 || block.motion == 331) {
         if (!block.has('K')) {
-            refuse(column, fmt::format("{} needs its pitch, K", g_name(block.motion)));
+            refuse(column, fmt::format("{} needs a pitch, K", g_name(block.motion)));
         }
         if (block.has('F')) {
-            refuse(block.column_of('F'), fmt::format("{} takes no F", g_name(block.motion)));
+            refuse(block.column_of('F'), fmt::format("{} must not have F", g_name(block.motion)));
         }
     }
     if (block.motion == 760) {
         if (!block.has('P')) {
-            refuse(column, "G76 needs its pitch, P");
+            refuse(column, "G76 needs a pitch, P");
         }
         if (!block.has('I') || !block.has('J') || !block.has('K')) {
             refuse(column, "G76 needs I, J and K");
@@ -357,7 +358,7 @@ void apply_word_rules(Block& block, const ModalState& state, Dialect dialect) {
     }
     check_spindle(block);
     if (block.code(GGroup::spindle_mode) == 960 && !block.has('S')) {
-        refuse(block.column_of(GGroup::spindle_mode), "G96 needs its speed, S");
+        refuse(block.column_of(GGroup::spindle_mode), "G96 needs a surface speed, S");
     }
     if (is_m19(block)) {
         check_orientation(block);

@@ -30,39 +30,39 @@ constexpr double most_passes = 10'000.0;
 void expect_carving_settings(const CarvingSettings& settings) {
     const ToolTip& tip = settings.tip;
     if (tip.kind != TipKind::v) {
-        throw Error(fmt::format("{} does not carve: its width does not grow with its depth", to_text(tip)),
+        throw Error(fmt::format("{} cannot carve: its width does not grow with its depth", to_text(tip)),
                     {},
-                    "name a V-bit, as v:60");
+                    "give a V-bit, such as v:60");
     }
     const bool cone = tip.angle > 0.0 && tip.angle < std::numbers::pi && tip.diameter > 0.0;
     const bool narrow = tip.end_width >= 0.0 && tip.end_radius >= 0.0 &&
                         tip.end_width / 2.0 + tip.end_radius * std::cos(tip.angle / 2.0) < radius(tip);
     if (!cone || !narrow || !std::isfinite(tip.diameter)) {
         throw Error(
-            fmt::format("no V-bit has {:g} degrees, a diameter of {:g} mm, a flat end of {:g} mm and a "
-                        "round one of {:g} mm",
-                        to_degrees(tip.angle),
-                        tip.diameter,
-                        tip.end_width,
-                        tip.end_radius),
+            fmt::format(
+                "not a valid V-bit: {:g} degrees, diameter {:g} mm, flat end {:g} mm, round end {:g} mm",
+                to_degrees(tip.angle),
+                tip.diameter,
+                tip.end_width,
+                tip.end_radius),
             {},
-            "its angle is above 0 and below 180 degrees, and its end narrower than the bit");
+            "use an angle above 0 and below 180 degrees, and an end narrower than the bit");
     }
     const auto expect_above_zero = [](const char* what, double value) {
         if (!(value > 0.0) || !std::isfinite(value)) {
-            throw Error(fmt::format("{} has to be above 0, not {:g}", what, value));
+            throw Error(fmt::format("{} must be above 0, not {:g}", what, value));
         }
     };
     expect_above_zero("the largest depth", settings.largest_depth.value_or(1.0));
     expect_above_zero("the depth per pass", settings.depth_per_pass.value_or(1.0));
     expect_above_zero("the step-over", settings.step_over.value_or(1.0));
-    expect_above_zero("the gap that is closed", settings.close_gaps);
+    expect_above_zero("the largest gap to close", settings.close_gaps);
     expect_above_zero("the cutting speed", settings.cutting);
-    expect_above_zero("the plunging speed", settings.plunging);
+    expect_above_zero("the plunge rate", settings.plunging);
     expect_above_zero("the safe height", settings.safe_height);
     if (!(settings.tolerance >= finest_tolerance) || !std::isfinite(settings.tolerance)) {
         throw Error(fmt::format(
-            "the tolerance has to be {:g} mm or more, not {:g}", finest_tolerance, settings.tolerance));
+            "the tolerance must be {:g} mm or more, not {:g}", finest_tolerance, settings.tolerance));
     }
 }
 
@@ -154,13 +154,12 @@ private:
         }
         const double step = step_over();
         if (settings_.clear_floor && step > 2.0 * bit_.widest()) {
-            throw Error(
-                fmt::format("passes {:g} mm apart leave floor between them: the bit is {:.4g} mm wide "
-                            "at the largest depth",
-                            step,
-                            2.0 * bit_.widest()),
-                {},
-                "a smaller step-over, or leave the floor to an end mill");
+            throw Error(fmt::format("passes {:g} mm apart leave material between them: the bit is {:.4g} mm "
+                                    "wide at the largest depth",
+                                    step,
+                                    2.0 * bit_.widest()),
+                        {},
+                        "use a smaller step-over, or leave the floor for an end mill");
         }
         std::size_t points = 0;
         for (int n = 1; !edge.empty(); ++n) {
@@ -173,11 +172,11 @@ private:
             }
             constexpr std::size_t most_floor_points = 10'000'000;
             if (points > most_floor_points) {
-                throw Error(fmt::format("passes {:g} mm apart clear the floor in more than {} points",
+                throw Error(fmt::format("passes {:g} mm apart need more than {} points to clear the floor",
                                         step,
                                         most_floor_points),
                             {},
-                            "a larger step-over, or leave the floor to an end mill");
+                            "use a larger step-over, or leave the floor for an end mill");
             }
             progress.check();
             made_.ridge =
@@ -217,12 +216,12 @@ private:
         const double count =
             settings_.depth_per_pass ? std::ceil(deepest / *settings_.depth_per_pass - rounding) : 1.0;
         if (count > most_passes) {
-            throw Error(fmt::format("a cut of {:.6g} mm in steps of {:g} mm takes more than {} passes",
+            throw Error(fmt::format("a cut of {:.6g} mm in steps of {:g} mm needs more than {} passes",
                                     deepest,
                                     *settings_.depth_per_pass,
                                     most_passes),
                         {},
-                        "a larger depth per pass");
+                        "use a larger depth per pass");
         }
         PartPasses passes;
         for (double n = 1.0; n <= count; n += 1.0) {
@@ -286,15 +285,14 @@ void note_outlines(const MedialAxis& axis, std::vector<Diagnostic>& notices) {
     if (axis.crossings.count > 0) {
         notices.push_back({{},
                            "outlines cross or overlap " + times_and_place(axis.crossings),
-                           "what an odd number of outlines surrounds is carved"});
+                           "areas enclosed by an odd number of outlines are carved"});
     }
     if (axis.flat.count > 0) {
         notices.push_back(
-            {{}, "outlines that enclose no area are left out " + times_and_place(axis.flat), {}});
+            {{}, "outlines that enclose no area are skipped " + times_and_place(axis.flat), {}});
     }
     if (axis.repeated.count > 0) {
-        notices.push_back(
-            {{}, "outlines that repeat another are left out " + times_and_place(axis.repeated), {}});
+        notices.push_back({{}, "duplicate outlines are skipped " + times_and_place(axis.repeated), {}});
     }
 }
 
@@ -303,24 +301,24 @@ void note_left(const CarvingSettings& settings, Carving& made) {
         made.notices.push_back({{}, std::move(message), std::move(hint)});
     };
     if (made.floor_left > 0.0) {
-        note(fmt::format("{:.4g} mm2 of the floor at {:.3f} mm are left", made.floor_left, made.deepest),
-             "a flat end mill clears them; without --leave-floor (with Clear floor) the bit does");
-    } else if (made.floor_area > 0.0) {
         note(fmt::format(
-                 "outlines are wider than the bit reaches at {:.3f} mm: {:.4g} mm2 of floor are cleared "
-                 "by the bit, ridges between passes up to {:.3f} mm",
-                 made.deepest,
-                 made.floor_area,
-                 made.ridge),
-             "a smaller step-over leaves lower ridges");
+                 "{:.4g} mm2 of the floor at {:.3f} mm are not cleared", made.floor_left, made.deepest),
+             "clear them with a flat end mill, or with the bit: without --leave-floor (with Clear floor)");
+    } else if (made.floor_area > 0.0) {
+        note(fmt::format("outlines are too wide for the bit at {:.3f} mm: the bit clears {:.4g} mm2 of "
+                         "floor, with ridges of up to {:.3f} mm between passes",
+                         made.deepest,
+                         made.floor_area,
+                         made.ridge),
+             "use a smaller step-over for lower ridges");
     }
     if (made.narrow_area > 0.01 * made.area) {
-        note(fmt::format(
-                 "{:.4g} mm2 of {:.4g} mm2 are narrower than the flat end of the bit, {:g} mm, and not cut",
-                 made.narrow_area,
-                 made.area,
-                 settings.tip.end_width),
-             "a bit with a narrower end, or a larger drawing");
+        note(fmt::format("{:.4g} mm2 of {:.4g} mm2 are narrower than the flat end of the bit, {:g} mm, and "
+                         "are not cut",
+                         made.narrow_area,
+                         made.area,
+                         settings.tip.end_width),
+             "use a bit with a narrower end, or a larger drawing");
     }
 }
 
@@ -333,7 +331,7 @@ Carving v_carving(const Strokes& drawn, const CarvingSettings& settings, const P
         throw Error("there is no outline to carve");
     }
     const double share = clearance_tolerance(settings) / 4.0;
-    progress.report(0.0, "Finding the middle of the outlines");
+    progress.report(0.0, "Computing the centre lines of the outlines");
     const MedialAxis axis =
         medial_axis(outlines.region, {.sampling = share, .pruning = 2.0 * share}, progress.part(0.0, 0.6));
     if (axis.parts == 0) {
@@ -341,21 +339,22 @@ Carving v_carving(const Strokes& drawn, const CarvingSettings& settings, const P
     }
     Carving made = CarvingPlan(axis, settings).run(progress.part(0.6, 1.0));
     if (made.path.empty()) {
-        throw Error(fmt::format("all of it is narrower than the flat end of the bit, {:g} mm",
+        throw Error(fmt::format("the whole drawing is narrower than the flat end of the bit, {:g} mm",
                                 settings.tip.end_width),
                     {},
-                    "a bit with a narrower end, or a larger drawing");
+                    "use a bit with a narrower end, or a larger drawing");
     }
     made.notices = std::move(outlines.notices);
     note_outlines(axis, made.notices);
     note_left(settings, made);
     if (made.deviation > settings.tolerance) {
         throw Error(
-            fmt::format("the bit would cut {:.6g} mm beyond an outline, more than the tolerance of {:g} mm",
-                        made.deviation,
-                        settings.tolerance),
+            fmt::format(
+                "the bit would cut {:.6g} mm beyond an outline, which exceeds the tolerance of {:g} mm",
+                made.deviation,
+                settings.tolerance),
             {},
-            "a larger tolerance; please report the drawing");
+            "use a larger tolerance, and please report the drawing");
     }
     return made;
 }

@@ -40,7 +40,7 @@ public:
             execute(*command);
         }
         if (run_.pen.in_polygon()) {
-            problems_.add(size_, "the file ends in the middle of a polygon", "it is ended by PM2");
+            problems_.add(size_, "the file ends in the middle of a polygon", "end the polygon with PM2");
         }
         run_.pen.finish(plot_, size_);
         for (const Stroke& stroke : plot_.strokes) {
@@ -57,7 +57,7 @@ private:
         const CommandRow* row = command.name.empty() ? nullptr : find_command(command.name);
         if (row == nullptr) {
             if (!command.name.empty()) {
-                problems_.add(command.byte, fmt::format("{} is no command of HPGL", command.name));
+                problems_.add(command.byte, fmt::format("{} is not an HPGL command", command.name));
             }
             lose();
             return;
@@ -137,9 +137,9 @@ private:
         }
         problems_.add(command.byte,
                       fmt::format("the file ends in the middle of {}", command.name),
-                      closes ? "its last point closes the stroke and is taken"
-                      : some ? "its last point may be cut off and is left out"
-                             : "its last number may be cut off, so nothing is drawn from it");
+                      closes ? "the last point closes the stroke and is used"
+                      : some ? "the last point may be incomplete and is ignored"
+                             : "the last number may be incomplete, so nothing is drawn from it");
         return some;
     }
 
@@ -151,15 +151,15 @@ private:
         }
         if (command.stray) {
             problems_.add(*command.stray,
-                          fmt::format("{}: a letter in the middle of a number", command.name));
+                          fmt::format("{}: there is a letter in the middle of a number", command.name));
             return false;
         }
         const LineEnds ends = run_.settings.line_ends;
         const auto most = 2 * static_cast<std::size_t>(run_.settings.most_points) + 2;
         auto fault = read_numbers(numbers, ends == LineEnds::join, most, numbers_);
         if (fault && numbers_.size() == most) {
-            throw Error(
-                problems_.at(fault->byte, "the plot has more points than are allowed", "it may be damaged"));
+            throw Error(problems_.at(
+                fault->byte, "the plot has more points than allowed", "check the file: it may be damaged"));
         }
         if (evidence_ != nullptr && numbers.arguments.find_first_of("\r\n") != std::string_view::npos) {
             evidence_->look_at(numbers, row.count);
@@ -172,8 +172,9 @@ private:
             }
         }
         if (!row.count.allows(numbers_.size())) {
-            problems_.add(command.byte,
-                          fmt::format("{} cannot have {}", command.name, counted(numbers_.size(), "number")));
+            problems_.add(
+                command.byte,
+                fmt::format("{} must not have {}", command.name, counted(numbers_.size(), "number")));
             return false;
         }
         return true;
@@ -224,18 +225,18 @@ ReaderSettings with_line_ends(std::string_view bytes,
     }
     const auto meaning = evidence.meaning();
     const Place place{.file = file, .byte = evidence.first_byte()};
-    const std::string choose = "choose what Line ends are under Source, or --line-ends separate or join";
+    const std::string choose = "set Line ends under Source, or use --line-ends separate or join";
     if (!meaning) {
         throw Error({.place = place,
-                     .message = fmt::format("the file does not show whether line ends between two digits "
-                                            "separate numbers or wrap them ({}, the first here)",
+                     .message = fmt::format("it is not clear from the file whether line ends between two "
+                                            "digits separate numbers or wrap them ({}, this is the first)",
                                             evidence.count()),
                      .hint = choose});
     }
     settings.line_ends = *meaning;
     if (*meaning == LineEnds::join || evidence.both_fit()) {
         notice = {.place = place,
-                  .message = fmt::format("line ends between two digits {} ({}, the first here)",
+                  .message = fmt::format("line ends between two digits {} ({}, this is the first)",
                                          *meaning == LineEnds::join ? "are read as wraps within numbers"
                                                                     : "are read as separators",
                                          evidence.count()),
@@ -272,7 +273,7 @@ std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& f
     for (const LeftOut& left_out : plot.left_out) {
         all.push_back(
             {.place = {.file = file, .byte = left_out.byte},
-             .message = fmt::format("{} {} left out: {}", left_out.count, left_out.name, left_out.why),
+             .message = fmt::format("{} {} ignored: {}", left_out.count, left_out.name, left_out.why),
              .hint = {}});
     }
     return all;
@@ -291,7 +292,7 @@ std::string read_pipe(const std::filesystem::path& file) {
         in.read(piece.data(), std::ssize(piece));
         bytes.append(piece.data(), static_cast<std::size_t>(in.gcount()));
         if (bytes.size() > most_bytes) {
-            throw Error("there is more than 1 GiB, the most that a plot may have", file);
+            throw Error("the plot is larger than 1 GiB, the maximum size", file);
         }
     }
     return bytes;
@@ -306,7 +307,7 @@ Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& set
         return read_hpgl(read_pipe(file), file, settings);
     }
     if (const std::uintmax_t size = std::filesystem::file_size(file, none); !none && size > most_bytes) {
-        throw Error(fmt::format("the file has {:.1f} GB; plots are read up to 1 GiB",
+        throw Error(fmt::format("the file has {:.1f} GB, but plots can be at most 1 GiB",
                                 1e-9 * static_cast<double>(size)),
                     file);
     }

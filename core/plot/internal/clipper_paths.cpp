@@ -21,7 +21,7 @@ ClipperLib::Paths to_clipper(const Region& region) {
         ClipperLib::Path& path = paths.emplace_back();
         for (const Vec2& p : ring) {
             if (!(p.cwiseAbs().maxCoeff() <= largest_mm)) {
-                throw Error("an outline has a point that is no number or farther away than 1 km");
+                throw Error("an outline has a point that is not a number or is farther than 1 km away");
             }
             path.emplace_back(std::llround(p.x() * units_per_mm), std::llround(p.y() * units_per_mm));
         }
@@ -43,7 +43,8 @@ Region from_clipper(const ClipperLib::Paths& paths) {
 ClipperLib::Paths
 offset_paths(const ClipperLib::Paths& paths, double distance, Corners corners, double arc_tolerance) {
     if (!(std::abs(distance) <= largest_mm) || !(arc_tolerance > 0.0)) {
-        throw Error(fmt::format("an offset of {} mm with arcs to {} mm", distance, arc_tolerance));
+        throw Error(fmt::format(
+            "an offset of {} mm with an arc tolerance of {} mm is not possible", distance, arc_tolerance));
     }
     ClipperLib::ClipperOffset clipper(miter_limit, arc_tolerance * units_per_mm);
     clipper.AddPaths(paths,

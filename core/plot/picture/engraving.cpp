@@ -18,7 +18,7 @@ constexpr double most_dots = 1e7;
 
 void check_dots(double count, double pitch) {
     if (!(count <= most_dots)) {
-        throw Error(fmt::format("dots {} mm apart are more than 10 million", pitch));
+        throw Error(fmt::format("dots {} mm apart would make more than 10 million dots", pitch));
     }
 }
 
@@ -68,8 +68,8 @@ struct DitherRow {
 } // namespace
 
 Strokes dithered(const Picture& picture, double pixel, const DitherSettings& settings, int pen) {
-    check_above_zero("a pitch", settings.pitch);
-    check_above_zero("a pixel", pixel);
+    check_above_zero("the pitch", settings.pitch);
+    check_above_zero("the pixel width", pixel);
     const Darkness darkness(picture, pixel);
     const double across = std::max(1.0, std::floor(darkness.width() / settings.pitch + 1e-9));
     const double down = std::max(1.0, std::floor(darkness.height() / settings.pitch + 1e-9));
@@ -109,14 +109,14 @@ Strokes dithered(const Picture& picture, double pixel, const DitherSettings& set
 }
 
 CutPath halftone(const Picture& picture, double pixel, const HalftoneSettings& settings) {
-    check_above_zero("a pitch", settings.pitch);
-    check_above_zero("a pixel", pixel);
-    check_above_zero("a plunging speed", settings.plunging);
+    check_above_zero("the pitch", settings.pitch);
+    check_above_zero("the pixel width", pixel);
+    check_above_zero("the plunge rate", settings.plunging);
     check_above_zero("a safe height", settings.safe_height);
     if (settings.tip.kind != TipKind::v && settings.tip.kind != TipKind::ball) {
-        throw Error(fmt::format("{} makes holes of one width only", to_text(settings.tip)),
+        throw Error(fmt::format("{} can only make holes of one width", to_text(settings.tip)),
                     {},
-                    "dots of several sizes need a V or a ball");
+                    "use a V or ball tool for dots of several sizes");
     }
     const Darkness darkness(picture, pixel);
     const Vec2 middle(darkness.width() / 2.0, darkness.height() / 2.0);

@@ -32,7 +32,7 @@ Extents cut_extents(const CutPath& path, const ToolTips& tips) {
         rim = std::max(rim, mouth_radius(tips.of(point.tool), -point.at.z()));
     }
     if (!(deepest > 0.0)) {
-        throw Error("the path cuts nothing");
+        throw Error("the path does not cut anything");
     }
     return {box->lower - Vec2(rim, rim), box->upper + Vec2(rim, rim)};
 }
@@ -120,7 +120,7 @@ HeightField
 finished_by(const CutPath& path, const ToolTips& tips, int longest_side, const Progress& progress) {
     constexpr int most = 10'000;
     if (longest_side < 1 || longest_side > most) {
-        throw Error(fmt::format("a picture of {} pixels; it can have 1 to {}", longest_side, most));
+        throw Error(fmt::format("the picture has {} pixels, but must have 1 to {}", longest_side, most));
     }
     const auto [lower, upper] = cut_extents(path, tips);
     const Vec2 size = upper - lower;
@@ -169,7 +169,10 @@ GrayImage shaded(const HeightField& field, double thickness) {
 
 GrayImage against_light(const HeightField& field, double thickness, double half_depth) {
     if (!(thickness > 0.0 && half_depth > 0.0) || !std::isfinite(thickness + half_depth)) {
-        throw Error(fmt::format("a plate of {} mm that halves the light each {} mm", thickness, half_depth));
+        throw Error(
+            fmt::format("a plate of {} mm in a material that halves the light every {} mm is not possible",
+                        thickness,
+                        half_depth));
     }
     GrayImage image = image_like(field);
     std::ranges::transform(field.z, image.pixels.begin(), [&](float z) {

@@ -10,10 +10,10 @@ namespace millwright::plot {
 HeightField height_field(const Picture& picture, double pitch, double depth) {
     constexpr double largest = 1e6;
     if (!(pitch > 0.0 && pitch < largest)) {
-        throw Error(fmt::format("pixels of {} mm; they have to be above 0", pitch));
+        throw Error(fmt::format("the pixel width is {} mm, but must be above 0", pitch));
     }
     if (!(depth > 0.0 && depth < largest)) {
-        throw Error(fmt::format("a depth of {} mm; it has to be above 0", depth));
+        throw Error(fmt::format("the depth is {} mm, but must be above 0", depth));
     }
     HeightField field{picture.width, picture.height, pitch, {}};
     field.z.reserve(picture.gray.size());

@@ -60,8 +60,8 @@ ReadPicture read_rows_of(std::string_view bytes,
     } else if (bytes.starts_with("P5") || bytes.starts_with("P6")) {
         internal::read_pnm_rows(bytes, sink);
     } else {
-        sink.fail(bytes.empty() ? "the file is empty" : "this is no picture that can be read",
-                  "PNG, JPEG, BMP, PGM and PPM files can be read");
+        sink.fail(bytes.empty() ? "the file is empty" : "the picture format is not supported",
+                  "use a PNG, JPEG, BMP, PGM or PPM file");
     }
     return sink.end(shape);
 }
@@ -80,7 +80,7 @@ void expect_in_range(const PictureSettings& settings) {
     constexpr double flattest = 0.05, highest = 20.0;
     expect_gray_steps(settings.gray_steps);
     if (!(settings.pixel_aspect >= flattest && settings.pixel_aspect <= highest)) {
-        throw Error(fmt::format("a pixel {} times as high as wide; it can be {} to {}",
+        throw Error(fmt::format("a pixel is {} times as high as wide, but must be {} to {} times",
                                 settings.pixel_aspect,
                                 flattest,
                                 highest));
@@ -92,9 +92,9 @@ void expect_in_range(const PictureSettings& settings) {
 void expect_gray_steps(int steps) {
     constexpr int most_steps = 256;
     if (steps != 0 && (steps < 2 || steps > most_steps)) {
-        throw Error(fmt::format("{} gray steps are not possible", steps),
+        throw Error(fmt::format("{} gray levels are not possible", steps),
                     {},
-                    fmt::format("2 to {}, or 0: the picture as it is", most_steps));
+                    fmt::format("use 2 to {}, or 0 for the picture as it is", most_steps));
     }
 }
 

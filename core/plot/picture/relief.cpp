@@ -22,18 +22,18 @@ using internal::TipSurface;
 constexpr double most_points = 1e8;
 
 void check_relief_settings(const ReliefSettings& settings) {
-    check_above_zero("a cutting speed", settings.cutting);
-    check_above_zero("a plunging speed", settings.plunging);
-    check_above_zero("a safe height", settings.safe_height);
-    check_not_below_zero("a tolerance", settings.merge_tolerance);
+    check_above_zero("the cutting speed", settings.cutting);
+    check_above_zero("the plunge rate", settings.plunging);
+    check_above_zero("the safe height", settings.safe_height);
+    check_not_below_zero("the tolerance", settings.merge_tolerance);
     if (settings.step_over) {
-        check_above_zero("a step-over", *settings.step_over);
+        check_above_zero("the step-over", *settings.step_over);
     }
     if (settings.roughing) {
-        check_above_zero("a depth per pass", settings.roughing->depth_per_pass);
-        check_not_below_zero("an allowance", settings.roughing->allowance);
+        check_above_zero("the depth per pass", settings.roughing->depth_per_pass);
+        check_not_below_zero("the stock left by roughing", settings.roughing->allowance);
         if (settings.roughing->step_over) {
-            check_above_zero("a step-over", *settings.roughing->step_over);
+            check_above_zero("the step-over", *settings.roughing->step_over);
         }
     }
 }
@@ -43,11 +43,11 @@ std::vector<double> rows_of(const HeightField& field, double step) {
     const double height = field.y_of_row(0);
     const double count = std::ceil(height / step - 1e-9);
     if (count * field.columns > most_points) {
-        throw Error(fmt::format("a step-over of {} mm makes more than {:.0f} million points",
+        throw Error(fmt::format("a step-over of {} mm needs more than {:.0f} million points",
                                 step,
                                 most_points / 1e6),
                     {},
-                    "take a larger one, a part of the picture, or fewer pixels");
+                    "use a larger step-over, part of the picture, or fewer pixels");
     }
     std::vector<double> rows;
     for (double n = 0.0; n < count; n += 1.0) {
@@ -184,7 +184,7 @@ CutPath relief(const HeightField& field, const ReliefSettings& settings, const P
         constexpr double most_passes = 1000.0;
         if (count > most_passes) {
             throw Error(
-                fmt::format("a depth per pass of {} mm makes {:.0f} passes", roughing.depth_per_pass, count));
+                fmt::format("a depth per pass of {} mm needs {:.0f} passes", roughing.depth_per_pass, count));
         }
         for (double pass = 1.0; pass <= count; pass += 1.0) {
             const double floor = std::max(-pass * roughing.depth_per_pass, bottom);
@@ -201,8 +201,8 @@ CutPath relief(const HeightField& field, const ReliefSettings& settings, const P
 }
 
 Stroke frame(const HeightField& field, double tool_diameter, double margin) {
-    check_above_zero("a tool", tool_diameter);
-    check_not_below_zero("a margin", margin);
+    check_above_zero("the tool diameter", tool_diameter);
+    check_not_below_zero("the margin", margin);
     const double off = field.pitch / 2.0 + margin + tool_diameter / 2.0;
     const Vec2 low(-off, -off);
     const Vec2 high = Vec2((field.columns - 1) * field.pitch, field.y_of_row(0)) + Vec2(off, off);

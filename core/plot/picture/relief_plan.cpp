@@ -24,25 +24,26 @@ void expect_tabs_fit(const Tabs& tabs, double plate, double around, double tool)
         return;
     }
     if (tabs.height > plate) {
-        throw Error(
-            fmt::format("the frame: tabs of {:.6g} mm stand above a plate of {:.6g} mm", tabs.height, plate));
+        throw Error(fmt::format(
+            "frame: tabs of {:.6g} mm are higher than the plate of {:.6g} mm", tabs.height, plate));
     }
     if (!(tabs.count * (tabs.width + tool) < around)) {
-        throw Error(fmt::format("the frame: {} of {:.6g} mm do not fit on a way of {:.6g} mm around it: "
-                                "each takes {:.6g} mm more, the width of the tool",
+        throw Error(fmt::format("frame: {} of {:.6g} mm do not fit on a path of {:.6g} mm around it: each "
+                                "also needs {:.6g} mm, the width of the tool",
                                 counted(tabs.count, "tab"),
                                 tabs.width,
                                 around,
                                 tool),
                     {},
-                    "fewer or narrower tabs");
+                    "use fewer or narrower tabs");
     }
 }
 
 CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     const ReliefSettings& relief = plan.relief;
     if (relief.tip.kind == TipKind::point) {
-        throw Error("a point without a diameter cuts no frame", {}, "name the tool, as ball:1.0");
+        throw Error(
+            "a point tool without a diameter cannot cut a frame", {}, "give the tool, such as ball:1.0");
     }
     Level level;
     const double below = plan.through ? taper_of(relief.tip) : 0.0;
@@ -71,9 +72,11 @@ void check_depth(const CutPath& path, double plate) {
     }
     constexpr double rounding = 1e-5; // of heights in single precision
     if (deepest > plate + rounding) {
-        throw Error(fmt::format("the relief is {:.3f} mm deep and the plate {:.3f} mm thick", deepest, plate),
+        throw Error(fmt::format("the relief is {:.3f} mm deep, but the plate is only {:.3f} mm thick",
+                                deepest,
+                                plate),
                     {},
-                    "less depth or a thicker plate");
+                    "use less depth or a thicker plate");
     }
 }
 
@@ -105,21 +108,19 @@ std::optional<Diagnostic> frame_notice(const ReliefPlan& plan) {
         return std::nullopt;
     }
     if (plan.through) {
-        return Diagnostic{
-            {},
-            fmt::format("the frame goes to {:.3f} mm, {:.3f} mm below the plate, so that the tool "
-                        "has its whole width at the underside",
-                        *plan.plate + below,
-                        below),
-            "lay something under the plate that may be cut"};
+        return Diagnostic{{},
+                          fmt::format("the frame is cut to {:.3f} mm, {:.3f} mm below the plate, so that the "
+                                      "tool has its full width at the underside",
+                                      *plan.plate + below,
+                                      below),
+                          "put a sacrificial board under the plate"};
     }
     return Diagnostic{{},
-                      fmt::format("the tip of the tool has no width at the underside of the plate: there a "
-                                  "flange of up to {:.3f} mm stays around the part",
+                      fmt::format("the tip of the tool has no width at the underside of the plate: a flange "
+                                  "of up to {:.3f} mm remains there around the part",
                                   radius(plan.relief.tip)),
-                      fmt::format("take a flat tool, or let cuts go through the plate (Through under Work, "
-                                  "--through): {:.3f} mm deeper the "
-                                  "part is free to its full size",
+                      fmt::format("use a flat tool, or cut through the plate (Through under Work, "
+                                  "--through): {:.3f} mm deeper cuts the part out at its full size",
                                   below)};
 }
 

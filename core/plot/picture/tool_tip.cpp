@@ -34,7 +34,7 @@ double positive_number(std::string_view part, double most, std::string_view whol
     double value = 0.0;
     const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
     if (fault != std::errc() || end != part.data() + part.size() || !(value > 0.0 && value < most)) {
-        throw Error(fmt::format("the tool '{}': '{}' is no number above 0 and below {}", whole, part, most));
+        throw Error(fmt::format("tool '{}': '{}' is not a number above 0 and below {}", whole, part, most));
     }
     return value;
 }
@@ -91,7 +91,7 @@ void read_end(std::string_view part, std::string_view whole, ToolTip& tip) {
     const double wide = tip.end_width + 2.0 * rounding_of(tip).distance;
     if (!(wide < tip.diameter)) {
         throw Error(fmt::format(
-            "the tool '{}': its end is {} mm wide, as wide as the tool or wider", whole, shortest(wide)));
+            "tool '{}': its end of {} mm is as wide as the tool or wider", whole, shortest(wide)));
     }
 }
 
@@ -171,7 +171,8 @@ ToolTip parse_tool_tip(std::string_view text) {
         }
         return tip;
     }
-    throw Error(fmt::format("'{}' is no tool", text), {}, "ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point");
+    throw Error(
+        fmt::format("'{}' is not a tool", text), {}, "use ball:MM, flat:MM, v:DEGREES[:MM[:END]] or point");
 }
 
 std::string to_text(const ToolTip& tip) {

@@ -19,14 +19,14 @@ constexpr double smoothest = 4.0 / 3.0; // alphamax beyond which no corner is le
 void check_trace_settings(const TraceSettings& settings) {
     const auto within = [](const char* name, double value, double most) {
         if (!(value >= 0.0 && value <= most)) {
-            throw Error(fmt::format("{} of {}; it has to be from 0 to {:.4g}", name, value, most));
+            throw Error(fmt::format("{} is {}, but must be from 0 to {:.4g}", name, value, most));
         }
     };
     constexpr double coarsest = 5.0;
-    within("a threshold", settings.threshold, 1.0);
-    within("speckles", settings.speckle, INT_MAX);
-    within("a corner", settings.corner, smoothest + 1e-3);
-    within("a tolerance", settings.tolerance, coarsest);
+    within("the threshold", settings.threshold, 1.0);
+    within("the speckle size", settings.speckle, INT_MAX);
+    within("the corner smoothing", settings.corner, smoothest + 1e-3);
+    within("the tolerance", settings.tolerance, coarsest);
 }
 
 /// One bit a pixel, set where the picture is dark; scan lines from below, as potrace has them.
@@ -138,7 +138,7 @@ std::vector<TracedPath> trace(const Picture& picture, const TraceSettings& setti
     const std::unique_ptr<potrace_state_t, decltype(&potrace_state_free)> found(
         potrace_trace(parameters.get(), &bits.map()), &potrace_state_free);
     if (!found || found->status != POTRACE_STATUS_OK) {
-        throw Error("the picture cannot be traced: there is not enough memory");
+        throw Error("the picture cannot be traced: not enough memory");
     }
     std::vector<TracedPath> paths;
     for (const potrace_path_t* path = found->plist; path != nullptr; path = path->next) {
@@ -149,7 +149,8 @@ std::vector<TracedPath> trace(const Picture& picture, const TraceSettings& setti
 
 Strokes strokes_of(const std::vector<TracedPath>& paths, double pitch, double tolerance, int pen) {
     if (!(pitch > 0.0 && tolerance > 0.0) || !std::isfinite(pitch + tolerance)) {
-        throw Error(fmt::format("chords within {} mm of curves in pixels of {} mm", tolerance, pitch));
+        throw Error(fmt::format(
+            "chords within {} mm of the curves are not possible with pixels of {} mm", tolerance, pitch));
     }
     Strokes strokes;
     for (const TracedPath& path : paths) {

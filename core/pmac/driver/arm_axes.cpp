@@ -23,7 +23,7 @@ PmacSettings arm_settings_of(std::string_view axes) {
 
 PmacSettings within_limits(PmacSettings settings, const arm::ArmModel& arm) {
     if (arm.joint_count() < std::ssize(settings.axes)) {
-        throw Error(fmt::format("the card moves {}, and arm '{}' has {}",
+        throw Error(fmt::format("the card drives {}, but arm '{}' has {}",
                                 counted(settings.axes.size(), "axis", "axes"),
                                 arm.name(),
                                 counted(arm.joint_count(), "joint")));
@@ -31,8 +31,10 @@ PmacSettings within_limits(PmacSettings settings, const arm::ArmModel& arm) {
     for (std::size_t n = 0; n < settings.axes.size(); ++n) {
         const arm::ArmJoint& joint = arm.joint(static_cast<int>(n));
         if (joint.kind != arm::JointKind::revolute) {
-            throw Error(
-                fmt::format("joint {} of arm '{}' slides, and the card's axes turn", joint.name, arm.name()));
+            throw Error(fmt::format(
+                "joint {} of arm '{}' is a sliding joint, but the card can only drive rotary axes",
+                joint.name,
+                arm.name()));
         }
         const auto limit = [](double angle) {
             return std::isfinite(angle) ? std::optional(to_degrees(angle)) : std::nullopt;

@@ -136,24 +136,23 @@ std::vector<Assignment> assignments_of(std::string_view text) {
 std::string refused_setting(const Assignment& one) {
     constexpr int plcs = 5, interrupts = 8, servo_time = 10;
     if (one.computed) {
-        return "which I-variable it sets is computed, and could be one that the guard needs";
+        return "the number of the I-variable is computed, so it could be one that the guard needs";
     }
     if (one.covers(plcs, plcs)) {
         constexpr int background = 2, values = 4;
         const bool whole = one.value && *one.value >= 0.0 && *one.value < 1e6;
         if (!whole || (static_cast<int>(*one.value) % values & background) == 0) {
-            return "the guard is PLC 31, which runs with I5 = 2 or 3 only";
+            return "the guard is PLC 31, which runs only with I5 = 2 or 3";
         }
     }
     if (one.covers(interrupts, interrupts)) {
         constexpr double most = 15.0; // 7 ms between two looks, with the factory's servo time
         if (!one.value || !(*one.value >= 0.0 && *one.value <= most)) {
-            return "the guard must run every few milliseconds: I8 = 0 to 15";
+            return "the guard must run every few milliseconds: use I8 = 0 to 15";
         }
     }
-    return one.covers(servo_time, servo_time)
-               ? "the guard counts servo cycles, which last as long as I10 says"
-               : "";
+    return one.covers(servo_time, servo_time) ? "the guard counts servo cycles, whose length is set by I10"
+                                              : "";
 }
 
 /// Of DISABLE PLC {list}, behind those words.
@@ -203,9 +202,9 @@ std::string guard_refusal(std::string_view line) {
                 return why;
             }
         } else if (one.letter == 'P' && one.covers(first_own, last_own_p)) {
-            return "P1000 to P1006 are the guard's";
+            return "P1000 to P1006 are reserved for the guard";
         } else if (one.letter == 'M' && one.covers(first_own, last_own_m)) {
-            return "M1000 to M1008 are the guard's";
+            return "M1000 to M1008 are reserved for the guard";
         }
     }
     return "";

@@ -14,7 +14,7 @@ std::string with_places(const std::string& said, const PmacFile& file, std::stri
         const std::size_t end = std::min(said.find('\n', begin), said.size());
         const std::string sentence = said.substr(begin, end - begin);
         const auto refused = std::find_if(next, file.lines.end(), [&](const PmacFile::Line& line) {
-            return sentence.starts_with("'" + line.text + "' is refused");
+            return sentence.starts_with("'" + line.text + "' is rejected");
         });
         if (refused != file.lines.end()) {
             placed += fmt::format("{}{}: ", before, refused->number);

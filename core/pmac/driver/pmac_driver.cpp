@@ -34,13 +34,13 @@ PmacSettings checked_settings(PmacSettings settings) {
                            axis.motor >= 1 && axis.motor <= 8 && std::isfinite(axis.counts_per_degree) &&
                            axis.counts_per_degree > 0.0 && axis.jog_deg_per_s > 0.0;
         if (!sound || !letters.insert(axis.letter).second || !motors.insert(axis.motor).second) {
-            throw Error(std::string("a PMAC cannot have this axis ") + axis.letter,
+            throw Error(std::string("a PMAC does not support this axis ") + axis.letter,
                         {},
-                        "letters out of XYZABCUVW and motors 1 to 8, each once; a positive scale");
+                        "use letters from XYZABCUVW and motors 1 to 8, each once, with a positive scale");
         }
     }
     if (settings.axes.empty() || settings.system < 1 || settings.system > 8) {
-        throw Error("a PMAC moves one to eight axes in the coordinate systems 1 to 8");
+        throw Error("a PMAC can move one to eight axes in the coordinate systems 1 to 8");
     }
     return settings;
 }

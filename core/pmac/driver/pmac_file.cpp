@@ -89,9 +89,10 @@ public:
         const std::string text = bare(raw);
         for (std::size_t n = 0; n < text.size(); ++n) {
             if ((text[n] < ' ' && text[n] != '\t') || text[n] > '~') {
-                throw Error(Diagnostic{{file_, line, static_cast<int>(n) + 1},
-                                       "a PMAC's commands are plain text",
-                                       "control characters act at once and are not sent from files"});
+                throw Error(Diagnostic{
+                    {file_, line, static_cast<int>(n) + 1},
+                    "PMAC commands must be plain text",
+                    "remove control characters: they act immediately and are not sent from files"});
             }
         }
         if (text.empty()) {
@@ -109,11 +110,11 @@ public:
         if (!sets_something(tight)) {
             ++result_.left_out;
             if (tight.find_first_not_of("0123456789.+-") == std::string::npos) {
-                omit(line, fmt::format("{} is left out: a number alone sets P0", text), "write P0=" + text);
+                omit(line, fmt::format("{} is skipped: a number alone sets P0", text), "write P0=" + text);
             } else {
                 omit(line,
-                     fmt::format("{} is left out: it sets nothing", text),
-                     "a file of settings moves no motor");
+                     fmt::format("{} is skipped: it does not set anything", text),
+                     "use only settings: a settings file must not move motors");
             }
             return;
         }
@@ -163,17 +164,18 @@ private:
         if (!why.empty() && (open_ || tight.starts_with("OPEN"))) {
             throw Error(Diagnostic{
                 {file_, line, 1},
-                fmt::format("'{}' would weaken the guard that stops the motors when the link is lost", text),
+                fmt::format("'{}' would weaken the guard that stops the motors when the connection is lost",
+                            text),
                 why});
         }
         if (!why.empty()) {
             omit(line,
-                 fmt::format(
-                     "{} is left out: it would weaken the guard that stops the motors when the link is lost",
-                     text),
+                 fmt::format("{} is skipped: it would weaken the guard that stops the motors when the "
+                             "connection is lost",
+                             text),
                  why);
         } else if (sets_handshake(text)) {
-            omit(line, fmt::format("{} is left out: the hand-shake is the driver's", text), {});
+            omit(line, fmt::format("{} is skipped: the handshake is controlled by the driver", text), {});
         } else {
             return false;
         }
@@ -189,14 +191,14 @@ private:
         constexpr double beyond_words = 1 << 24; // of the card
         if (!(std::abs(setting.value) < beyond_words)) {
             throw Error(Diagnostic{{file_, line, 1},
-                                   fmt::format("'{}': no setting of the card has more than 24 bits", text),
-                                   "is there a digit too many?"});
+                                   fmt::format("'{}': settings of the card have at most 24 bits", text),
+                                   "check for an extra digit"});
         }
         const double range = range_of(setting.variable);
         if (range > 0.0 && !(setting.value >= 0.0 && setting.value < range)) {
             warn(line,
-                 fmt::format("{}: the card rolls this over without a word", text),
-                 fmt::format("0 to {:.0f}", range - 1.0));
+                 fmt::format("{}: the card wraps this value around without an error", text),
+                 fmt::format("use 0 to {:.0f}", range - 1.0));
         }
         values_[setting.variable] = {setting.value, line};
     }
@@ -208,22 +210,22 @@ private:
         }
         if (variable % hundred == 11 && !(last.value > 0.0)) {
             warn(last.line,
-                 fmt::format("I{}=0: motor {} is not stopped by a following error", variable, motor),
+                 fmt::format("I{}=0: a following error does not stop motor {}", variable, motor),
                  "32000 are 2000 counts");
         }
         const bool limit = variable % hundred == 13 || variable % hundred == 14;
         if (limit && !(std::abs(last.value) > 0.0)) {
             warn(last.line,
-                 fmt::format("I{}=0: the card keeps motor {} within no position limit", variable, motor),
-                 "counts of the joint's limit");
+                 fmt::format("I{}=0: the card has no position limit for motor {}", variable, motor),
+                 "set the counts of the joint's limit");
         }
         if (variable % hundred != 25) {
             return;
         }
         constexpr std::array<std::pair<int, std::string_view>, 3> parts{
             {{16, "its amplifier is never disabled"},
-             {17, "its limit switches are not looked at"},
-             {20, "a fault of its amplifier is not looked at"}}};
+             {17, "its limit switches are ignored"},
+             {20, "a fault of its amplifier is ignored"}}};
         const auto bits = static_cast<std::int64_t>(last.value);
         for (const auto& [bit, what] : parts) {
             if ((bits >> bit & 1) != 0) {
@@ -259,24 +261,25 @@ std::vector<PmacFile::Line> read_pmac_program(std::string_view text, const std::
 }
 
 std::string_view pmac_error(int number) {
-    constexpr std::array<std::string_view, 18> words{"",
-                                                     "not while a program runs",
-                                                     "a password is set",
-                                                     "no such command, or wrong data",
-                                                     "a character that is none",
-                                                     "no buffer is open",
-                                                     "no room in the buffer",
-                                                     "a buffer is open already",
-                                                     "auxiliary communication failed",
-                                                     "the program's structure is wrong",
-                                                     "a motor is at both of its limits",
-                                                     "the move before is not finished",
-                                                     "a motor's loop is open",
-                                                     "a motor is not activated",
-                                                     "no motor is in the coordinate system",
-                                                     "there is no such program",
-                                                     "the program is badly structured",
-                                                     "the motors are not where they were held"};
+    constexpr std::array<std::string_view, 18> words{
+        "",
+        "not allowed while a program runs",
+        "a password is set",
+        "no such command, or invalid data",
+        "invalid character",
+        "no buffer is open",
+        "buffer full",
+        "a buffer is already open",
+        "auxiliary communication failed",
+        "invalid program structure",
+        "a motor is at both of its limits",
+        "the previous move is not finished",
+        "a motor is in open loop",
+        "a motor is not activated",
+        "no motor is in the coordinate system",
+        "there is no such program",
+        "invalid program structure",
+        "the motors are not at the position where they were held"};
     return number >= 0 && number < std::ssize(words) ? words[static_cast<std::size_t>(number)] : "";
 }
 

@@ -24,9 +24,9 @@ void refuse_undriven(const motion::Trajectory& motion, Eigen::Index driven, doub
         const kinematics::AxisPositions at = motion.at(time).position;
         for (Eigen::Index n = driven; n < at.size(); ++n) {
             if (std::abs(at[n] - start[n]) > still) {
-                throw Error(fmt::format("joint {} would have to move, and the card does not drive it", n + 1),
+                throw Error(fmt::format("joint {} would have to move, but the card does not drive it", n + 1),
                             {},
-                            "teach points with the same joint there");
+                            "teach points with the same position of this joint");
             }
         }
     }
@@ -108,12 +108,12 @@ pmac_program(const motion::Trajectory& motion, const PmacSettings& settings, dou
     const Places places = places_of(motion, driven, steps);
     const std::vector<int> ends = ends_of_moves(places, settings);
     if (std::ssize(ends) > most_pmac_moves) {
-        throw Error(fmt::format("the motion of {:.0f} s takes {} moves of the card, and its memory holds {}",
+        throw Error(fmt::format("the motion of {:.0f} s needs {} moves, but the card's memory holds only {}",
                                 motion.duration(),
                                 ends.size(),
                                 most_pmac_moves),
                     {},
-                    "send it in parts, or with a wider tolerance");
+                    "send it in parts, or use a larger tolerance");
     }
     std::string axes;
     for (const PmacAxis& axis : settings.axes) {

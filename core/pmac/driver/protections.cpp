@@ -50,8 +50,8 @@ std::vector<std::string> protections_off(const std::vector<MotorProtections>& mo
     const std::vector<Protection> all{
         {[](const MotorProtections& m) { return !(m.fatal_following_error > 0.0); },
          11,
-         "is not stopped when it does not follow",
-         "are not stopped when they do not follow",
+         "has no following-error limit and is not stopped by it",
+         "have no following-error limit and are not stopped by it",
          "= 0"},
         {[](const MotorProtections& m) { return is_off(m.upper_limit); },
          13,
@@ -65,18 +65,18 @@ std::vector<std::string> protections_off(const std::vector<MotorProtections>& mo
          "= 0"},
         {[](const MotorProtections& m) { return has_bit(m, amplifier_bit); },
          25,
-         "keeps its amplifier enabled even when it is killed",
-         "keep their amplifiers enabled even when they are killed",
+         "keeps its amplifier enabled even if it is killed",
+         "keep their amplifiers enabled even if they are killed",
          "bit 16"},
         {[](const MotorProtections& m) { return has_bit(m, switches_bit); },
          25,
-         "runs through its limit switches, which are not looked at",
-         "run through their limit switches, which are not looked at",
+         "runs through its limit switches, which are ignored",
+         "run through their limit switches, which are ignored",
          "bit 17"},
         {[](const MotorProtections& m) { return has_bit(m, fault_bit); },
          25,
-         "goes on when its amplifier reports a fault",
-         "go on when their amplifiers report a fault",
+         "continues if its amplifier reports a fault",
+         "continue if their amplifiers report a fault",
          "bit 20"}};
     std::vector<std::string> sentences;
     for (const Protection& protection : all) {
@@ -98,7 +98,7 @@ std::vector<std::string> protections_off(const std::vector<MotorProtections>& mo
 }
 
 std::string protections_notice(const std::vector<std::string>& off) {
-    std::string text = off.empty() ? "" : "Protections are off in the card:";
+    std::string text = off.empty() ? "" : "Protections disabled in the card:";
     for (const std::string& sentence : off) {
         text += "\n" + sentence;
     }

@@ -34,20 +34,20 @@ public:
         } else if (one.verb == Verb::end_if || one.verb == Verb::end_while) {
             const Verb begin = one.verb == Verb::end_if ? Verb::if_true : Verb::while_true;
             if (open_.empty() || open_.back().verb != begin) {
-                faults.push_back(at_line(named_, line, "this ends nothing that was begun"));
+                faults.push_back(at_line(named_, line, "this does not end any open block"));
             } else {
                 open_.pop_back();
             }
         } else if (one.verb == Verb::otherwise && (open_.empty() || open_.back().verb != Verb::if_true)) {
-            faults.push_back(at_line(named_, line, "this ELSE has no IF"));
+            faults.push_back(at_line(named_, line, "this ELSE has no matching IF"));
         }
     }
     void end(std::vector<Diagnostic>& faults) const {
         for (const Begin& one : open_) {
-            faults.push_back(
-                at_line(named_,
-                        one.line,
-                        one.verb == Verb::if_true ? "this IF has no ENDIF" : "this WHILE has no ENDWHILE"));
+            faults.push_back(at_line(named_,
+                                     one.line,
+                                     one.verb == Verb::if_true ? "this IF has no matching ENDIF"
+                                                               : "this WHILE has no matching ENDWHILE"));
         }
     }
 
@@ -66,7 +66,7 @@ std::string why_none(std::string_view line) {
                        std::equal(buffers.begin(), buffers.end(), line.begin(), [](char a, char b) {
                            return a == b || (b >= 'a' && b <= 'z' && a == b - 'a' + 'A');
                        });
-    return opens ? "the buffer is opened, cleared and closed by itself" : "";
+    return opens ? "leave it out: the buffer is opened, cleared and closed automatically" : "";
 }
 
 /// The card with the axes of the settings, at rest where they begin.
@@ -147,7 +147,7 @@ bool load(Bench& bench,
         }
     }
     if (const std::string error = bench.say("CLOSE"); !error.empty()) {
-        faults.push_back(at_line(named, 0, "a loop or a condition has no end"));
+        faults.push_back(at_line(named, 0, "a loop or a condition is not closed"));
     }
     return faults.empty();
 }
@@ -167,7 +167,7 @@ std::optional<Diagnostic> beyond_limits(const MotionRecord& record,
                 card.arm ? " (joint " + card.arm->joint(static_cast<int>(n)).name + ")" : std::string();
             return at_line(named,
                            0,
-                           fmt::format("{}{} leaves its limits after {:.1f} s: it ends at {:.4g} degrees",
+                           fmt::format("{}{} exceeds its limits after {:.1f} s: it ends at {:.4g} degrees",
                                        axes[n].letter,
                                        joint,
                                        record.time,
@@ -275,7 +275,7 @@ std::vector<Diagnostic> motion_program_faults(std::string_view text, const std::
         if (!statements) {
             faults.push_back(at_line(named,
                                      line.number,
-                                     fmt::format("'{}' is no line of a motion program", line.text),
+                                     fmt::format("'{}' is not a line of a motion program", line.text),
                                      why_none(line.text)));
             continue;
         }
@@ -283,17 +283,18 @@ std::vector<Diagnostic> motion_program_faults(std::string_view text, const std::
             blocks.take(one, line.number, faults);
         }
         if (const std::string why = guard_refusal(line.text); !why.empty()) {
-            faults.push_back(
-                at_line(named,
-                        line.number,
-                        fmt::format("'{}' would weaken the guard that stops the motors when the link is lost",
-                                    line.text),
-                        why));
+            faults.push_back(at_line(
+                named,
+                line.number,
+                fmt::format("'{}' would weaken the guard that stops the motors when the connection is lost",
+                            line.text),
+                why));
         } else if (sets_handshake(line.text)) {
             faults.push_back(
                 at_line(named,
                         line.number,
-                        fmt::format("'{}' would change the hand-shake, which is the driver's", line.text)));
+                        fmt::format("'{}' would change the handshake, which is controlled by the driver",
+                                    line.text)));
         }
     }
     blocks.end(faults);
@@ -333,7 +334,7 @@ MotionSimulation simulate_motion_program(std::string_view text,
     }
     if (const std::string error = run(bench, named, settings, progress, result); !error.empty()) {
         result.faults.push_back(
-            at_line(named, lines.front().number, "the card does not begin it: ERR" + error));
+            at_line(named, lines.front().number, "the card does not start it: ERR" + error));
         return result;
     }
     if (result.beyond_limits) {
@@ -343,8 +344,11 @@ MotionSimulation simulate_motion_program(std::string_view text,
     } else if (bench.broke_off()) {
         result.faults.push_back(at_line(named, 0, "the card ends the program with a run-time error"));
     } else if (bench.runs()) {
-        result.faults.push_back(at_line(
-            named, 0, fmt::format("the program still runs after {:.0f} s: does it end?", settings.longest)));
+        result.faults.push_back(
+            at_line(named,
+                    0,
+                    fmt::format("the program is still running after {:.0f} s: check that it ends",
+                                settings.longest)));
     }
     return result;
 }

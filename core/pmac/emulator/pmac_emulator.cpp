@@ -27,7 +27,7 @@ public:
 
 PmacEmulator::PmacEmulator(PmacEmulatorOptions options) {
     if (options.channels != 4 && options.channels != 8) {
-        throw Error("a PMAC has 4 or 8 channels");
+        throw Error("a PMAC must have 4 or 8 channels");
     }
     body_ = std::make_unique<Body>(options);
 }

@@ -84,9 +84,9 @@ public:
             serve_interrupt();
             look();
             if (buffer_.runs && !card_.program_runs(1)) {
-                throw Error("the card has ended its program",
+                throw Error("the card ended its program",
                             {},
-                            "a following error or a limit: choose a lower speed");
+                            "check for a following error or a limit, and choose a lower speed");
             }
         }
     }
@@ -184,15 +184,15 @@ private:
 
 SharedMemoryStream::SharedMemoryStream(std::vector<Point> points, double deg_per_s) {
     if (points.empty()) {
-        throw Error("there is no point to stream");
+        throw Error("there are no points to stream");
     }
     expects(deg_per_s > 0.0, "a speed is above 0");
     for (const Point& point : points) {
         for (const double value : point) {
             if (!(std::abs(value) * words_per_degree <= largest_word)) {
-                throw Error(fmt::format("{} degrees do not fit a word of the card", value),
+                throw Error(fmt::format("{} degrees do not fit into a word of the card", value),
                             {},
-                            fmt::format("up to {:.3f}", largest_word / words_per_degree));
+                            fmt::format("use up to {:.3f}", largest_word / words_per_degree));
             }
         }
     }

@@ -26,8 +26,11 @@ std::vector<double> numbers_for(const CardTalk& card, const std::string& line, s
         at = stop == end ? end : stop + 1;
     }
     if (at != end || numbers.size() != count) {
-        throw Error(fmt::format(
-            "the card answers '{}' to {}, and not {} number{}", answer, line, count, count == 1 ? "" : "s"));
+        throw Error(fmt::format("the card answers '{}' to {} instead of {} number{}",
+                                answer,
+                                line,
+                                count,
+                                count == 1 ? "" : "s"));
     }
     return numbers;
 }
@@ -49,7 +52,7 @@ MotorState motor_state(const CardTalk& card, int motor) {
     const char* const end = words.data() + words.size();
     const auto read = std::from_chars(words.data(), end, bits, hexadecimal);
     if (words.size() != digits || read.ec != std::errc{} || read.ptr != end) {
-        throw Error(fmt::format("the card answers '{}' to {}, and not two status words", words, line));
+        throw Error(fmt::format("the card answers '{}' to {} instead of two status words", words, line));
     }
     return {.powered = (bits >> amplifier_enabled & 1U) != 0, .standing = (bits >> velocity_zero & 1U) != 0};
 }

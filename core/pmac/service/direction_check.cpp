@@ -17,7 +17,7 @@ constexpr double per_ms = 1000.0;
 
 void require_power(const CardTalk& card, int motor) {
     if (!(std::abs(motor_variable(card, motor, active)) > 0.0)) {
-        throw Error(fmt::format("motor {} is not there (I{}00=0)", motor, motor));
+        throw Error(fmt::format("motor {} is not active (I{}00=0)", motor, motor));
     }
     bool powered = motor_state(card, motor).powered;
     if (!powered) { // where it was just lost, whoever watches the card then says by what
@@ -26,9 +26,9 @@ void require_power(const CardTalk& card, int motor) {
         powered = motor_state(card, motor).powered;
     }
     if (!powered) { // a jog would give it power
-        throw Error(fmt::format("motor {} has no power", motor),
+        throw Error(fmt::format("motor {} is disabled", motor),
                     {},
-                    "look at the arm, then --power closes the loops of its motors");
+                    "inspect the arm, then enable its motors with --power");
     }
 }
 
@@ -40,9 +40,11 @@ void read_axis(const CardTalk& card, int motor, DirectionFound& found) {
     const bool whole = read.ec == std::errc{} && end - read.ptr == 1 &&
                        std::string_view("XYZABCUVW").find(*read.ptr) != std::string_view::npos;
     if (!whole || !(std::abs(found.scale) > 0.0)) {
-        throw Error(fmt::format("motor {} moves no axis of coordinate system 1 by itself: '{}'", motor, told),
+        throw Error(fmt::format("motor {} does not move an axis of coordinate system 1 on its own: '{}'",
+                                motor,
+                                told),
                     {},
-                    "define one, as #1->120X");
+                    "define an axis, such as #1->120X");
     }
     found.axis = *read.ptr;
 }

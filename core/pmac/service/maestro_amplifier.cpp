@@ -11,13 +11,13 @@ namespace {
 
 void expect_amperes(double value) {
     if (!(value > 0.0 && std::isfinite(value))) {
-        throw Error("the current has to be above 0 A");
+        throw Error("the current must be above 0 A");
     }
 }
 
 double volts(double max_rpm, double tacho) {
     if (!(max_rpm > 0.0 && tacho > 0.0 && std::isfinite(max_rpm * tacho))) {
-        throw Error("the speed and the tachometer's constant have to be above 0");
+        throw Error("the speed and the tachometer constant must be above 0");
     }
     return max_rpm / 1000.0 * tacho;
 }

@@ -107,17 +107,15 @@ private:
         borrowed_.kill();
         await_rest();
         if (farthest_ > search_.most_way) {
-            throw Error(
-                fmt::format("motor {} went {:.0f} counts, and {:.0f} were allowed",
-                            motor_,
-                            farthest_,
-                            search_.most_way),
-                {},
-                fmt::format(
-                    "begin with an offset nearer to standstill, allow a longer way, or turn the sense "
-                    "of its encoder (I{:03}): where that is wrong the search goes ever faster the "
-                    "wrong way",
-                    895 + 5 * motor_));
+            throw Error(fmt::format("motor {} moved {:.0f} counts, but only {:.0f} were allowed",
+                                    motor_,
+                                    farthest_,
+                                    search_.most_way),
+                        {},
+                        fmt::format("start with an offset closer to standstill, allow a longer travel, or "
+                                    "reverse the direction of its encoder (I{:03}): if that is wrong, the "
+                                    "search moves faster and faster the wrong way",
+                                    895 + 5 * motor_));
         }
         return seen;
     }
@@ -140,12 +138,12 @@ private:
     int moving(int offset, int sense) {
         for (int step = 1; direction(offset) != sense; step *= 2) {
             if (std::abs(offset) >= limit_) {
-                throw Error(fmt::format("motor {} does not go {} with any offset up to {} bits (Ix69)",
+                throw Error(fmt::format("motor {} does not move {} with any offset up to {} bits (Ix69)",
                                         motor_,
-                                        sense > 0 ? "forward" : "back",
+                                        sense > 0 ? "forward" : "backward",
                                         limit_),
                             {},
-                            "look at power, encoder and direction");
+                            "check power, encoder and direction");
             }
             offset = std::clamp(offset + sense * step, -limit_, limit_);
         }

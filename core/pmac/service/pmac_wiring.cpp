@@ -8,9 +8,8 @@ constexpr auto confirmed = PinTrust::confirmed;
 constexpr auto thesis = PinTrust::thesis;
 constexpr auto conflict = PinTrust::conflict;
 
-constexpr std::string_view supply_note =
-    "the thesis has +5 V on 3 and 4, GND on 1 and 2; a manual of a later card with the same signals has them "
-    "the other way round";
+constexpr std::string_view supply_note = "the thesis has +5 V on 3 and 4 and GND on 1 and 2; a manual of a "
+                                         "later card with the same signals has them reversed";
 
 constexpr std::array<PmacPin, 18> pins{{
     {"+12...15 V", {59, 59, 59, 59}, thesis, "analog supply, 200 mA"},
@@ -30,17 +29,17 @@ constexpr std::array<PmacPin, 18> pins{{
     {"CHC", {17, 18, 5, 6}, confirmed, "index"},
     {"CHC/", {19, 20, 7, 8}, confirmed, "open with a single-ended encoder"},
     {"GND", {1, 2, 1, 2}, conflict, supply_note},
-    {"HMFL", {55, 0, 0, 0}, thesis, "home switch, between the limits; either kind, I902 tells which"},
+    {"HMFL", {55, 0, 0, 0}, thesis, "home switch, between the limits; either type, set by I902"},
 }};
 
 constexpr std::array<PmacJumper, 8> jumpers{{
     {"E24-E27", "encoder of motor 4, 3, 2, 1: 1-2 single-ended, 2-3 differential", thesis},
-    {"E40-E43", "number of the card, all on for a card by itself", confirmed},
+    {"E40-E43", "number of the card; all on for a single card", confirmed},
     {"E44-E47",
      "serial baud rate; E44 and E47 on, E45 and E46 off: 9600. One manual prints E40-E43",
      conflict},
     {"E51", "on: factory values at reset; normally off", thesis},
-    {"E54-E65", "which equ and error signals interrupt the host", thesis},
+    {"E54-E65", "equ and error signals that interrupt the host", thesis},
     {"E66-E71, E91-E92", "address of the host port, 528 (0x210)", confirmed},
     {"E85, E87, E88", "all off: external analog supply; all on: from the PC. Always together", thesis},
     {"E89, E90", "external +-15 V: both 1-2; internal: E90 2-3", thesis},

@@ -22,7 +22,7 @@ constexpr int most_motors = 8; // of a PMAC
 [[noreturn]] void fail(const std::filesystem::path& file, int line, std::size_t column, std::string message) {
     throw Error(Diagnostic{.place = {.file = file, .line = line, .column = static_cast<int>(column) + 1},
                            .message = std::move(message),
-                           .hint = "a line is: motor counts angle"});
+                           .hint = "write lines of: motor counts angle"});
 }
 
 /// The numbers of a line, each with its column.
@@ -72,7 +72,7 @@ ScaleFit fit(int motor, const std::vector<ScaleReading>& readings) {
     const double slope = squares > 0.0 ? product / squares : 0.0; // deg per count
     if (!(std::abs(slope) > 0.0)) {
         throw Error(
-            fmt::format("motor {}: two readings at different counts and angles are needed at least", motor));
+            fmt::format("motor {}: at least two readings at different counts and angles are needed", motor));
     }
     ScaleFit result{.motor = motor,
                     .counts_per_degree = 1.0 / slope,
@@ -111,12 +111,12 @@ std::vector<ScaleReading> parse_scale_readings(std::string_view text, const std:
         const std::size_t column = words.column();
         const double motor = words.next("the number of a motor");
         if (!(motor >= 1.0 && motor <= most_motors) || std::abs(motor - std::round(motor)) > 0.0) {
-            fail(file, number, column, fmt::format("a motor has a number from 1 to {}", most_motors));
+            fail(file, number, column, fmt::format("a motor number must be from 1 to {}", most_motors));
         }
-        const double counts = words.next("where the motor stood, in counts,");
+        const double counts = words.next("the motor position in counts");
         const double angle = words.next("the measured angle in degrees");
         if (!words.at_end()) {
-            fail(file, number, words.column(), "nothing more is expected in this line");
+            fail(file, number, words.column(), "the line has extra text at its end");
         }
         readings.push_back({static_cast<int>(motor), counts, angle, number});
     }

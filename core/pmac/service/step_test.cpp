@@ -26,22 +26,23 @@ double first_time(const StepResponse& response, double share) {
 std::string advice_for(const StepResponse& response, double settled) {
     constexpr double much = 0.2, some = 0.05;
     if (response.rise_time < 0.0) {
-        return "it does not get there: raise Ix30 by a half, or look at power, direction and the offset Ix29";
+        return "it does not reach the target: raise Ix30 by half, or check power, direction and the offset "
+               "Ix29";
     }
     if (response.overshoot > much) {
-        return "it overshoots much: raise Ix31 by a half";
+        return "it overshoots much: raise Ix31 by half";
     }
     if (response.settling_time < 0.0) {
         return std::abs(response.error) > settled * std::abs(response.size)
-                   ? "it ends beside its place: correct the offset Ix29, or raise Ix33"
+                   ? "it settles off target: correct the offset Ix29, or raise Ix33"
                    : "it does not come to rest: lower Ix30 by a third";
     }
     if (response.overshoot > some) {
         return "it overshoots a little: raise Ix31 by a fifth";
     }
     return response.settling_time > 2.0 * response.rise_time + 0.1
-               ? "it creeps to its place: raise Ix30 by a fifth"
-               : "nothing: it is quick and does not overshoot";
+               ? "it creeps to the target: raise Ix30 by a fifth"
+               : "nothing: it is fast and does not overshoot";
 }
 
 void restore_variables(const CardTalk& card, int motor, const std::map<int, double>& variables) {
@@ -102,16 +103,19 @@ void stop_a_runaway(int motor, double size, double position) {
     constexpr double backward = -1.5, forward = 4.0; // steps
     const double reached = position / size;
     if (reached < backward) {
-        throw Error(
-            fmt::format("motor {} ran {:.0f} counts the wrong way and was killed", motor, std::abs(position)),
-            {},
-            fmt::format("its encoder counts the other way than its amplifier turns: I{}, or swap two wires",
-                        900 + 5 * (motor - 1)));
+        throw Error(fmt::format("motor {} moved {:.0f} counts the wrong way and was killed",
+                                motor,
+                                std::abs(position)),
+                    {},
+                    fmt::format("its encoder counts in the opposite direction to its amplifier: change I{}, "
+                                "or swap two wires",
+                                900 + 5 * (motor - 1)));
     }
     if (reached > forward) {
-        throw Error(fmt::format("motor {} ran {:.0f} counts and was killed", motor, std::abs(position)),
-                    {},
-                    fmt::format("lower I{}30 first", motor));
+        throw Error(
+            fmt::format("motor {} moved {:.0f} counts too far and was killed", motor, std::abs(position)),
+            {},
+            fmt::format("lower I{}30 first", motor));
     }
 }
 

@@ -18,7 +18,7 @@ inline constexpr double smallest_part_mm = 1e-3;
 /// mm". Empty if it is not, and for 0: that no normal is there tells more of what is a point.
 [[nodiscard]] std::string fault_of_size(double size_mm);
 
-/// "is the unit right? In inches it would be 1.27 mm large, in metres 50 mm"
+/// "check the unit; in inches the size would be 1.27 mm large, in metres 50 mm"
 [[nodiscard]] std::string question_of_unit(double size_mm);
 
 } // namespace millwright::project

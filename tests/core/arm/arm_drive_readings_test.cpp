@@ -107,7 +107,7 @@ TEST(ArmDriveReadingsK6, BindTheThirdDriveToTheSecond) {
     EXPECT_FALSE(with_third(13'000.0).drives[2].inside);
     for (const double third : {-1.0, 13'001.0}) {
         EXPECT_FALSE(with_third(third).drives[2].inside);
-        EXPECT_THAT(with_third(third).reasons, ElementsAre(HasSubstr("drive 3 would lead drive 2 by")));
+        EXPECT_THAT(with_third(third).reasons, ElementsAre(HasSubstr("drive 3 would be")));
     }
 }
 
@@ -124,7 +124,7 @@ TEST(ArmDriveReadingsK6, ChooseTheTurnOfTheFifthInItsWindow) {
     a[4] = 27'200.0 + 2.0 * 25'600.0;
     const ArmDriveReadings beyond = drive_readings(drives, a);
     EXPECT_FALSE(beyond.drives[4].inside);
-    EXPECT_THAT(beyond.reasons, ElementsAre(HasSubstr("another turn is inside, at 52800")));
+    EXPECT_THAT(beyond.reasons, ElementsAre(HasSubstr("one turn further it would be inside, at 52800")));
     // From the joint's own angle the turn inside is taken.
     const JointPositions twice = test::degrees({0, -90, 90, 0, -300});
     EXPECT_GT(drives_of(drives, twice)[4], 55'000.0);

@@ -49,11 +49,11 @@ TEST_F(ArmFileTest, SaysWhereAWrongFileIsWrong) {
     EXPECT_EQ(reason("Yaskawa", "Y"), "none");
     EXPECT_THAT(reason("\"a\": 650", "\"a\": \"long\""), HasSubstr("arm.json:"));
     EXPECT_THAT(reason("\"a\": 650", "\"b\": 650"), HasSubstr("arm.json:"));
-    EXPECT_THAT(reason("[-200, 60]", "[60, -200]"), HasSubstr("lower limit is not below"));
-    EXPECT_THAT(reason("[-10000, 3000]", "[3000, -10000]"), HasSubstr("lower limit is not below"));
+    EXPECT_THAT(reason("[-200, 60]", "[60, -200]"), HasSubstr("lower limit must be below"));
+    EXPECT_THAT(reason("[-10000, 3000]", "[3000, -10000]"), HasSubstr("lower limit must be below"));
     EXPECT_THAT(reason("millwright-arm", "something"), HasSubstr("not an arm file"));
-    EXPECT_THAT(reason("\"name\": \"2\"", "\"name\": \"1\""), HasSubstr("another joint is called so"));
-    EXPECT_THAT(reason("revolute", "round"), HasSubstr("neither \"revolute\" nor \"prismatic\""));
+    EXPECT_THAT(reason("\"name\": \"2\"", "\"name\": \"1\""), HasSubstr("another joint has the same name"));
+    EXPECT_THAT(reason("revolute", "round"), HasSubstr("not \"revolute\" or \"prismatic\""));
     EXPECT_THAT(reason("\"beta\": 250", "\"beta\": -1"), HasSubstr("sides longer than 0"));
     EXPECT_THAT(reason("\"scale\": 0.01", "\"scale\": 0"), HasSubstr("drive 2 needs a finite scale"));
     EXPECT_THAT(reason("\"a\": 800, \"d\": 0", "\"a\": 800, \"d\": 10"), HasSubstr("three parallel joints"));
@@ -119,9 +119,8 @@ TEST_F(ArmFileTest, TakesAlphaAndAOfTheLinkBeforeAJointUnlessTheFileSaysOtherwis
     EXPECT_DOUBLE_EQ(classical.joint(0).a, 0.0);
     EXPECT_DOUBLE_EQ(classical.joint(1).a, 20.0);
     EXPECT_DOUBLE_EQ(classical.description().end_a, 15.0);
-    EXPECT_THAT(
-        test::reason([&] { (void)without("\"standard\""); }),
-        HasSubstr("table.json:2:16: convention: 'standard' is neither \"modified\" nor \"classical\""));
+    EXPECT_THAT(test::reason([&] { (void)without("\"standard\""); }),
+                HasSubstr("table.json:2:16: convention: 'standard' is not \"modified\" or \"classical\""));
 }
 
 /// Whichever table describes it, the L-3 is solved in closed form.
@@ -147,7 +146,7 @@ TEST_F(ArmFileTest, RefusesAHomeThatIsNone) {
         write_file(scratch_ / "table.json", text);
         return test::reason([&] { (void)read_arm(scratch_ / "table.json"); });
     };
-    EXPECT_THAT(with_home("[10, -20, 250, 40]"), HasSubstr("outside of the limits of joint 3"));
+    EXPECT_THAT(with_home("[10, -20, 250, 40]"), HasSubstr("outside the limits of joint 3"));
     EXPECT_THAT(with_home("[10, -20, 50]"), HasSubstr("table.json:8:"));
 }
 

@@ -44,15 +44,15 @@ TEST(ArmMotionFileS1, SaysWhereItIsWrong) {
     const auto why = [](std::string_view text) {
         return reason([&] { (void)parse_arm_motion(text, "a.mot"); });
     };
-    EXPECT_THAT(why("X1 ;\nY2 Q3 ;"), HasSubstr("a.mot:2:4: 'Q' is no word"));
+    EXPECT_THAT(why("X1 ;\nY2 Q3 ;"), HasSubstr("a.mot:2:4: 'Q' is not a word"));
     EXPECT_THAT(why("X ;"), HasSubstr("a.mot:1:3: X needs a number"));
-    EXPECT_THAT(why("X1 X2 ;"), HasSubstr("a.mot:1:4: X stands twice"));
+    EXPECT_THAT(why("X1 X2 ;"), HasSubstr("a.mot:1:4: X occurs twice"));
     EXPECT_THAT(why("X1"), HasSubstr("no ';'"));
     EXPECT_THAT(why("G4 X1 ;"), HasSubstr("a.mot:1:1: G needs a whole number from 1 to 3"));
-    EXPECT_THAT(why("G2 X1 ;"), HasSubstr("either its center (I J K) or its radius (R)"));
+    EXPECT_THAT(why("G2 X1 ;"), HasSubstr("either its centre (I J K) or its radius (R)"));
     EXPECT_THAT(why("A0 B0 C0 ;"), HasSubstr("no direction"));
     EXPECT_THAT(why("X1e300 ;"), HasSubstr("X needs a number"));
-    EXPECT_THAT(why(std::string("X1\x01;", 4)), HasSubstr("byte 1 is no text"));
+    EXPECT_THAT(why(std::string("X1\x01;", 4)), HasSubstr("byte 1 is not text"));
 }
 
 TEST(ArmSimulation, S2HasThePointsOfThePrintedRuns) {
@@ -110,11 +110,11 @@ TEST(ArmSimulation, S4GoesAroundArcs) {
 
 TEST(ArmSimulation, RefusesWhatTheArmCannotDo) {
     const auto why = [](std::string_view text) { return reason([&] { (void)simulated(text, 10.0); }); };
-    EXPECT_THAT(why("X100 ;\nX2000 ;"), HasSubstr("a.mot:2: the arm does not reach"));
-    EXPECT_THAT(why("G2 X50 I10 ;"), HasSubstr("a.mot:1: the end is 40.0000 mm from the center"));
-    EXPECT_THAT(why("G2 X50 R10 ;"), HasSubstr("shorter than half the way"));
+    EXPECT_THAT(why("X100 ;\nX2000 ;"), HasSubstr("a.mot:2: the arm cannot reach"));
+    EXPECT_THAT(why("G2 X50 I10 ;"), HasSubstr("a.mot:1: the end is 40.0000 mm from the centre"));
+    EXPECT_THAT(why("G2 X50 R10 ;"), HasSubstr("less than half the distance"));
     for (const char* off_the_plane : {"G2 K50 ;", "G2 I10 K50 ;", "G3 Z100 K50 ;", "G2 X10 Z100 I5 K50 ;"}) {
-        EXPECT_THAT(why(off_the_plane), HasSubstr("a.mot:1: start, end and center are on a line that leaves"))
+        EXPECT_THAT(why(off_the_plane), HasSubstr("a.mot:1: start, end and centre lie on a line that leaves"))
             << off_the_plane;
     }
     EXPECT_THAT(why("X1 A0 B1 ;"), HasSubstr("90.000 deg out of the plane of the arm"));
@@ -172,7 +172,7 @@ TEST(ArmMotionWays, NeedAFeedAboveNothing) {
     const ArmModel arm = test::arm("motoman-l3");
     EXPECT_THAT(
         reason([&] { (void)ways_of(arm, parse_arm_motion("X1;\nX1 F0;", "a.mot"), arm_home(), "a.mot"); }),
-        HasSubstr("a.mot:2: the feed F has to be above 0"));
+        HasSubstr("a.mot:2: the feed F must be above 0"));
 }
 
 /// Every point, in turn: the stretch that an arm cannot go has a beginning, an end and a size.
@@ -180,10 +180,10 @@ TEST(ArmSimulation, NamesTheStretchThatIsOutOfReach) {
     // From 800 0 650 straight out: sqrt(1450^2 - 650^2) = 1296.15 from the base's axis is the end.
     const std::string why = reason([&] { (void)simulated("X100 ;\nX1000 ;\nX-1100 ;", 10.0); });
     EXPECT_THAT(why,
-                HasSubstr("a.mot:2: the arm does not reach 1300.000 0.000 650.000, point 52 of the path, "
+                HasSubstr("a.mot:2: the arm cannot reach 1300.000 0.000 650.000, point 52 of the path, "
                           "500.000 mm along it: the wrist would be 1453.444 mm from the shoulder"));
     EXPECT_THAT(why, HasSubstr("up to point 173, 1300.000 0.000 650.000, line 3"));
-    EXPECT_THAT(why, HasSubstr("at worst, at point 112, 558.109 mm off"));
+    EXPECT_THAT(why, HasSubstr("the worst, at point 112, 558.109 mm off"));
 }
 
 class ArmSimulationOfAnyArm : public ::testing::TestWithParam<std::pair<const char*, JointPositions>> {};

@@ -65,43 +65,42 @@ TEST(Assembler, UsesEightBytesForWideFormats) {
 
 TEST(Assembler, NamesLineAndColumnOfEveryMistake) {
     for (const WrongText& wrong : {
-             WrongText{"g00\n  g05", 2, 3, "\"g05\" is no instruction"},
-             WrongText{"mov Q, 1", 1, 5, "\"Q\" is no register"},
+             WrongText{"g00\n  g05", 2, 3, "\"g05\" is not an instruction"},
+             WrongText{"mov Q, 1", 1, 5, "\"Q\" is not a register"},
              WrongText{"mov", 1, 4, "a register is missing"},
              WrongText{"mov XI 1", 1, 8, "a comma is missing"},
              WrongText{"mov XI,", 1, 8, "a number is missing"},
-             WrongText{"mov XI, one", 1, 9, "\"one\" is no number"},
-             WrongText{"mov XI, nan", 1, 9, "\"nan\" is no number"},
-             WrongText{"mov XI, 1e400", 1, 9, "is no number"},
+             WrongText{"mov XI, one", 1, 9, "\"one\" is not a number"},
+             WrongText{"mov XI, nan", 1, 9, "\"nan\" is not a number"},
+             WrongText{"mov XI, 1e400", 1, 9, "is not a number"},
              WrongText{".format q8.8\nmov XI, 200", 2, 9, "200 does not fit into q8.8"},
-             WrongText{"mov N, -1", 1, 8, "\"-1\" is no whole number"},
-             WrongText{"mov N, 1.5", 1, 8, "\"1.5\" is no whole number"},
-             WrongText{"mov PC, 65536", 1, 9, "no whole number from 0 to 65535"},
-             WrongText{"mov XI, 0x123456789", 1, 9, "no hexadecimal number of 4 bytes"},
-             WrongText{"mov PC, 0x1000A", 1, 9, "\"0x1000A\" is no whole number from 0 to 65535"},
-             WrongText{".format f64\nmov N, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
-             WrongText{".format f64\nmov P, 0x100000001", 2, 8, "no whole number from 0 to 4294967295"},
-             WrongText{"mov XI, +-1", 1, 9, "\"+-1\" is no number"},
-             WrongText{"ld Vz, 0x8000", 1, 4, "Vz is computed and cannot be loaded"},
-             WrongText{"ld XI, 70000", 1, 8, "\"70000\" is no address from 0 to 65535"},
-             WrongText{"mov XI, 0x7fc00000", 1, 9, "\"0x7fc00000\" is no number in f32"},
-             WrongText{".format q8.8\nmov XI, 0x8000", 2, 9, "\"0x8000\" is no number in q8.8"},
+             WrongText{"mov N, -1", 1, 8, "\"-1\" is not a whole number"},
+             WrongText{"mov N, 1.5", 1, 8, "\"1.5\" is not a whole number"},
+             WrongText{"mov PC, 65536", 1, 9, "not a whole number from 0 to 65535"},
+             WrongText{"mov XI, 0x123456789", 1, 9, "not a hexadecimal number of 4 bytes"},
+             WrongText{"mov PC, 0x1000A", 1, 9, "\"0x1000A\" is not a whole number from 0 to 65535"},
+             WrongText{".format f64\nmov N, 0x100000001", 2, 8, "not a whole number from 0 to 4294967295"},
+             WrongText{".format f64\nmov P, 0x100000001", 2, 8, "not a whole number from 0 to 4294967295"},
+             WrongText{"mov XI, +-1", 1, 9, "\"+-1\" is not a number"},
+             WrongText{"ld Vz, 0x8000", 1, 4, "Vz is a computed register and cannot be loaded"},
+             WrongText{"ld XI, 70000", 1, 8, "\"70000\" is not an address from 0 to 65535"},
+             WrongText{"mov XI, 0x7fc00000", 1, 9, "\"0x7fc00000\" is not a number in f32"},
+             WrongText{".format q8.8\nmov XI, 0x8000", 2, 9, "\"0x8000\" is not a number in q8.8"},
              WrongText{"mov Vmax, -5", 1, 11, "Vmax must be above 0"},
              WrongText{"mov Amax, 0", 1, 11, "Amax must be above 0"},
-             WrongText{
-                 "ld XI, 0xbffe", 1, 8, "4 bytes at \"0xbffe\" lie across the border between two memories"},
-             WrongText{"st XI, 0xbffd", 1, 8, "lie across the border between two memories"},
+             WrongText{"ld XI, 0xbffe", 1, 8, "4 bytes at \"0xbffe\" cross the border between two memories"},
+             WrongText{"st XI, 0xbffd", 1, 8, "cross the border between two memories"},
              WrongText{"ld XI, 0xfffd", 1, 8, "4 bytes at \"0xfffd\" are not all on the bus"},
              WrongText{"st XI, 0x7fff", 1, 8, "are not all in the RAM or the motion controller's port"},
-             WrongText{"a: st XI, a", 1, 11, "\"a\" is no address"},
-             WrongText{"ld XI, away", 1, 8, "there is no label away"},
-             WrongText{"mov PC, away", 1, 9, "there is no label away"},
-             WrongText{"a: nop\na: nop", 2, 1, "label a is there already"},
-             WrongText{"g01 g02", 1, 5, "\"g02\" is too much"},
-             WrongText{"nop\n.format f64", 2, 9, ".format stands behind"},
-             WrongText{".format f63", 1, 9, "\"f63\" is no number format"},
+             WrongText{"a: st XI, a", 1, 11, "\"a\" is not an address"},
+             WrongText{"ld XI, away", 1, 8, "label away is not defined"},
+             WrongText{"mov PC, away", 1, 9, "label away is not defined"},
+             WrongText{"a: nop\na: nop", 2, 1, "label a is already defined"},
+             WrongText{"g01 g02", 1, 5, "unexpected \"g02\""},
+             WrongText{"nop\n.format f64", 2, 9, ".format must come before"},
+             WrongText{".format f63", 1, 9, "\"f63\" is not a number format"},
              WrongText{".byte 256", 1, 7, ".byte needs a number from 0 to 255"},
-             WrongText{"a: PAGE\n.page\n mov PC, a", 3, 10, "label a lies in another page"},
+             WrongText{"a: PAGE\n.page\n mov PC, a", 3, 10, "label a is in another page"},
          }) {
         const auto errors = assemble(wrong.text, "wrong.asm").errors;
         ASSERT_EQ(errors.size(), 1U) << wrong.text;
@@ -139,7 +138,7 @@ TEST(Assembler, RefusesAnInstructionAcrossTheEndOfAPage) {
     ASSERT_EQ(errors.size(), 1U);
     EXPECT_EQ(errors[0].place.line, rom_size - 3);
     EXPECT_EQ(errors[0].place.column, 3);
-    EXPECT_THAT(errors[0].message, HasSubstr("crosses the end of a page"));
+    EXPECT_THAT(errors[0].message, HasSubstr("crosses the end of a program ROM page"));
     EXPECT_TRUE(assemble(text + "PAGE\n.page\nmov N, 1\n", "right.asm").errors.empty());
 }
 
@@ -188,7 +187,7 @@ TEST(Assembler, RefusesNumbersThatTheFormatTakesForNone) {
     ASSERT_EQ(made.errors.size(), 1U);
     EXPECT_EQ(made.errors[0].place.line, 3);
     EXPECT_EQ(made.errors[0].place.column, 9);
-    EXPECT_THAT(made.errors[0].message, HasSubstr("-1e-8 is less than q8.24 can tell"));
+    EXPECT_THAT(made.errors[0].message, HasSubstr("-1e-8 is below the resolution of q8.24"));
 }
 
 /// The lines that the assembler warns of, behind those that load Vmax and Amax.
@@ -220,7 +219,7 @@ TEST(Assembler, WarnsOfMotionsWithoutSpeedOrAcceleration) {
     ASSERT_EQ(without.size(), 1U);
     EXPECT_EQ(without[0].place.line, 3);
     EXPECT_EQ(without[0].place.column, 3);
-    EXPECT_THAT(without[0].message, HasSubstr("a motion without Vmax or Amax: the processor will stop"));
+    EXPECT_THAT(without[0].message, HasSubstr("a motion has no Vmax or Amax: the processor will stop"));
     EXPECT_TRUE(warnings("MOV Vmax, 1\nLD Amax, 0x8000\nMOV XI, 1\nG01\nHLT\n").empty());
 }
 

@@ -84,7 +84,7 @@ TEST(Commands, ComputedRegistersCannotBeLoaded) {
     const auto errors = assemble("MOV Vz, 1\n", "wrong.asm").errors;
     ASSERT_EQ(errors.size(), 1U);
     EXPECT_EQ(errors[0].place.column, 5);
-    EXPECT_THAT(errors[0].message, testing::HasSubstr("Vz is computed and cannot be loaded"));
+    EXPECT_THAT(errors[0].message, testing::HasSubstr("Vz is a computed register and cannot be loaded"));
 }
 
 } // namespace

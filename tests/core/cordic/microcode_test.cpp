@@ -49,24 +49,24 @@ TEST(MicroAssembler, TurnsTextIntoWords) {
 
 TEST(MicroAssembler, NamesLineAndColumnOfEveryMistake) {
     for (const WrongText& wrong : {
-             WrongText{"  JUMP always A", 1, 3, "\"JUMP\" is no micro-operation"},
-             WrongText{"CONT\n CJP always NOWHERE", 2, 13, "there is no label NOWHERE"},
+             WrongText{"  JUMP always A", 1, 3, "\"JUMP\" is not a micro-operation"},
+             WrongText{"CONT\n CJP always NOWHERE", 2, 13, "label NOWHERE is not defined"},
              WrongText{"CJP sometimes 0", 1, 5, "CJP needs a condition"},
              WrongText{"CJP", 1, 4, "CJP needs a condition"},
              WrongText{"LDCT", 1, 5, "a branch address or count is missing"},
-             WrongText{"LDCT 256", 1, 6, "256 is not from 0 to 255"},
-             WrongText{"LDCT -1", 1, 6, "-1 is not from 0 to 255"},
-             WrongText{"CONT | fly", 1, 8, "\"fly\" is no control signal"},
+             WrongText{"LDCT 256", 1, 6, "256 must be from 0 to 255"},
+             WrongText{"LDCT -1", 1, 6, "-1 must be from 0 to 255"},
+             WrongText{"CONT | fly", 1, 8, "\"fly\" is not a control signal"},
              WrongText{"CONT | rotate,", 1, 15, "a control signal is missing"},
-             WrongText{"CONT rotate", 1, 6, "\"rotate\" is too much"},
-             WrongText{"A: CONT\nA: CONT", 2, 1, "label A is there already"},
-             WrongText{"1A: CONT", 1, 1, "\"1A\" is no label"},
+             WrongText{"CONT rotate", 1, 6, "unexpected \"rotate\""},
+             WrongText{"A: CONT\nA: CONT", 2, 1, "label A is already defined"},
+             WrongText{"1A: CONT", 1, 1, "\"1A\" is not a label"},
              WrongText{".map 300 A", 1, 6, ".map needs an opcode from 0 to 255"},
              WrongText{".map 3", 1, 7, ".map needs a label"},
-             WrongText{".map 3 B", 1, 8, "there is no label B"},
+             WrongText{".map 3 B", 1, 8, "label B is not defined"},
              WrongText{"", 1, 1, "the microprogram has no words"},
              WrongText{"; nothing\n\n", 1, 1, "the microprogram has no words"},
-             WrongText{"A: CONT\n.map 1 3 A\n.map 2 A", 3, 8, "opcode 0x02 is mapped already"},
+             WrongText{"A: CONT\n.map 1 3 A\n.map 2 A", 3, 8, "opcode 0x02 is already mapped"},
          }) {
         const auto errors = assemble_microprogram(wrong.text, "wrong.mic").errors;
         ASSERT_EQ(errors.size(), 1U) << wrong.text;

@@ -142,7 +142,8 @@ TEST(SinglePass, RefusesVectorsBeyondTheRangeAndNamesIt) {
     EXPECT_THAT(refusal(hyperbolic, 1.0, 1.0), HasSubstr("outside"));
     EXPECT_THAT(refusal(hyperbolic, -1.0, 0.1), HasSubstr("outside"));
     EXPECT_EQ(refusal(hyperbolic, 1.0, -0.9505), "");
-    EXPECT_THAT(refusal(linear, 1.0, 0.5, true), HasSubstr("folding is for the circular system"));
+    EXPECT_THAT(refusal(linear, 1.0, 0.5, true),
+                HasSubstr("folding is only possible in the circular system"));
 }
 
 TEST(SinglePass, RefusesWhatTheFormatCannotHold) {

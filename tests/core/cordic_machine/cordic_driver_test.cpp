@@ -87,7 +87,7 @@ TEST(CordicDriver, RunsAJobFromItsTextToTheEndWithArcsAndTheThirdAxis) {
 TEST(CordicDriver, GoesToMachinePositionsWhereTheOriginIsKnown) {
     const std::string retracts = "G21 G90 F1200\nG0 X10 Y10 Z-5\nG53 G0 Z0\nM2\n";
     CordicDriverBench bench;
-    EXPECT_THAT(bench.refusal_of(retracts), HasSubstr("program:3:1: G53 goes to a machine position"));
+    EXPECT_THAT(bench.refusal_of(retracts), HasSubstr("program:3:1: G53 moves to a machine position"));
     EXPECT_EQ(bench.driver.status().position, AxisPositions::Zero(3));
     CordicDriverOptions options;
     options.origin = gcode::WorkOrigin(Vec3(5.0, 0.0, -20.0));
@@ -119,7 +119,7 @@ TEST(CordicDriver, TellsWhatOfTheLastProgramItDoesOtherwise) {
     const auto warnings = bench.driver.warnings();
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_EQ(warnings[0].place.line, 2);
-    EXPECT_THAT(warnings[0].message, HasSubstr("does not rest in them"));
+    EXPECT_THAT(warnings[0].message, HasSubstr("does not stop at corners"));
     (void)bench.dispatcher.run(jobs::text_job("G21 F600\nG1 X2\nM2\n", "next.ngc"), {});
     EXPECT_TRUE(bench.driver.warnings().empty());
 }
@@ -136,7 +136,7 @@ TEST(CordicDriver, RefusesWhatIsOutsideItsSubsetWithLineAndColumnAndDoesNotMove)
 TEST(CordicDriver, RefusesFiveAxisPrograms) {
     CordicDriverBench bench("rotary-tilt-gui");
     const std::string refusal = bench.refusal_of("G21 G0 X1\nG1 X2 A5 F100\nM2\n");
-    EXPECT_THAT(refusal, HasSubstr("program:2:7: the CORDIC processor has no axis A (it moves X, Y and Z)"));
+    EXPECT_THAT(refusal, HasSubstr("program:2:7: the CORDIC processor has no axis A (use only X, Y and Z)"));
     EXPECT_EQ(bench.driver.status().executed_blocks, 0);
 }
 

@@ -107,7 +107,7 @@ TEST(CordicMotion, RefusesASetPointWhoseAccelerationTheFormatTakesForNothing) {
     };
     EXPECT_THAT(
         fault_of(".format q8.8\nMOV Vmax, 10\nMOV Amax, 0.00390625\nMOV XI, 3\nG01\nHLT\n"),
-        testing::HasSubstr("set-point 1 is 3 mm away and has no acceleration: it came out as 0 in q8.8"));
+        testing::HasSubstr("set-point 1 is 3 mm away but has no acceleration: it was rounded to 0 in q8.8"));
 }
 
 TEST(CordicMachine, HasThreeAxesAsFastAsTheRecordsAsk) {

@@ -135,7 +135,7 @@ TEST(CordicCompiler, SaysWhatDependsOnWhereTheWorkLies) {
     const auto unplaced = [](const std::string& text) { return compiled_program(text).unplaced; };
     ASSERT_EQ(unplaced("G21 F600\nG0 X1 Y1 Z5\nG53 G0 Z0\nM2\n").size(), 1U);
     EXPECT_THAT(to_text(unplaced("G21 F600\nG0 X1 Y1 Z5\nG53 G0 Z0\nM2\n")[0]),
-                HasSubstr("part.ngc:3:1: G53 goes to a machine position, and where the program's zero lies"));
+                HasSubstr("part.ngc:3:1: G53 moves to a machine position, but the program zero"));
     EXPECT_EQ(unplaced("G21\nG0 X1\nG55 G0 X1\nM2\n").size(), 1U);
     EXPECT_EQ(unplaced("G21\nG0 X#5221\nM2\n").size(), 1U);
     EXPECT_TRUE(unplaced("G21 F600\nG91 G1 X1 Y1\nG2 X1 I0.5\nM2\n").empty()) << "it begins at zero";
@@ -150,20 +150,20 @@ TEST(CordicCompiler, SaysWithLineAndColumnWhatTheProcessorCannotDo) {
     for (const Case& c :
          {Case{"G21\nG0 X1 A5\nM2\n", 7, "no axis A"},
           Case{"G21\n(B) g0 x[1+1] b 5\nM2\n", 15, "no axis B"},
-          Case{"G21\nS100 M3 G96 D500 G95 G1 X1 F0.1\nM2\n", 9, "a feed a revolution"},
-          Case{"G21\nS100 M3 G96 D500 G95 G2 X2 I1 F0.1\nM2\n", 9, "a feed a revolution"},
-          Case{"G21\nS100 M3 G96 D500 G95 G18 G2 X2 I1 F0.1\nM2\n", 9, "a feed a revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G1 X1 F0.1\nM2\n", 9, "feed per revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G2 X2 I1 F0.1\nM2\n", 9, "feed per revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G18 G2 X2 I1 F0.1\nM2\n", 9, "feed per revolution"},
           Case{"G21\nG0 X200\nM2\n", 4, "X 200 does not fit into q8.24"},
           Case{"G21\nG0 Y1 Z-200\nM2\n", 7, "Z -200 does not fit into q8.24"},
           Case{"G21\nG1 X1 F12000\nM2\n", 7, "the speed in mm/s 200 does not fit"},
           Case{"G21\nG2 X401 I200.5 J0 F1\nM2\n", 9, "the centre's X 200.5 does not fit"},
-          Case{"G21\n S100 M19 R90\nM2\n", 7, "no spindle orientation"},
+          Case{"G21\n S100 M19 R90\nM2\n", 7, "not support spindle orientation"},
           Case{"G21\nG4 P5000\nM2\n", 4, "a dwell in us of 5000000000 does not fit into register P"},
-          Case{"G21\nG4 P0.0000004\nM2\n", 4, "a dwell in us of 0.4 would be 0 in register P"},
-          Case{"G21\nM3 S0.4\nM2\n", 4, "a spindle speed in rpm of 0.4 would be 0 in register P"},
+          Case{"G21\nG4 P0.0000004\nM2\n", 4, "a dwell in us of 0.4 would be rounded to 0 in register P"},
+          Case{"G21\nM3 S0.4\nM2\n", 4, "a spindle speed in rpm of 0.4 would be rounded to 0 in register P"},
           Case{"G21\nG38.2 X5 F100\nM2\n", 1, "cannot probe"},
           Case{"G21\nG4 P1 M60\nM2\n", 7, "no pallets"},
-          Case{"G21\nM64 P1\nM2\n", 1, "no output"}}) {
+          Case{"G21\nM64 P1\nM2\n", 1, "not support outputs"}}) {
         CordicProgramSettings settings;
         settings.format = cordic::fixed_format(8, 24);
         settings.acceleration = 100.0;
@@ -290,9 +290,10 @@ TEST(CordicCompiler, WarnsOfCornersThatItDoesNotGoThroughAsAskedFor) {
                          "G64\nG1 X4\nG61.1\nG81 X5 Z-1 R1\nM2\n");
     ASSERT_TRUE(program.faults.empty());
     ASSERT_EQ(program.warnings.size(), 3U) << "G61 and G64 without P ask for nothing that it does not do";
-    EXPECT_EQ(to_text(program.warnings[0]).find("part.ngc:3:3: the CORDIC processor passes through corners"),
+    EXPECT_EQ(
+        to_text(program.warnings[0]).find("part.ngc:3:3: the CORDIC processor does not stop at corners"), 0U);
+    EXPECT_EQ(to_text(program.warnings[1]).find("part.ngc:4:1: the CORDIC processor does not round corners"),
               0U);
-    EXPECT_EQ(to_text(program.warnings[1]).find("part.ngc:4:1: the CORDIC processor rounds no corner"), 0U);
     EXPECT_EQ(program.warnings[2].place.line, 8); // not also where the cycle returns to it
 }
 
@@ -332,7 +333,7 @@ TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {
     const CordicProgram program = compiled_program("G21 G0 X1\nG0 X1\nG0 X1.001\nG0 X2\nM2\n", settings);
     ASSERT_EQ(program.warnings.size(), 2U);
     EXPECT_EQ(program.warnings[0].place.line, 2);
-    EXPECT_THAT(program.warnings[0].message, HasSubstr("without length"));
+    EXPECT_THAT(program.warnings[0].message, HasSubstr("of zero length"));
     EXPECT_EQ(program.warnings[1].place.line, 3);
     EXPECT_THAT(program.warnings[1].message, HasSubstr("less than q16.8 can tell"));
     EXPECT_EQ(run(program).published().size(), 2U);
@@ -343,7 +344,7 @@ TEST(CordicCompiler, WarnsOfAnArcThatEndsAHairBehindItsStart) {
     ASSERT_EQ(hair.warnings.size(), 1U);
     EXPECT_EQ(hair.warnings[0].place.line, 2);
     EXPECT_EQ(hair.warnings[0].place.column, 2);
-    EXPECT_THAT(hair.warnings[0].message, HasSubstr("the arc ends 9e-05 mm, 9e-07 rad, behind its start"));
+    EXPECT_THAT(hair.warnings[0].message, HasSubstr("the arc ends 9e-05 mm, 9e-07 rad, past its start"));
     const CordicProgram arc = compiled_program("G21 F600 G0 X100\nG3 X100 Y0.00011 I-100 J0\nM2\n");
     EXPECT_TRUE(arc.warnings.empty());
     EXPECT_EQ(arc.points.size(), 2U) << "an arc of one chord behind the way to its start";
@@ -392,7 +393,7 @@ TEST(CordicCompiler, RefusesAProgramBeyondTheRom) {
     const CordicProgram program = compiled_program(zigzag(10'000), settings);
     ASSERT_FALSE(program.faults.empty());
     EXPECT_THAT(program.faults.back().message,
-                HasSubstr("needs 4 pages of 32768 bytes, the program ROM has 2"));
+                HasSubstr("needs 4 pages of 32768 bytes, but the program ROM has only 2"));
 }
 
 // Random programs: every set-point is where exact arithmetic has it, in every format.
@@ -438,7 +439,7 @@ TEST(CordicCompiler, RefusesDirectionsThatSoFewIterationsDoNotReachWithTheirPlac
     ASSERT_EQ(made.faults.size(), 1U);
     EXPECT_EQ(made.faults[0].place.line, 3);
     EXPECT_EQ(made.faults[0].place.column, 3);
-    EXPECT_THAT(made.faults[0].message, testing::HasSubstr("a direction that 2 iterations do not reach"));
+    EXPECT_THAT(made.faults[0].message, testing::HasSubstr("cannot be reached with 2 iterations"));
     const CordicProgram arc = compiled_program("G21 F60\nG2 X0 Y0 I10 J0\nM2\n", few);
     ASSERT_FALSE(arc.faults.empty());
     EXPECT_EQ(arc.faults[0].place.line, 2);

@@ -247,7 +247,7 @@ TEST_F(CadBodies, OfAFileWithoutAFaceIsToldWhatItHolds) {
     builder.MakeCompound(nothing);
     EXPECT_THAT(
         refusal(nothing, false),
-        ::testing::MatchesRegex("the file holds no face: 1 product without a shape / an assembly .*"));
+        ::testing::MatchesRegex("the file contains no face: 1 product without shape / an assembly .*"));
     TopoDS_Compound frame;
     builder.MakeCompound(frame);
     builder.Add(frame, BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Shape());
@@ -255,8 +255,8 @@ TEST_F(CadBodies, OfAFileWithoutAFaceIsToldWhatItHolds) {
     builder.Add(frame, BRepBuilderAPI_MakeVertex(gp_Pnt(1, 2, 3)).Shape());
     for (const bool iges : {false, true}) {
         EXPECT_EQ(refusal(frame, iges),
-                  "the file holds no face: 2 edges and 1 point / curves and points alone cannot be cut as a "
-                  "surface");
+                  "the file contains no face: 2 edges and 1 point / export surfaces: curves and points alone "
+                  "cannot be machined");
     }
 }
 
@@ -293,8 +293,8 @@ TEST_F(CadBodies, FaceThatCannotBeConvertedIsLeftOutWithAReason) {
     const CadModel model = faces_of(both, "both.step", {});
     EXPECT_EQ(model.faces.size(), 1U);
     EXPECT_THAT(model.left_out,
-                ::testing::ElementsAre(
-                    ::testing::StartsWith("face 1: its surface cannot be made a B-spline (Open CASCADE: ")));
+                ::testing::ElementsAre(::testing::StartsWith(
+                    "face 1: its surface cannot be converted to a B-spline (Open CASCADE: ")));
 }
 
 TEST_F(CadBodies, ReadingTellsHowManyFacesAndHowFar) {
@@ -312,7 +312,7 @@ TEST_F(CadBodies, ReadingTellsHowManyFacesAndHowFar) {
                 ::testing::ElementsAre("reading the file",
                                        "reading the text of 6 faces",
                                        "reading the entities of 6 faces",
-                                       "making shapes",
+                                       "creating shapes",
                                        "converting faces"));
 }
 
@@ -335,7 +335,7 @@ TEST_F(CadBodies, NumbersOfIgesThatAreNoneAreRefusedWithTheirLine) {
             FAIL() << no_number;
         } catch (const Error& error) {
             EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("entity of type 110: \""));
-            EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("is no finite number"));
+            EXPECT_THAT(error.diagnostic().message, ::testing::HasSubstr("is not a finite number"));
             EXPECT_EQ(error.diagnostic().place.line, line) << no_number;
         }
     }

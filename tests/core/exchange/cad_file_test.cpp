@@ -154,9 +154,8 @@ TEST_F(CadFile, FacesThatTheLibraryLeavesOutAreNamed) {
     EXPECT_EQ(model.faces.size(), 3u);
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_THAT(model.left_out.front(),
-                HasSubstr("1 of 4 faces of the file could not be made by Open CASCADE (#"));
-    EXPECT_THAT(refusal(with_broken_faces(text, 0), "all.step"),
-                HasSubstr("4 of 4 faces of the file could not"));
+                HasSubstr("Open CASCADE could not create 1 of 4 faces of the file (#"));
+    EXPECT_THAT(refusal(with_broken_faces(text, 0), "all.step"), HasSubstr("could not create 4 of 4 faces"));
     EXPECT_TRUE(read_text(with_broken_faces(text, 4), "whole.step").left_out.empty());
 }
 
@@ -194,7 +193,7 @@ TEST_F(CadFile, AUnitThatIsConvertedInSeveralStepsIsTaken) {
     const std::string circle =
         "#9003 = ( CONVERSION_BASED_UNIT('INCH',#9002) LENGTH_UNIT() NAMED_UNIT(#9001) );";
     EXPECT_THAT(read_text(dome_in(conversion("HAND", "1.", circle)), "circle.step").notes,
-                ElementsAre(HasSubstr("its conversions come to no unit")));
+                ElementsAre(HasSubstr("its conversions do not lead to a unit")));
 }
 
 // They had come as millimetres or metres without a word.
@@ -204,22 +203,20 @@ TEST_F(CadFile, AUnitThatIsNotUnderstoodIsToldWithItsPlace) {
         return fmt::format("{:.0f} mm: {}", width(model), fmt::join(model.notes, "; "));
     };
     EXPECT_EQ(told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.DECI.,.METRE.) );"), "8000 mm: ");
+    EXPECT_EQ(told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MYRIA.,.METRE.) );"),
+              "80000 mm: the unit of length #106 in line 137 cannot be read (Enumeration si_prefix has not "
+              "an allowed value): 1000 mm is assumed");
     EXPECT_EQ(
-        told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MYRIA.,.METRE.) );"),
-        "80000 mm: the unit of length #106 in line 137 is not understood (Enumeration si_prefix has not an "
-        "allowed value): one of 1000 mm is taken");
-    EXPECT_EQ(told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.GRAM.) );"),
-              "80 mm: the unit of length #106 in line 137 is not understood (it is no metre): one of 1 mm is "
-              "taken");
+        told("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.GRAM.) );"),
+        "80 mm: the unit of length #106 in line 137 cannot be read (it is not a metre): 1 mm is assumed");
     const std::string exponents = "\n#9001 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);";
     EXPECT_EQ(
         told("UNIT_HERE = ( CONVERSION_BASED_UNIT('CUBIT',$) LENGTH_UNIT() NAMED_UNIT(#9001) );" + exponents),
-        "80 mm: the unit of length #106 in line 137 is not understood (it has no factor): one of 1 mm is "
-        "taken");
+        "80 mm: the unit of length #106 in line 137 cannot be read (it has no factor): 1 mm is assumed");
     EXPECT_EQ(
         told("UNIT_HERE = ( CONTEXT_DEPENDENT_UNIT('CUBIT') LENGTH_UNIT() NAMED_UNIT(#9001) );" + exponents),
-        "80 mm: #105 in line 133 has no unit of length that is understood: mm are taken");
-    EXPECT_EQ(told(""), "80 mm: #105 in line 133 has no unit of length that is understood: mm are taken");
+        "80 mm: #105 in line 133 has no unit of length that can be read: mm is assumed");
+    EXPECT_EQ(told(""), "80 mm: #105 in line 133 has no unit of length that can be read: mm is assumed");
 }
 
 // An assembly has a context for each of its parts.
@@ -245,7 +242,7 @@ TEST_F(CadFile, AUnitThatManyContextsHaveIsToldOnceAndOfManyUnitsAFew) {
     EXPECT_THAT(with_contexts(30, true), ElementsAre(HasSubstr("#9000 in line")));
     const std::vector<std::string> notes = with_contexts(30, false);
     ASSERT_EQ(notes.size(), 21u);
-    EXPECT_EQ(notes.back(), "and 10 more like these");
+    EXPECT_EQ(notes.back(), "and 10 more of this kind");
 }
 
 TEST_F(CadFile, AUnitOfNoLengthIsRefusedWithItsLine) {
@@ -254,7 +251,7 @@ TEST_F(CadFile, AUnitOfNoLengthIsRefusedWithItsLine) {
             (void)read_text(dome_in(conversion("INCH", factor)), "none.step");
             FAIL() << "a unit of " << factor;
         } catch (const Error& error) {
-            EXPECT_THAT(error.diagnostic().message, HasSubstr("a unit of length of"));
+            EXPECT_THAT(error.diagnostic().message, HasSubstr("is not a valid unit of length"));
             EXPECT_EQ(error.diagnostic().place.line, 137);
         }
     }
@@ -331,15 +328,15 @@ std::string step_of(const std::string& data) {
 }
 
 TEST_F(CadFile, WithoutAFaceIsToldAsWhatItIs) {
-    EXPECT_EQ(refusal(step_of(""), "empty.step"), "the file holds nothing: it has no entities");
+    EXPECT_EQ(refusal(step_of(""), "empty.step"), "the file contains no entities");
     EXPECT_EQ(refusal(step_of("#1=CARTESIAN_POINT('',(1.,2.,3.));\n"), "point.step"),
-              "the file holds no face: 1 point");
+              "the file contains no face: 1 point");
     EXPECT_EQ(refusal(step_of("#1=APPLICATION_CONTEXT('');\n#2=PRODUCT_CONTEXT('',#1,'');\n"
                               "#3=PRODUCT('bracket','bracket','',(#2));\n"),
                       "assembly.step"),
-              "the file holds no face: 1 product without a shape");
+              "the file contains no face: 1 product without shape");
     EXPECT_EQ(refusal(step_of("#1=NO_SUCH_SHELL('',());\n"), "other.step"),
-              "the file holds no face: 1 entity of an unknown kind");
+              "the file contains no face: 1 entity of unknown type");
 }
 
 // The library follows a reference that the file does not have; the process that reads it ends, this one goes
@@ -374,7 +371,7 @@ TEST_F(CadFile, NumbersThatAreNoneAreRefusedWithTheirLine) {
         } catch (const Error& error) {
             const Diagnostic& said = error.diagnostic();
             EXPECT_THAT(said.message,
-                        HasSubstr(fmt::format("CARTESIAN_POINT: \"{}\" is no finite number", no_number)));
+                        HasSubstr(fmt::format("CARTESIAN_POINT: \"{}\" is not a finite number", no_number)));
             EXPECT_EQ(said.message.front(), '#');
             const std::ptrdiff_t lines = std::count(
                 text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(no_number)), '\n');
@@ -382,7 +379,7 @@ TEST_F(CadFile, NumbersThatAreNoneAreRefusedWithTheirLine) {
         }
     }
     EXPECT_THAT(refusal(dome_with(whole, point, "CARTESIAN_POINT('',(0.,0.,-1.E10))"), "far.step"),
-                HasSubstr("\"-1.E10\" is no coordinate of a part, they end at 1000000000"));
+                HasSubstr("\"-1.E10\" is not a valid part coordinate, the limit is 1000000000"));
     EXPECT_THAT(refusal(dome_with(whole, "VECTOR('',#", "VECTOR('',1e999,#"), "vector.step"),
                 HasSubstr("VECTOR: \"1e999\""));
 }
@@ -404,7 +401,8 @@ TEST_F(CadFile, TooManyFacesAreRefusedBeforeTheModelIsRead) {
     for (int n = 1; n <= most_cad_faces + 1; ++n) {
         faces += fmt::format("#{}=ADVANCED_FACE('',(),#{},.T.);\n", n, n);
     }
-    EXPECT_EQ(refusal(step_of(faces), "many.step"), "the file has 20001 faces, more than 20000");
+    EXPECT_EQ(refusal(step_of(faces), "many.step"),
+              "the file has 20001 faces, but at most 20000 are supported");
 }
 
 TEST_F(CadFile, CanBeCancelled) {

@@ -196,9 +196,8 @@ TEST(CloudFit, RefusesWhatIsNoSurface) {
     const auto why = [](const std::vector<Vec3>& points) {
         return test::reason([&] { (void)fit_cloud(points, {}, {}); });
     };
-    EXPECT_THAT(why({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
-                HasSubstr("3 points in different places are too few"));
-    EXPECT_THAT(why({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {4, 4, 4}}), HasSubstr("lie in a line"));
+    EXPECT_THAT(why({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), HasSubstr("3 distinct points are too few"));
+    EXPECT_THAT(why({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {4, 4, 4}}), HasSubstr("lie on a line"));
 }
 
 } // namespace

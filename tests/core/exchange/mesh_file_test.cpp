@@ -124,7 +124,8 @@ TEST(MeshFile, TextStlIsReadHoweverItIsWritten) {
         EXPECT_EQ(parsed(written).mesh.points, parsed(text).mesh.points) << written;
         EXPECT_EQ(parsed(written).mesh.triangles, parsed(text).mesh.triangles) << written;
     }
-    EXPECT_THAT(refusal(replaced(text, "endloop", "end of loop")), HasSubstr(":7: 'endof' is no word"));
+    EXPECT_THAT(refusal(replaced(text, "endloop", "end of loop")),
+                HasSubstr(":7: 'endof' is not an STL keyword"));
 }
 
 TEST(MeshFile, LinesOfObjAndPlyMayEndInCrAndBeginWithAMark) {
@@ -146,7 +147,7 @@ TEST(MeshFile, LinesOfObjAndPlyMayEndInCrAndBeginWithAMark) {
     EXPECT_FLOAT_EQ(static_cast<float>(parsed(binary, "a.ply").mesh.points.front().x()), corners[0]);
 }
 
-// They were read over: "the file has no triangle with an area".
+// They were read over: "the file contains no triangle with an area".
 TEST(MeshFile, TriangleStripsOfPlyAreReadWithTheirSides) {
     const std::string head = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
                              "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
@@ -163,7 +164,7 @@ TEST(MeshFile, TriangleStripsOfPlyAreReadWithTheirSides) {
     EXPECT_EQ(joined.mesh.triangles.size(), 3u);
     EXPECT_EQ(joined.without_area, 0);
     EXPECT_THAT(refusal(head + "3 0 1 9\n", "a.ply"), HasSubstr("a.ply:16"));
-    EXPECT_THAT(refusal(head + "3 0 1 -2\n", "a.ply"), HasSubstr("-2 is no index"));
+    EXPECT_THAT(refusal(head + "3 0 1 -2\n", "a.ply"), HasSubstr("-2 is not a valid index"));
 }
 
 // They were left out without a word.
@@ -175,10 +176,10 @@ TEST(MeshFile, TrianglesBehindThoseThatAStlHeaderCountsAreTold) {
     EXPECT_EQ(read.mesh.triangles.size(), 1u);
     EXPECT_THAT(
         read.notes,
-        ElementsAre("50 bytes behind the triangle that the header counts are not read: room for 1 more"));
+        ElementsAre("50 bytes after the triangle declared in the header are ignored: enough for 1 more"));
     EXPECT_THAT(
         parsed(binary_stl(plate) + "end").notes,
-        ElementsAre("3 bytes behind the 2 triangles that the header counts are not read: room for 0 more"));
+        ElementsAre("3 bytes after the 2 triangles declared in the header are ignored: enough for 0 more"));
 }
 
 // It was taken for text.
@@ -194,8 +195,9 @@ TEST(MeshFile, WhatFollowsTheElementsOfAPlyIsTold) {
                              "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     const std::string text = "ply\nformat ascii 1.0\n" + head + "0 0 0\n4 0 0\n0 3 0\n3 0 1 2\n";
     EXPECT_TRUE(parsed(text + " \n\n", "part.ply").notes.empty());
-    EXPECT_THAT(parsed(text + "\n3 0 2 1\n", "part.ply").notes,
-                ElementsAre("what follows the elements that the head counts, from line 15 on, is not read"));
+    EXPECT_THAT(
+        parsed(text + "\n3 0 2 1\n", "part.ply").notes,
+        ElementsAre("everything after the elements declared in the header, from line 15 on, is ignored"));
     std::string binary = "ply\nformat binary_little_endian 1.0\n" + head;
     for (const float value : {0.0F, 0.0F, 0.0F, 4.0F, 0.0F, 0.0F, 0.0F, 3.0F, 0.0F}) {
         append(binary, &value, sizeof value);
@@ -206,7 +208,7 @@ TEST(MeshFile, WhatFollowsTheElementsOfAPlyIsTold) {
     }
     EXPECT_TRUE(parsed(binary + "\n", "part.ply").notes.empty());
     EXPECT_THAT(parsed(binary + "more", "part.ply").notes,
-                ElementsAre("4 bytes behind the elements that the head counts are not read"));
+                ElementsAre("4 bytes after the elements declared in the header are ignored"));
 }
 
 TEST(MeshFile, FacesOfManyCornersAreCutUp) {
@@ -281,26 +283,27 @@ TEST(MeshFile, BinaryPlyOfEitherByteOrder) {
 }
 
 TEST(MeshFile, SaysWhatIsWrongAndWhere) {
-    EXPECT_THAT(refusal(two_triangles, "part.dxf"), HasSubstr("part.dxf: this kind of file is not read"));
+    EXPECT_THAT(refusal(two_triangles, "part.dxf"), HasSubstr("part.dxf: this file type cannot be read"));
     EXPECT_THAT(refusal(""), HasSubstr("part.stl: the file is empty"));
-    EXPECT_THAT(refusal("hello, this is no mesh"), HasSubstr("part.stl: neither text, nor"));
+    EXPECT_THAT(refusal("hello, this is no mesh"), HasSubstr("part.stl: neither text nor"));
     EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 zero\n"),
-                HasSubstr("part.stl:3: 'zero' is no number"));
-    EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 1\nendloop\n"), HasSubstr("part.stl:4: a loop of 1"));
-    EXPECT_THAT(refusal("solid\nvertex 0 0 1\n"), HasSubstr("part.stl:2: a vertex outside of a loop"));
-    EXPECT_THAT(refusal("solid\nouter loop\n"), HasSubstr("the file ends inside of a loop"));
+                HasSubstr("part.stl:3: 'zero' is not a number"));
+    EXPECT_THAT(refusal("solid\nouter loop\nvertex 0 0 1\nendloop\n"), HasSubstr("part.stl:4: a loop has 1"));
+    EXPECT_THAT(refusal("solid\nvertex 0 0 1\n"), HasSubstr("part.stl:2: a vertex is outside a loop"));
+    EXPECT_THAT(refusal("solid\nouter loop\n"), HasSubstr("the file ends in the middle of a loop"));
     EXPECT_THAT(refusal(binary_stl(plate).substr(0, 150)),
-                HasSubstr("part.stl: 2 triangles take 184 bytes, the file has 150"));
+                HasSubstr("part.stl: 2 triangles need 184 bytes, but the file has 150"));
     EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "part.obj"), HasSubstr("no triangle with an area"));
     EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 2\n", "part.obj"), HasSubstr("no triangle with an area"));
     EXPECT_THAT(refusal("v 0 0 0\nf 1 2 3\n", "part.obj"),
-                HasSubstr("part.obj:2: a face has a corner 2, there are 1"));
-    EXPECT_THAT(refusal("v 0 0 0\nf 1 0 1\n", "part.obj"), HasSubstr("part.obj:2: '0' is no corner"));
+                HasSubstr("part.obj:2: a face refers to point 2, but there are only 1"));
+    EXPECT_THAT(refusal("v 0 0 0\nf 1 0 1\n", "part.obj"),
+                HasSubstr("part.obj:2: '0' is not a valid corner"));
     EXPECT_THAT(refusal("v 0 0 0\nf 1 1\n", "part.obj"), HasSubstr("part.obj:2: a face has 2 corners"));
     EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 0\n", "part.ply"), HasSubstr("no end_header"));
     EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 300000000\n", "part.ply"),
-                HasSubstr("part.ply:3: '300000000' is no number of elements in this file"));
-    EXPECT_THAT(refusal("plyx\n", "part.ply"), HasSubstr("begins with the word ply"));
+                HasSubstr("part.ply:3: '300000000' is not a valid number of elements for this file"));
+    EXPECT_THAT(refusal("plyx\n", "part.ply"), HasSubstr("must start with the word ply"));
 }
 
 /// As UTF-16, `first` 0: of Intel's byte order.

@@ -47,32 +47,34 @@ TEST(MeasuredPoints, AreReadWhateverSeparatesThem) {
 TEST(MeasuredPoints, TakeTheirColumnsFromTheFirstLineOfNames) {
     const MeasuredPoints read = points_in("no,Y [mm],z_mm,X,quality\n1,2,3,4,5\n2,3,4,5,6\n");
     EXPECT_EQ(read.points[1], Vec3(5.0, 3.0, 4.0));
-    EXPECT_THAT(read.notes, ElementsAre("of 5 columns x, y and z are read"));
+    EXPECT_THAT(read.notes, ElementsAre("only x, y and z of 5 columns are used"));
     EXPECT_EQ(points_in("1 2 3 255 0 0\n4 5 6 255 0 0\n").points[1], Vec3(4.0, 5.0, 6.0));
-    EXPECT_THAT(why_no_points("a,b,c\n1,2,3\n"), HasSubstr("probe.csv:1: no column is named x"));
+    EXPECT_THAT(why_no_points("a,b,c\n1,2,3\n"), HasSubstr("probe.csv:1: there is no column named x"));
 }
 
 TEST(MeasuredPoints, SayWhereTheFileIsWrong) {
     EXPECT_THAT(why_no_points("1 2 3\n1 nan 3\n"), HasSubstr("probe.csv:2: 'nan' is not a finite number"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2 -inf\n"), HasSubstr("probe.csv:2: '-inf' is not a finite number"));
-    EXPECT_THAT(why_no_points("1 2 3\n1 2 1e999\n"), HasSubstr("probe.csv:2: '1e999' is no number"));
-    EXPECT_THAT(why_no_points("1 2 3\n1 2 3mm\n"), HasSubstr("probe.csv:2: '3mm' is no number"));
-    EXPECT_THAT(why_no_points("1,2,3\n1,,3\n"), HasSubstr("probe.csv:2: '' is no number"));
-    EXPECT_THAT(why_no_points("1 2 3\n1 2\n"), HasSubstr("probe.csv:2: 2 numbers here, three are needed"));
+    EXPECT_THAT(why_no_points("1 2 3\n1 2 1e999\n"), HasSubstr("probe.csv:2: '1e999' is not a number"));
+    EXPECT_THAT(why_no_points("1 2 3\n1 2 3mm\n"), HasSubstr("probe.csv:2: '3mm' is not a number"));
+    EXPECT_THAT(why_no_points("1,2,3\n1,,3\n"), HasSubstr("probe.csv:2: '' is not a number"));
+    EXPECT_THAT(why_no_points("1 2 3\n1 2\n"),
+                HasSubstr("probe.csv:2: this line has 2 numbers, but needs three"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2 3 4\n"),
-                HasSubstr("probe.csv:2: 4 numbers here, the lines before have 3"));
+                HasSubstr("probe.csv:2: 4 this line has numbers, but the lines before have 3"));
     EXPECT_THAT(why_no_points("3\n1 2 3\n1 2 4\n"),
-                HasSubstr("probe.csv:1: the file announces 3 points and has 2"));
-    EXPECT_THAT(why_no_points("# nothing\n\n"), HasSubstr("probe.csv: the file holds no points"));
+                HasSubstr("probe.csv:1: the file declares 3 points, but contains 2"));
+    EXPECT_THAT(why_no_points("# nothing\n\n"), HasSubstr("probe.csv: the file contains no points"));
 }
 
 TEST(MeasuredPoints, KnowDecimalCommas) {
     for (const char* text : {"1,5;2,5;3\n", "1,5 2,5 3,5\n", "1,5\t2,5\t3,5\n", "-1,5; 2;3\n"}) {
         EXPECT_THAT(why_no_points(text), HasSubstr("probe.csv:1: '")) << text;
-        EXPECT_THAT(why_no_points(text), HasSubstr("1,5' has a comma as decimal point")) << text;
+        EXPECT_THAT(why_no_points(text), HasSubstr("1,5' has a decimal comma")) << text;
     }
-    EXPECT_THAT(why_no_points("1,5,2,5,3,0\n"),
-                HasSubstr("probe.csv:1: 6 numbers are separated by commas here, x, y and z are three"));
+    EXPECT_THAT(
+        why_no_points("1,5,2,5,3,0\n"),
+        HasSubstr("probe.csv:1: 6 numbers are separated by commas, but only x, y and z are expected"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2 3,5\n"), HasSubstr("probe.csv:2: "));
 }
 
@@ -112,10 +114,10 @@ TEST(PointRows, AreFoundWithAndWithoutBlankLines) {
 
 TEST(PointRows, SayWhereARowIsWrong) {
     EXPECT_THAT(why_no_rows("0 0 0\n0 1 0\n0 2 0\n\n1 0 0\n1 1 0\n"),
-                HasSubstr("probe.csv:5: row 2 has 2 points, the first row 3"));
+                HasSubstr("probe.csv:5: row 2 has 2 points, but the first row has 3"));
     EXPECT_THAT(why_no_rows("0 0 0\n0 1 0\n\n1 0 0\n0 1 0\n"),
-                HasSubstr("probe.csv:5: the point of line 2 is here again"));
-    EXPECT_THAT(why_no_rows("0 0 0\n\n1 0 0\n\n2 0 0\n"), HasSubstr("probe.csv:1: a row has one point only"));
+                HasSubstr("probe.csv:5: the point of line 2 is repeated here"));
+    EXPECT_THAT(why_no_rows("0 0 0\n\n1 0 0\n\n2 0 0\n"), HasSubstr("probe.csv:1: a row has only one point"));
 }
 
 TEST(PointRows, ACloudLeavesOutWhatIsThereTwice) {

@@ -72,7 +72,7 @@ TEST(CutPrograms, TellsOfAHeightThatIsNotNamedAndCountsNoWayDownToIt) {
     const CutProgram program = read_cut("G21 G90\nG0 X1 Y1\nG1 X2 F100\nM2\n");
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].place.line, 3);
-    EXPECT_THAT(program.notices[0].message, HasSubstr("no height is named before this feed"));
+    EXPECT_THAT(program.notices[0].message, HasSubstr("no height is given before this feed move"));
     EXPECT_NEAR(plot::lengths(program.path).cut, 6.0, 1e-9)
         << "lowered all the same: nobody knows from where";
     EXPECT_NEAR(named_lengths(program).cut, 1.0, 1e-9);
@@ -88,7 +88,7 @@ TEST(CutPrograms, TellHowFarFeedsAreTakenForTravel) {
     const CutProgram program = read_cut(text);
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].place.line, 3);
-    EXPECT_THAT(program.notices[0].message, HasSubstr("70.000 mm of feeds at or above z 0.000 mm"));
+    EXPECT_THAT(program.notices[0].message, HasSubstr("70.000 mm of feed moves at or above z 0.000 mm"));
     EXPECT_TRUE(read_cut(text, {.safe_height = 5.0}).notices.empty()) << "a person said so";
     EXPECT_EQ(read_cut(text, {.safe_height = 5.0}).strokes.size(), 2U);
     EXPECT_TRUE(read_cut(read_file(thesis_plate)).notices.empty());
@@ -141,13 +141,12 @@ TEST(CutPrograms, ACutFromWhereXOrYIsNotKnownHasNoPlace) {
         }
         return all;
     };
-    EXPECT_EQ(
-        unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50\n"),
-        "part.ngc:3: this cut begins where the program has not said what X and Y are (name X and Y in a "
-        "rapid before the first cut)\n");
-    EXPECT_THAT(unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50 Y50\n"), HasSubstr("part.ngc:3: this cut begins"));
+    EXPECT_EQ(unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50\n"),
+              "part.ngc:3: this cut starts before the program has stated where X and Y are (add a rapid move "
+              "with X and Y before the first cut)\n");
+    EXPECT_THAT(unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50 Y50\n"), HasSubstr("part.ngc:3: this cut starts"));
     EXPECT_THAT(unplaced("G0 X0 Z5\nG1 Z-1 F100\nG1 X50\n"), HasSubstr("what Y is (name Y in"));
-    EXPECT_THAT(unplaced("G0 Y0\nG0 Z-1\nG1 X50 F100\n"), HasSubstr("part.ngc:4: this cut begins"));
+    EXPECT_THAT(unplaced("G0 Y0\nG0 Z-1\nG1 X50 F100\n"), HasSubstr("part.ngc:4: this cut starts"));
     EXPECT_THAT(unplaced("G1 X50 Y50 Z-1 F100\n"), HasSubstr("what X and Y are"));
     EXPECT_EQ(unplaced("G0 X0 Y0\nZ5\nG1 Z-1 F100\nX50\n"), "") << "named, though at zero";
     EXPECT_EQ(unplaced("G1 Z5 F900\nG0 X0 Y0\nX3\nG1 Z-1 F100\nX50\n"), "") << "cuts nothing on its way up";
@@ -172,8 +171,7 @@ TEST(CutPrograms, FeedsAtTheHeightOfTravelAreInTheAir) {
                                     }),
               1);
     EXPECT_EQ(points_of(read_cut(text, {.safe_height = 6.0})), (std::vector<std::size_t>{2, 2, 2}));
-    EXPECT_THAT(cut_refusal(text, {.safe_height = -2.0}).message,
-                HasSubstr("nothing to cut in it below z -2.000"));
+    EXPECT_THAT(cut_refusal(text, {.safe_height = -2.0}).message, HasSubstr("no cuts below z -2.000"));
     // A pen plotter's: all in one plane.
     EXPECT_EQ(points_of(read_cut("G0 Z0\nG0 X5 Y5\nX0\nG1 X10 F60\nY10\nM2\n")),
               (std::vector<std::size_t>{3}));
@@ -207,7 +205,7 @@ TEST(CutPrograms, HeightsThatChangeAlongACutAreToldWithTheLine) {
     const CutProgram program = read_cut("G0 X0 Y0 Z5\nX1\nG1 Z0 F60\nX10 Z-2\nX20\nG0 Z5\nM2\n");
     ASSERT_TRUE(program.uneven);
     EXPECT_EQ(program.uneven->place.line, 4);
-    EXPECT_EQ(program.uneven->message, "this cut goes from z 0.000 to -2.000 mm");
+    EXPECT_EQ(program.uneven->message, "this cut changes height from z 0.000 to -2.000 mm");
     EXPECT_FALSE(program.levels[0].z);
     EXPECT_EQ(program.path[program.path.size() - 3].at, Vec3(10, 0, -2));
 }
@@ -219,10 +217,10 @@ TEST(CutPrograms, WhatHasNoMeaningAsAPathIsRefusedWithItsLine) {
     };
     EXPECT_EQ(at_line("G0 X0 Y0 Z5\nG1 Z-1 F60\nG1 X10 A90\nM2\n"), "3: the machine 'X, Y, Z' has no axis A");
     EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG1 Z-1\nM2\n"), HasSubstr("2: "));
-    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG38.2 Z-1 F60\nM2\n"), HasSubstr("2: nothing is probed"));
+    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG38.2 Z-1 F60\nM2\n"), HasSubstr("2: probing (G38) is not possible"));
     EXPECT_THAT(at_line("G0 X0 Y0 Z5\nG2 X10 Y0 I9 F60\nM2\n"), HasSubstr("2: "));
-    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nM2\n"), HasSubstr("there is nothing to cut in it"));
-    EXPECT_THAT(at_line(""), HasSubstr("there is nothing in the program"));
+    EXPECT_THAT(at_line("G0 X0 Y0 Z5\nM2\n"), HasSubstr("the program has no cuts"));
+    EXPECT_THAT(at_line(""), HasSubstr("the program is empty"));
 }
 
 // Without a diameter the contour itself was cut.
@@ -242,8 +240,8 @@ TEST(CutPrograms, ASpindleThatIsOnlySetTurnsAtThatSpeed) {
     EXPECT_EQ(program.spindle_rpm, 1500.0);
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].message,
-              "the program sets a spindle speed, 1500 1/min, and never switches the spindle on (M3): here it "
-              "is on");
+              "the program sets a spindle speed, 1500 1/min, but never starts the spindle (M3); here the "
+              "spindle is started");
     EXPECT_EQ(read_cut("S1500\nG0 X0 Y0 Z5\nS2000 M3\nG1 Z-1 F60\nX5\nM2\n").spindle_rpm, 2000.0);
 }
 
@@ -253,8 +251,8 @@ TEST(CutPrograms, AProgramWithoutAnEndIsReadToItsLastLine) {
     EXPECT_EQ(program.strokes[0].points.back(), Vec2(5, 0));
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].message,
-              "the program does not end with M2, M30 or %: it is read to its last line");
-    EXPECT_THAT(cut_refusal("%\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX5\n").message, HasSubstr("begins with %"));
+              "the program does not end with M2, M30 or %; it was read to its last line");
+    EXPECT_THAT(cut_refusal("%\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX5\n").message, HasSubstr("starts with %"));
 }
 
 TEST(CutPrograms, WhatAPathHasNoRecordOfIsToldOnce) {
@@ -267,9 +265,9 @@ TEST(CutPrograms, WhatAPathHasNoRecordOfIsToldOnce) {
         told += to_text(notice) + "\n";
     }
     EXPECT_EQ(told,
-              "part.ngc:2: a path has no coolant: left out\n"
-              "part.ngc:4: a path has no dwells: left out 2 times\n"
-              "part.ngc:8: a path has no stops for a person: left out\n");
+              "part.ngc:2: a path cannot contain coolant: ignored\n"
+              "part.ngc:4: a path cannot contain dwells: ignored 2 times\n"
+              "part.ngc:8: a path cannot contain operator stops: ignored\n");
 }
 
 // It ended as an internal error.
@@ -279,7 +277,7 @@ TEST(CutPrograms, AnArcOfTooManyChordsIsRefusedWithItsLine) {
          {CutProgramSettings{.chord_length = 0.001}, CutProgramSettings{.chord_tolerance = 1e-12}}) {
         const Diagnostic found = cut_refusal(text, settings);
         EXPECT_EQ(found.place.line, 4);
-        EXPECT_EQ(found.message, "this arc would have more than ten million chords");
+        EXPECT_EQ(found.message, "this arc would need more than ten million chords");
     }
 }
 

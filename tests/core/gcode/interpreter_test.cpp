@@ -74,7 +74,7 @@ TEST(Interpreter, SaysThatNothingBehindAMissingSubroutineIsLookedAt) {
     settings.read_on = true;
     const ReadProgram program = read("G0 X1\no<none> call\nG1 X1..5", settings);
     ASSERT_EQ(program.errors.size(), 1U);
-    EXPECT_THAT(program.errors[0].hint, HasSubstr("what follows was not looked at"));
+    EXPECT_THAT(program.errors[0].hint, HasSubstr("the lines after it were not checked"));
 }
 
 TEST(Interpreter, AZeroByteIsToldAsOne) {
@@ -121,14 +121,15 @@ TEST(Interpreter, AnEndlessLoopEnds) {
     ReaderSettings settings;
     settings.most_repeated_lines = 1000;
     EXPECT_THAT(error_of("O1 while [1]\n#1=[#1+1]\nO1 endwhile", settings),
-                HasSubstr("does not seem to end"));
-    EXPECT_THAT(error_of("O1 do\nO1 while [1]", settings), HasSubstr("does not seem to end"));
-    EXPECT_THAT(error_of("O1 repeat [999999999]\nO1 endrepeat", settings), HasSubstr("does not seem to end"));
+                HasSubstr("seems to loop forever"));
+    EXPECT_THAT(error_of("O1 do\nO1 while [1]", settings), HasSubstr("seems to loop forever"));
+    EXPECT_THAT(error_of("O1 repeat [999999999]\nO1 endrepeat", settings),
+                HasSubstr("seems to loop forever"));
 }
 
 TEST(Interpreter, LongLinesAreRefusedWithoutKeepingThem) {
     const std::string long_line = "G0 X1 (" + std::string(10'000'000, 'a') + ")\n";
-    EXPECT_EQ(error_of("G0 X5\n" + long_line + "X6"), "2:255: a line has at most 254 characters");
+    EXPECT_EQ(error_of("G0 X5\n" + long_line + "X6"), "2:255: a line may have at most 254 characters");
     ReaderSettings settings;
     settings.most_errors = 10;
     EXPECT_EQ(read("G0 X5\n" + long_line + "X6", settings).moves.size(), 2U);
@@ -140,7 +141,7 @@ TEST(Interpreter, BinaryIsRefusedWithThePlace) {
                             13);
     EXPECT_EQ(error_of(bytes), "2:5: byte 0x00 found: this is a binary file");
     EXPECT_EQ(error_of(std::string("G0\0X1", 5)), "1:3: byte 0x00 found: this is a binary file");
-    EXPECT_EQ(error_of("\xFF\xFEG"), "1:1: the text is UTF-16");
+    EXPECT_EQ(error_of("\xFF\xFEG"), "1:1: the file is UTF-16");
 }
 
 TEST(Interpreter, StateTellsWhatIsInForce) {
@@ -209,13 +210,13 @@ TEST(Interpreter, ReadsAFileAndTheSubroutinesBesideIt) {
     EXPECT_THAT(count.places, ElementsAre(SourcePlace{3, 1}, SourcePlace{3, 1}));
     ASSERT_EQ(program.errors().size(), 1U); // the line is the same in both calls
     EXPECT_EQ(to_text(program.errors()[0]),
-              (folder / "hole.ngc").string() + ":4:4: a line has one X word at most");
+              (folder / "hole.ngc").string() + ":4:4: a line may have only one X word");
     std::filesystem::remove_all(folder);
 }
 
 TEST(Interpreter, SubroutineNamesCannotLeaveTheFolder) {
-    EXPECT_THAT(error_of("O<../secret> call"), HasSubstr("neither defined nor in a file"));
-    EXPECT_THAT(error_of("O</etc/passwd> call"), HasSubstr("neither defined nor in a file"));
+    EXPECT_THAT(error_of("O<../secret> call"), HasSubstr("is not defined, and there is no file"));
+    EXPECT_THAT(error_of("O</etc/passwd> call"), HasSubstr("is not defined, and there is no file"));
 }
 
 TEST(Interpreter, AFileThatCannotBeReadIsAnError) {
@@ -233,7 +234,7 @@ TEST(Interpreter, SaysThatThereIsNothing) {
     for (const std::string text : {"", "\n", " \n\t\n"}) {
         const auto errors = test::read_all(text).errors;
         ASSERT_EQ(errors.size(), 1U);
-        EXPECT_EQ(errors[0].message, "there is nothing in the program");
+        EXPECT_EQ(errors[0].message, "the program is empty");
         EXPECT_GE(errors[0].place.line, 1);
         EXPECT_EQ(errors[0].place.column, 1);
     }

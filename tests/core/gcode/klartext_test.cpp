@@ -148,32 +148,34 @@ TEST(Klartext, ReadsWhatSurroundsTheBlocksInForeignPrograms) {
 }
 
 TEST(Klartext, RefusesWhatItDoesNotKnowWithItsPlace) {
-    EXPECT_THAT(error_in("L X+1 RL F60"), HasSubstr("a.h:2:9: 'RL' is not read in an L block"));
-    EXPECT_THAT(error_in("L X+1"), HasSubstr("a.h:2:1: a feed move without a feed"));
-    EXPECT_THAT(error_in("L X+1 X+2 F60"), HasSubstr("a.h:2:9: X stands twice"));
-    EXPECT_THAT(error_in("L X+1 FMAX F60"), HasSubstr("FMAX and F in one block"));
-    EXPECT_THAT(error_in("L X+-1 FMAX"), HasSubstr("a.h:2:5: 'X+-1' is no number"));
-    EXPECT_THAT(error_in("L X1e5 FMAX"), HasSubstr("is no number"));
-    EXPECT_THAT(error_in("L X FMAX"), HasSubstr("is no number"));
-    EXPECT_THAT(error_in("C X+1 Y+2 DR+"), HasSubstr("a.h:2:3: 'C' stands where M is expected"));
-    EXPECT_THAT(error_in("M77"), HasSubstr("M77 is not read"));
-    EXPECT_THAT(error_in("CYCL DEF 200 DRILLING"), HasSubstr("only 9 and 32"));
+    EXPECT_THAT(error_in("L X+1 RL F60"), HasSubstr("a.h:2:9: 'RL' is not supported in an L block"));
+    EXPECT_THAT(error_in("L X+1"), HasSubstr("a.h:2:1: a feed move has no feed rate"));
+    EXPECT_THAT(error_in("L X+1 X+2 F60"), HasSubstr("a.h:2:9: X occurs twice"));
+    EXPECT_THAT(error_in("L X+1 FMAX F60"), HasSubstr("FMAX and F cannot be in the same block"));
+    EXPECT_THAT(error_in("L X+-1 FMAX"), HasSubstr("a.h:2:5: 'X+-1' is not a number"));
+    EXPECT_THAT(error_in("L X1e5 FMAX"), HasSubstr("is not a number"));
+    EXPECT_THAT(error_in("L X FMAX"), HasSubstr("is not a number"));
+    EXPECT_THAT(error_in("C X+1 Y+2 DR+"), HasSubstr("a.h:2:3: 'C' is found where M is expected"));
+    EXPECT_THAT(error_in("M77"), HasSubstr("M77 is not supported"));
+    EXPECT_THAT(error_in("CYCL DEF 200 DRILLING"), HasSubstr("only the cycles 9 and 32"));
     EXPECT_THAT(error_in("FUNCTION TCPM F CONT AXIS POS PATHCTRL AXIS"),
-                HasSubstr("tip control is switched by"));
-    EXPECT_THAT(error_in("FUNCTION MODE MILL"), HasSubstr("tip control is switched by"));
+                HasSubstr("tool-tip control (TCPM) must be switched on with"));
+    EXPECT_THAT(error_in("FUNCTION MODE MILL"),
+                HasSubstr("tool-tip control (TCPM) must be switched on with"));
     EXPECT_THAT(error_in(""), HasSubstr("read"));
     EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n2 END PGM A MM\n"),
-                HasSubstr("a.h:2:1: the block number is 1"));
-    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n\n"), HasSubstr("a.h:2:1: an empty line"));
-    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n"), HasSubstr("does not end with END PGM"));
-    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n1 END PGM B MM\n"), HasSubstr("names another program"));
-    EXPECT_THAT(klartext_error("0 BEGIN PGM A CM\n"), HasSubstr("lengths are in MM or INCH"));
-    EXPECT_THAT(klartext_error("0 L X+1 FMAX\n"), HasSubstr("begins with BEGIN PGM"));
+                HasSubstr("a.h:2:1: the block number must be 1"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n\n"), HasSubstr("a.h:2:1: the line is empty"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n"), HasSubstr("must end with END PGM"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n1 END PGM B MM\n"),
+                HasSubstr("differs from the one after BEGIN PGM"));
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A CM\n"), HasSubstr("the unit must be MM or INCH"));
+    EXPECT_THAT(klartext_error("0 L X+1 FMAX\n"), HasSubstr("must start with BEGIN PGM"));
     EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\n1 END PGM A MM\n2 M30\n"),
-                HasSubstr("nothing stands behind END PGM"));
-    EXPECT_THAT(klartext_error(""), HasSubstr("does not end with END PGM"));
+                HasSubstr("nothing may follow END PGM"));
+    EXPECT_THAT(klartext_error(""), HasSubstr("must end with END PGM"));
     EXPECT_THAT(klartext_error(program_of({"M128", "L Z+1 FMAX M91"})),
-                HasSubstr("M91 needs tip control to be off"));
+                HasSubstr("M91 can only be used with tool-tip control (TCPM) off"));
 }
 
 } // namespace

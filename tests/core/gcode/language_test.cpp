@@ -106,21 +106,21 @@ TEST(Language, AProgramIsRefusedInOneLine) {
         return read.errors.empty() ? std::string() : to_text(read.errors.front());
     };
     EXPECT_THAT(refusal("G21 G90\nN20 R1=5\nN30 G1 X=R1 F100\nN40 MSG(\"x\")\nM30\n"),
-                HasSubstr(":2:1: this is the Sinumerik language of Siemens, not G-code (post the part"));
+                HasSubstr(":2:1: this is the Siemens Sinumerik language, not G-code (post-process the part"));
     EXPECT_THAT(refusal("0 BEGIN PGM A MM\n1 L X+1 R0 FMAX\n2 END PGM A MM\n"),
                 HasSubstr(":1:1: this is Heidenhain Klartext"));
     EXPECT_THAT(refusal("#1=0\nWHILE [#1 LT 3] DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n"),
                 HasSubstr(":2:1: this is Fanuc custom macro B"));
     EXPECT_THAT(refusal("N10 G90 G17 G710\nN20 T=\"MILL\" D1\nN50 M30\n"),
-                HasSubstr(":1:1: this is the Sinumerik language"));
+                HasSubstr(":1:1: this is the Siemens Sinumerik language"));
     EXPECT_THAT(refusal("G15 H1\nVC1=5\nG0 X=VC1\nM2\n"),
-                HasSubstr("this is the language of Okuma's OSP controls"));
+                HasSubstr("this is the language of Okuma OSP controls"));
     EXPECT_THAT(refusal("IN;SP1;PU0,0;PD100,0;\n"), HasSubstr(":1:1: this is HPGL, a plot, not G-code"));
     settings.dialect = Dialect::grbl;
     EXPECT_THAT(refusal("IN;SP1;PU0,0;PD100,0;\n"), HasSubstr(":1:1: this is HPGL, a plot, not G-code"));
     settings.dialect = Dialect::linuxcnc;
     EXPECT_THAT(refusal("G21\nG1 X1 Y2 E0.5 F100\nG1 X2 E0.7\nM84\n"),
-                HasSubstr(":2:1: this is a program of a 3D"));
+                HasSubstr(":2:1: this is a program for a 3D"));
 }
 
 } // namespace

@@ -194,9 +194,9 @@ TEST(MachineProgram, PausesForToolsAndStops) {
 TEST(MachineProgram, NamesAllAxesThatTheMachineLacksWithTheFirst) {
     const MachineProgram made = read_on_machine("G21 G90 F100\nG1 X1 B2\nG1 A9\nA1 C3\nM2\n", "router-xyz");
     ASSERT_EQ(made.faults.size(), 3U);
-    EXPECT_EQ(
-        to_text(made.faults[0]),
-        "part.ngc:2:7: the machine 'XYZ router' has no axis B (the program moves A, B, C, which it lacks)");
+    EXPECT_EQ(to_text(made.faults[0]),
+              "part.ngc:2:7: the machine 'XYZ router' has no axis B (the program moves A, B, C, which the "
+              "machine does not have)");
     EXPECT_EQ(to_text(made.faults[2]), "part.ngc:4:4: the machine 'XYZ router' has no axis C");
 }
 
@@ -224,11 +224,11 @@ TEST(MachineProgram, NamesWhatItsBlocksCannotSay) {
     using ::testing::ElementsAre;
     const std::string program = "G21 G90 S500 M3\nG0 X0 Y0 Z5\nF50\n";
     EXPECT_THAT(messages(read_on_machine(program + "G38.2 Z-20\nG38.3 Z-21\nM2\n").lost),
-                ElementsAre(HasSubstr("part.ngc:4:1: nothing is probed")));
+                ElementsAre(HasSubstr("part.ngc:4:1: probing (G38) is not possible")));
     EXPECT_THAT(messages(read_on_machine(program + "G33 Z-10 K1.5\nM2\n").lost),
                 ElementsAre(HasSubstr("part.ngc:4")));
     EXPECT_THAT(messages(read_on_machine(program + "G33.1 Z-10 K1.5\nM2\n").lost),
-                ElementsAre(HasSubstr("in step")));
+                ElementsAre(HasSubstr("spindle-synchronized")));
     EXPECT_THAT(messages(read_on_machine(program + "G1 Z-10\nM8\nM2\n").lost), ElementsAre());
     EXPECT_THAT(messages(read_on_machine(program + "G1 Z-10\nM8\nM2\n").simplified), ElementsAre());
 }
@@ -236,8 +236,8 @@ TEST(MachineProgram, NamesWhatItsBlocksCannotSay) {
 TEST(MachineProgram, NamesWhatItSaysInAnotherWayOnceEach) {
     using ::testing::ElementsAre;
     EXPECT_THAT(messages(read_on_machine("G21 G90\nM7\nG55\nG0 X0 Y0 Z0\nG54\nM7\nM2\n").simplified),
-                ElementsAre(HasSubstr("mist (M7)"),
-                            HasSubstr("part.ngc:3:1: nobody told the offset of G55: it is taken for 0")));
+                ElementsAre(HasSubstr("mist coolant (M7)"),
+                            HasSubstr("part.ngc:3:1: the offset of G55 is unknown and is taken as 0")));
     EXPECT_THAT(
         messages(read_on_machine("G21 G90\nM64 P1\nM65 P1\nM62 P2\nM67 E1 Q3\nG1 X1 F60\nM2\n").simplified),
         ElementsAre(HasSubstr("part.ngc:2:1: outputs are not switched")));
@@ -255,13 +255,13 @@ TEST(MachineProgram, WorkSystemsAreUnknownWhereNobodyToldTheirOffset) {
     };
     EXPECT_THAT(said("G10 L2 P2 X50 Y20 Z0\nG55\nG0 X1\n"), ElementsAre());
     EXPECT_THAT(said("G10 L2 P2 X0\nG55\n"), ElementsAre());
-    EXPECT_THAT(said("G10 L2 P9 R30\nG59.3\n"), ElementsAre(HasSubstr("of G59.3: it is taken for 0")));
+    EXPECT_THAT(said("G10 L2 P9 R30\nG59.3\n"),
+                ElementsAre(HasSubstr("of G59.3 is unknown and is taken as 0")));
     EXPECT_THAT(said("#5241=50\nG55\n"), ElementsAre());
     EXPECT_THAT(said("G10 L20 P3 Z1\nG56\nG54\n"), ElementsAre());
-    EXPECT_THAT(
-        said("G10 L2 P2 X50\nG55\nG56\nG55\nG56\nG59.1\n"),
-        ElementsAre(HasSubstr("part.ngc:4:1: nobody told the offset of G56"), HasSubstr("of G59.1:")));
-    EXPECT_THAT(said("G10 L2 P1 X50\nG55\n"), ElementsAre(HasSubstr("of G55: it is taken for 0")));
+    EXPECT_THAT(said("G10 L2 P2 X50\nG55\nG56\nG55\nG56\nG59.1\n"),
+                ElementsAre(HasSubstr("part.ngc:4:1: the offset of G56 is unknown"), HasSubstr("of G59.1:")));
+    EXPECT_THAT(said("G10 L2 P1 X50\nG55\n"), ElementsAre(HasSubstr("of G55 is unknown and is taken as 0")));
 }
 
 // Who stands at the machine sees the pause's words, not the listing.
@@ -288,7 +288,7 @@ TEST(MachineProgram, AStopSaysWhatTheCommentAboveItSays) {
 TEST(MachineProgram, NamesWhatWouldBeAnotherProgramWithoutIt) {
     using ::testing::ElementsAre;
     EXPECT_THAT(messages(read_on_machine("G21 G90\nM66 P0 L3 Q5\nG1 X1 F60\nM2\n").lost),
-                ElementsAre(HasSubstr("part.ngc:2:1: nothing waits for an input")));
+                ElementsAre(HasSubstr("part.ngc:2:1: inputs are not waited for here")));
     EXPECT_THAT(messages(read_on_machine("G21 G90\nG96 D2000 S100 M3\nG1 X1 F60\nM2\n").lost),
                 ElementsAre(HasSubstr("G96")));
 }

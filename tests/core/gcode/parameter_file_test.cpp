@@ -36,12 +36,11 @@ TEST(ParameterFile, HasANumberAndAValueALine) {
 
 TEST(ParameterFile, IsRefusedWithTheLine) {
     const test::WithoutTraps without_traps;
-    EXPECT_EQ(refusal_of("5161 1\nx 2\n"),
-              "linuxcnc.var:2: a line has the number of a parameter and its value");
-    EXPECT_THAT(refusal_of("5161\n"), HasSubstr(":1: a line has"));
-    EXPECT_THAT(refusal_of("5161 1 2\n"), HasSubstr(":1: a line has"));
-    EXPECT_THAT(refusal_of("5161 nan\n"), HasSubstr(":1: a line has"));
-    EXPECT_THAT(refusal_of("9999 1\n"), HasSubstr("#9999 is no parameter"));
+    EXPECT_EQ(refusal_of("5161 1\nx 2\n"), "linuxcnc.var:2: a line must have a parameter number and a value");
+    EXPECT_THAT(refusal_of("5161\n"), HasSubstr(":1: a line must have"));
+    EXPECT_THAT(refusal_of("5161 1 2\n"), HasSubstr(":1: a line must have"));
+    EXPECT_THAT(refusal_of("5161 nan\n"), HasSubstr(":1: a line must have"));
+    EXPECT_THAT(refusal_of("9999 1\n"), HasSubstr("#9999 is not a parameter"));
     EXPECT_THAT(refusal_of("31 1\n31 2\n"), HasSubstr(":2: #31 is given twice"));
 }
 

@@ -75,9 +75,9 @@ TEST(ProgramText, WhatIsNoPlainTextIsRefusedOnceInEveryDialect) {
     };
     for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl}) {
         EXPECT_THAT(errors("G\0002\0001\0\n\0G\0000\0\n\0"s, dialect),
-                    MatchesRegex(".*:1:1: the text is UTF-16 \\(save it as plain text\\)\n"));
+                    MatchesRegex(".*:1:1: the file is UTF-16 \\(save it as plain text\\)\n"));
         EXPECT_THAT(errors("\xFF\xFE\0\0G\0\0\0\n\0\0\0"s, dialect),
-                    MatchesRegex(".*:1:1: the text is UTF-32 \\(save it as plain text\\)\n"));
+                    MatchesRegex(".*:1:1: the file is UTF-32 \\(save it as plain text\\)\n"));
         EXPECT_THAT(errors("G21\nG0\0 X1\nG0\0 X2\nM2\n"s, dialect),
                     MatchesRegex(".*:2:3: byte 0x00 found: this is a binary file.*\n"));
         EXPECT_EQ(errors("G21\nG0 X1\nM2\n\0\0\0\0"s, dialect), "");
@@ -85,7 +85,7 @@ TEST(ProgramText, WhatIsNoPlainTextIsRefusedOnceInEveryDialect) {
 }
 
 TEST(ProgramText, ABytesOfDosInTheMiddleIsNone) {
-    EXPECT_EQ(test::error_of("G0 X1\n" + dos_end + "\nG0 X2"), "2:1: byte 0x1A is no character of a program");
+    EXPECT_EQ(test::error_of("G0 X1\n" + dos_end + "\nG0 X2"), "2:1: byte 0x1A is not valid in a program");
 }
 
 TEST(ProgramText, IsKnownForGcodeAllTheSame) {

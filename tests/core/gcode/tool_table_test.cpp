@@ -43,11 +43,11 @@ TEST(ToolTableFile, RefusesWithThePlace) {
         }
         return std::string("none");
     };
-    EXPECT_EQ(place_of("T1 Z1\nT2 K5"), "t.tbl:2:4: 'K' is no letter of a tool table");
+    EXPECT_EQ(place_of("T1 Z1\nT2 K5"), "t.tbl:2:4: 'K' is not a valid letter in a tool table");
     EXPECT_EQ(place_of("T1 Zx"), "t.tbl:1:5: a number is expected");
-    EXPECT_EQ(place_of("T1.5"), "t.tbl:1:1: a whole number from 0 to 99999 is expected");
-    EXPECT_EQ(place_of("Z5"), "t.tbl:1:1: a tool needs its number, T");
-    EXPECT_EQ(place_of("T1\nT1"), "t.tbl:2:1: tool 1 stands in the table twice");
+    EXPECT_EQ(place_of("T1.5"), "t.tbl:1:1: an integer from 0 to 99999 is expected");
+    EXPECT_EQ(place_of("Z5"), "t.tbl:1:1: a tool needs a tool number, T");
+    EXPECT_EQ(place_of("T1\nT1"), "t.tbl:2:1: tool 1 is in the table twice");
     EXPECT_EQ(place_of("T1 Znan"), "t.tbl:1:5: a number is expected");
 }
 

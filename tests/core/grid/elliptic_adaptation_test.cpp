@@ -406,7 +406,7 @@ TEST(EllipticAdaptation, TellsHowFarItIs) {
     ASSERT_GT(reports.size(), 3U);
     EXPECT_GT(reports.back().fraction, reports.front().fraction);
     for (const char* text :
-         {"Measuring the start grid", "Round 1", "Judging the start", "Judging grid 1 of"}) {
+         {"Measuring the start grid", "Round 1", "Evaluating the start grid", "Evaluating grid 1 of"}) {
         EXPECT_TRUE(std::ranges::any_of(reports, [&](const Progress::Report& report) {
             return report.text.find(text) != std::string::npos;
         })) << text;

@@ -71,16 +71,16 @@ TEST(FileJob, BeyondTheTravelOfTheThesisIsFoundBefore) {
             .empty());
 }
 
-// What is not known was executed as 0: a G53 in the middle of work positions, a second system.
+// What is unknown was executed as 0: a G53 in the middle of work positions, a second system.
 TEST(FileJob, OfPositionsThatNobodyCanKnowIsRefused) {
     const test::ScratchFolder folder;
     const auto file = written(folder / "down.ngc", "G21 G90\nG0 X9 Y9 Z20\nG1 Z10 F100\nG53 G0 Z0\nM2\n");
-    expect_error(file, "down.ngc:4:1: G53 goes to a machine position");
+    expect_error(file, "down.ngc:4:1: G53 moves to a machine position");
     expect_error(written(folder / "two.ngc", "G21 G90\nG0 X9 Z9\nG55 X9\nM2\n"),
-                 "X moves in two systems, and the offset of G55 is not known");
-    expect_error(written(folder / "read.ngc", "G21 G90\nG0 X#5221\nM2\n"), "its value is not known");
+                 "X moves in two coordinate systems, but the offset of G55 is unknown");
+    expect_error(written(folder / "read.ngc", "G21 G90\nG0 X#5221\nM2\n"), "its value is unknown");
     expect_error(written(folder / "step.ngc", "G21 G91\nG0 X5\nM2\n"),
-                 "X moves from where it is, and the program has not said where");
+                 "X moves from its present position, but the program has not set it yet");
     const auto model = table();
     const Job job = file_job(file, model, {.origin = gcode::WorkOrigin(Vec3(5.0, 0.0, 7.0))});
     const int z = model->axis_index('Z');
@@ -91,7 +91,7 @@ TEST(FileJob, OfPositionsThatNobodyCanKnowIsRefused) {
         }
     }
     EXPECT_THAT(heights, testing::ElementsAre(27.0, 17.0, 0.0));
-    try { // Z is not known
+    try { // Z is unknown
         (void)file_job(file, model, {.origin = gcode::WorkOrigin(5.0, 0.0)});
         ADD_FAILURE();
     } catch (const Error& error) {
@@ -108,8 +108,8 @@ TEST(FileJob, TellsWhatIsExecutedInAnotherWay) {
     const Job job = file_job(file, table());
     ASSERT_EQ(job.notices.size(), 2U);
     EXPECT_THAT(to_text(job.notices[0]), HasSubstr("other.ngc:1"));
-    EXPECT_THAT(to_text(job.notices[0]), HasSubstr("the offset of G55: it is taken for 0"));
-    EXPECT_THAT(to_text(job.notices[1]), HasSubstr("mist (M7)"));
+    EXPECT_THAT(to_text(job.notices[0]), HasSubstr("the offset of G55 is unknown and is taken as 0"));
+    EXPECT_THAT(to_text(job.notices[1]), HasSubstr("mist coolant (M7)"));
 }
 
 TEST(FileJob, SaysWhatIsWrongAndWhere) {

@@ -78,7 +78,7 @@ TEST(MakeDriver, RefusesWhatItCannotMake) {
     for (const DriverKind kind : {DriverKind::virtual_machine, DriverKind::stream, DriverKind::cordic}) {
         const DriverChoice choice = choice_of(kind, "tcp:127.0.0.1:9");
         EXPECT_THAT(driver_refusal([&] { (void)make_driver(choice, {}, clock); }),
-                    HasSubstr("no machine yet"));
+                    HasSubstr("no machine is loaded"));
     }
     EXPECT_THAT(
         driver_refusal([&] { (void)make_driver(choice_of(DriverKind::pmac, "tcp:127.0.0.1:9"), {}, clock); }),

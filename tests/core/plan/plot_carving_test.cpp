@@ -86,7 +86,7 @@ TEST(PlotCarving, SaysWhatIsWrong) {
     input.settings.tip = {};
     const auto by_ball = carved(input);
     ASSERT_TRUE(by_ball->failure);
-    EXPECT_THAT(to_text(*by_ball->failure), HasSubstr("ball:1 does not carve"));
+    EXPECT_THAT(to_text(*by_ball->failure), HasSubstr("ball:1 cannot carve"));
     std::ofstream(scratch / "open.plt") << "IN;SP1;PU0,0;PD800,0,800,800,0,800;PU;";
     input = filled_square(scratch.path());
     input.file = scratch / "open.plt";

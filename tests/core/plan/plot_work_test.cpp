@@ -429,7 +429,7 @@ TEST(PlotWork, WhatCannotBeFollowedIsANotice) {
     const auto made = derived({scratch / "pages.plt", {}});
     ASSERT_FALSE(made->failure);
     ASSERT_EQ(made->notices.size(), 2U);
-    EXPECT_THAT(to_text(made->notices[0]), HasSubstr("1 PC left out"));
+    EXPECT_THAT(to_text(made->notices[0]), HasSubstr("1 PC ignored"));
 }
 
 TEST(PlotWork, WhatCannotBeCutIsAFailureWithItsReason) {
@@ -454,7 +454,7 @@ TEST(PlotWork, AProgramThatCutsFromAnUnknownPlaceIsAFailureWithItsLine) {
     const auto found = derived({scratch / "part.ngc", {}});
     ASSERT_TRUE(found->failure);
     EXPECT_EQ(found->failure->place.line, 3);
-    EXPECT_THAT(found->failure->message, HasSubstr("has not said what X and Y are"));
+    EXPECT_THAT(found->failure->message, HasSubstr("has stated where X and Y are"));
 }
 
 TEST(PlotWork, SpeedsThatTheMachineDoesNotReachAreANotice) {
@@ -464,7 +464,7 @@ TEST(PlotWork, SpeedsThatTheMachineDoesNotReachAreANotice) {
     const auto made = derived(hard);
     ASSERT_EQ(made->notices.size(), of_the_reader + 1);
     EXPECT_THAT(to_text(made->notices.back()),
-                HasSubstr("1440 mm/min is more than forming table reaches: its axis"));
+                HasSubstr("1440 mm/min exceeds the maximum speed of forming table: its axis"));
     hard.settings.machine = "router-xyz";
     EXPECT_EQ(derived(hard)->notices.size(), of_the_reader);
 }

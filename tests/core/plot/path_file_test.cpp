@@ -57,7 +57,7 @@ TEST(PathFiles, WhatGoesThroughTheWorkHasASpeed) {
             ADD_FAILURE() << move;
         } catch (const Error& error) {
             EXPECT_EQ(error.diagnostic().place.line, 3);
-            EXPECT_NE(std::string(error.what()).find("of speed 0"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("has speed 0"), std::string::npos) << error.what();
         }
     }
     EXPECT_NO_THROW(

@@ -90,7 +90,8 @@ TEST(PointFile, MayHaveSemicolonsAndNamesOfItsColumns) {
     const PointFile twice = read_points("1,2,3\nx,y,z\n1,5,2,3\n", "points.csv");
     ASSERT_EQ(twice.diagnostics.size(), 2U);
     EXPECT_EQ(to_text(twice.diagnostics[0]),
-              "points.csv:2: 'x,y,z' is no point (three numbers with commas or semicolons between: X, Y, Z)");
+              "points.csv:2: 'x,y,z' is not a point (write three numbers separated by commas or semicolons: "
+              "X, Y, Z)");
 }
 
 } // namespace

@@ -207,9 +207,9 @@ TEST(Post, NamesBlockAxisValueAndRangeWhereAnAxisWouldLeaveItsLimits) {
         (void)post(machine, path, axes, {}, {});
         FAIL() << "accepted";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(),
-                    ::testing::HasSubstr("axis X would have to go to 512.250, outside -500.000 ... "
-                                         "500.000 mm"));
+        EXPECT_THAT(
+            error.what(),
+            ::testing::HasSubstr("axis X would have to move to 512.250, outside -500.000 ... 500.000 mm"));
         EXPECT_THAT(error.what(), ::testing::StartsWith("block "));
     }
 }

@@ -241,11 +241,11 @@ TEST(Release, RefusesALineThatTheControlDoesNotKnow) {
     PostFormat format = post_named("grbl");
     format.blocks.head = {"G21 G90 G64 P0.01"};
     EXPECT_THAT(release_refusal(program_with_everything(test::machine("router-xyz")), "router-xyz", format),
-                HasSubstr("Grbl does not know G64"));
+                HasSubstr("Grbl does not support G64"));
     format = post_named("heidenhain");
     format.blocks.head = {"CYCL DEF 7.0 DATUM SHIFT"};
     EXPECT_THAT(release_refusal(program_with_everything(test::machine("ac-table")), "ac-table", format),
-                HasSubstr("only 9 and 32"));
+                HasSubstr("only the cycles 9 and 32"));
 }
 
 } // namespace

@@ -49,7 +49,7 @@ TEST(JoinedSurface, NamesEightOpenSeamsAndCountsTheRest) {
         FAIL() << "nothing is within the gap";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(),
-                    ::testing::HasSubstr("within 0.5 mm; open seams: 0 u = 1 - 1 u = 0 with a gap"));
+                    ::testing::HasSubstr("within 0.5 mm of each other; open seams: 0 u = 1 - 1 u = 0 with a gap"));
         EXPECT_THAT(error.what(),
                     ::testing::HasSubstr("7 u = 1 - 8 u = 0 with a gap of 1.0000 mm, and 3 more"));
     }

@@ -55,7 +55,7 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
     ASSERT_EQ(arm().motion_file().faults().size(), 1U);
     EXPECT_EQ(arm().motion_file().faults().front().place.line, 2);
     EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("an arc needs"));
-    EXPECT_THAT(person_.refusal("lower/arm_simulate_motion"), HasSubstr("fault"));
+    EXPECT_THAT(person_.refusal("lower/arm_simulate_motion"), HasSubstr("error"));
     person_.keep("arm-motion-file-fault");
     for (int n = 0; n < 2; ++n) {
         person_.press_key(Key::backspace);
@@ -63,7 +63,7 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
     person_.type("I4 J3 ;"); // the end is no point of this circle
     person_.frames(2);
     ASSERT_EQ(arm().motion_file().faults().size(), 1U);
-    EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the center"));
+    EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the centre"));
 }
 
 TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {

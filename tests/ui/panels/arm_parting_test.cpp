@@ -20,7 +20,7 @@ TEST(ArmAtPmacF1, ProtectionsThatAreOffAreToldWhenItIsConnectedAndWhenItGetsPowe
     const auto& log = bench.person.workshop().session().log;
     const auto told = [&] {
         return std::ranges::count_if(log, [](const std::string& text) {
-            return text.find("Protections are off") != std::string::npos;
+            return text.find("Protections disabled") != std::string::npos;
         });
     };
     bench.connect();
@@ -102,7 +102,7 @@ TEST(ArmAtPmacF2, ACardThatDoesNotTellThatItsPowerIsGoneKeepsTheWindowOpen) {
     bench.person.frames(2);
     EXPECT_FALSE(session.quit);
     EXPECT_TRUE(bench.person.sees("hand/connection/failure"));
-    EXPECT_THAT(session.log.back(), testing::HasSubstr("motors have lost their power"));
+    EXPECT_THAT(session.log.back(), testing::HasSubstr("motors are disabled"));
     bench.person.keep("arm-quit-unsure");
     bench.person.press_key(render::Key::q, true);
     bench.person.frames(2);

@@ -238,7 +238,7 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     ASSERT_TRUE(bench.person.live_until([&] {
         const auto& faults = bench.person.workshop().arm().program().faults();
         return !faults.empty() &&
-               faults.front().message.find("X (joint 1) leaves its limits") != std::string::npos;
+               faults.front().message.find("X (joint 1) exceeds its limits") != std::string::npos;
     }));
     EXPECT_EQ(bench.person.workshop().arm().program().faults().front().place.line, 3);
     bench.person.frames(3); // from elsewhere it may be sound: it can be asked again, and is refused again
@@ -491,8 +491,8 @@ TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
     const auto file = bench.person.folder() / "own.ini";
     write_file(file, "; ours\nI122=30\nI9999=3\n");
     bench.person.workshop().load_card_settings(file);
-    ASSERT_TRUE(bench.person.live_until([&] { return log.back().find("refused") != std::string::npos; }));
-    EXPECT_THAT(log.back(), testing::HasSubstr("line 3: 'I9999=3' is refused"));
+    ASSERT_TRUE(bench.person.live_until([&] { return log.back().find("rejected") != std::string::npos; }));
+    EXPECT_THAT(log.back(), testing::HasSubstr("line 3: 'I9999=3' is rejected"));
 }
 
 TEST(ArmAtPmac, TakesNoGCode) {

@@ -133,7 +133,7 @@ TEST_F(MachineTable, RunsNoProgramWhosePositionsNobodyCanKnow) {
     person.wait_idle();
     person.click("menu/workspaces/machine");
     person.frames(3);
-    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("G53 goes to a machine position"));
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("G53 moves to a machine position"));
     EXPECT_EQ(now().opened->findings.size(), 1U);
 }
 

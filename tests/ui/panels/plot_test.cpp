@@ -119,7 +119,7 @@ TEST(PlotWorkspace, ADrawingBeyondTheTableSaysWhichOriginWouldDo) {
     bench.settle();
     ASSERT_TRUE(bench.made().failure);
     EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("axis X would have to go to"));
-    EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("put its origin at"));
+    EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("set the origin to"));
     bench.person.frames(3);
     EXPECT_TRUE(bench.person.sees("layers/failure"));
     EXPECT_NE(bench.person.refusal("inspector/plot_to_machine"), "");

@@ -25,7 +25,7 @@ namespace {
 void expect_text(const program::Listing& listing, const std::filesystem::path& file) {
     const std::string_view text = listing.text;
     if (const std::string_view encoding = wide_encoding(text); !encoding.empty()) {
-        fail({file, 1, 1, -1}, fmt::format("the text is {}", encoding), "save it as plain text");
+        fail({file, 1, 1, -1}, fmt::format("the file is {}", encoding), "save it as plain text");
     }
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
         const auto line = std::ranges::upper_bound(listing.line_starts, zero) - listing.line_starts.begin();

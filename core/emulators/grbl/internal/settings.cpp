@@ -158,7 +158,7 @@ Eeprom read_eeprom(const std::filesystem::path& file, const Build& build) {
         homing_told = homing_told || line.starts_with("$22=");
         if (!line.empty() && !read_line(line, eeprom)) {
             throw Error(Diagnostic{.place = {file, line_number, 0, -1},
-                                   .message = "'" + std::string(line) + "' is nothing that Grbl keeps",
+                                   .message = "'" + std::string(line) + "' is not a Grbl setting",
                                    .hint = {}});
         }
     }

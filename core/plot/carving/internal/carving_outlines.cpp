@@ -39,8 +39,8 @@ CarvingOutlines carving_outlines(const Strokes& drawn, double gap) {
     const Vec2& to = first->points.back();
     Diagnostic notice;
     notice.place.byte = first->byte;
-    notice.message = fmt::format("{} {} left out, the first from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}) mm, "
-                                 "its ends {:.3f} mm apart",
+    notice.message = fmt::format("{} {} skipped, the first from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}) mm, "
+                                 "with its ends {:.3f} mm apart",
                                  counted(open, "open stroke"),
                                  open == 1 ? "is" : "are",
                                  from.x(),
@@ -48,10 +48,10 @@ CarvingOutlines carving_outlines(const Strokes& drawn, double gap) {
                                  to.x(),
                                  to.y(),
                                  (to - from).norm());
-    notice.hint =
-        fmt::format("ends up to {:g} mm apart are joined: close the outline, or close wider gaps", gap);
+    notice.hint = fmt::format(
+        "ends up to {:g} mm apart are joined: close the outline, or allow wider gaps to be closed", gap);
     if (found.region.empty()) {
-        notice.message = "no outline is closed, so nothing is inside: " + notice.message;
+        notice.message = "no outline is closed, so there is nothing to carve: " + notice.message;
         throw Error(notice);
     }
     found.notices.push_back(std::move(notice));

@@ -34,7 +34,7 @@ Extents box_of(const Region& drawn) {
             if (!(p.cwiseAbs().maxCoeff() <= farthest_mm)) {
                 throw Error(fmt::format("an outline has a point at ({:g}, {:g}) mm", p.x(), p.y()),
                             {},
-                            "places are numbers up to 1 km from the origin");
+                            "use coordinates within 1 km of the origin");
             }
             if (!box) {
                 box = Extents{p, p};
@@ -44,11 +44,11 @@ Extents box_of(const Region& drawn) {
         }
     }
     if (count > most_outline_segments) {
-        throw Error(fmt::format("the outlines have {} points, and {} at most can be carved",
+        throw Error(fmt::format("the outlines have {} points, but at most {} can be carved",
                                 count,
                                 most_outline_segments),
                     {},
-                    "coarser chords have fewer points");
+                    "use coarser chords to reduce the number of points");
     }
     return box.value_or(Extents{});
 }
@@ -60,12 +60,13 @@ double unit_for(const Extents& box, double tolerance) {
         unit *= 2.0;
     }
     if (unit * units_per_tolerance > tolerance) {
-        throw Error(fmt::format("outlines {:.6g} mm wide can be carved to {:.2g} mm, not to {:g} mm",
-                                2.0 * half,
-                                unit * units_per_tolerance,
-                                tolerance),
-                    {},
-                    "a smaller drawing or a larger tolerance");
+        throw Error(
+            fmt::format("outlines {:.6g} mm wide can be carved to a tolerance of {:.2g} mm, not of {:g} mm",
+                        2.0 * half,
+                        unit * units_per_tolerance,
+                        tolerance),
+            {},
+            "use a smaller drawing or a larger tolerance");
     }
     return unit;
 }
@@ -210,7 +211,7 @@ std::vector<UnitRing> without_crossings(std::vector<UnitRing> rings, const Progr
             return rings;
         }
     }
-    throw Error("the outlines cross in so many places near one another that their inside is not found",
+    throw Error("the outlines cross at so many points close together that their inside cannot be determined",
                 {},
                 "draw them without crossings");
 }

@@ -101,13 +101,14 @@ double usual_chord(const Run& run) {
 std::vector<Vec2>
 arc_points(Run& run, const Vec2& centre, const Vec2& start, double sweep_deg, double chord) {
     if (!(std::abs(sweep_deg) <= most_sweep_deg)) {
-        run.refuse(fmt::format("an arc of {} degrees; at most {} are allowed", sweep_deg, most_sweep_deg));
+        run.refuse(
+            fmt::format("the arc angle of {} degrees exceeds the limit of {}", sweep_deg, most_sweep_deg));
         return {};
     }
     const Vec2 spoke = start - centre;
     const double radius = spoke.norm();
     if (!(radius > 0.0)) {
-        run.refuse("an arc without a radius");
+        run.refuse("an arc has no radius");
         return {};
     }
     constexpr double slack = 1e-9; // so that 90 degrees are 18 chords of 5 and not 19

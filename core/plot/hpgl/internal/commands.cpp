@@ -33,17 +33,17 @@ left_out(std::string_view name, std::string_view why, Arguments arguments = Argu
     return {.name = name, .arguments = arguments, .count = {0, any}, .why = why};
 }
 
-constexpr std::string_view a_question = "a question to the plotter";
-constexpr std::string_view a_page = "pages are drawn one upon the other";
-constexpr std::string_view a_font = "labels are drawn with the stroke font of Millwright";
-constexpr std::string_view a_colour = "colours of pens and paper mean nothing to a cutter";
-constexpr std::string_view a_device = "how the plotter itself works";
-constexpr std::string_view a_line_end = "ends and joins of thick lines mean nothing to a cutter";
-constexpr std::string_view a_text = "a text for the plotter's display";
+constexpr std::string_view a_question = "queries to the plotter";
+constexpr std::string_view a_page = "pages are drawn on top of each other";
+constexpr std::string_view a_font = "labels are drawn with Millwright's stroke font";
+constexpr std::string_view a_colour = "colours of pens and paper have no effect on cutting";
+constexpr std::string_view a_device = "plotter device settings";
+constexpr std::string_view a_line_end = "line ends and joins have no effect on cutting";
+constexpr std::string_view a_text = "text for the plotter's display";
 
 constexpr std::array command_rows = {
     moving("AA", {3, 4}, arc_absolute),
-    left_out("AC", "hatch lines are counted from P1"),
+    left_out("AC", "hatch lines start from P1"),
     left_out("AD", a_font),
     left_out("AF", a_page),
     left_out("AH", a_page),
@@ -130,7 +130,7 @@ constexpr std::array command_rows = {
     moving("PM", {0, 1}, polygon_mode),
     left_out("PP", a_colour),
     moving("PR", {0, any, 2}, plot_relative),
-    left_out("PS", "the size of the paper"),
+    left_out("PS", "paper size"),
     setting("PT", {0, 1}, pen_thickness),
     moving("PU", {0, any, 2}, pen_up),
     setting("PW", {0, 2}, pen_width),
@@ -157,7 +157,7 @@ constexpr std::array command_rows = {
     setting("TL", {0, 2}, tick_length),
     left_out("TR", a_colour),
     moving("UC", {0, any}, user_character),
-    left_out("UF", "hatch lines of one's own are drawn as FT says"),
+    left_out("UF", "custom hatch lines are drawn according to FT"),
     setting("UL", {0, 21}, user_line_type),
     setting("VS", {0, 2}, pen_speed),
     left_out("WD", a_text, Arguments::label),

@@ -31,7 +31,7 @@ public:
             }
         }
         if (up_ || absolute_) {
-            refuse("PE: a flag without a point behind it");
+            refuse("PE: a flag has no point after it");
         }
         return std::move(steps_);
     }
@@ -81,12 +81,12 @@ private:
     void point() {
         const double x = number();
         if (skip_controls(), at_ >= bytes_.size()) {
-            return refuse("PE: a point without y");
+            return refuse("PE: a point has no y");
         }
         const double y = number();
         constexpr double largest = 1073741824.0;
         if (!(std::abs(x) <= largest && std::abs(y) <= largest)) {
-            return refuse("PE: a coordinate beyond 2^30");
+            return refuse("PE: a coordinate exceeds 2^30");
         }
         steps_.push_back({.kind = up_ ? Step::Kind::move : Step::Kind::draw,
                           .absolute = absolute_,
@@ -98,7 +98,7 @@ private:
     int whole(const char* what, double least, double most) {
         const double value = number();
         if (value < least || value > most) {
-            refuse(fmt::format("PE: {} as {}", value, what));
+            refuse(fmt::format("PE: {} is not a valid {}", value, what));
             return 0;
         }
         return static_cast<int>(value);
@@ -111,14 +111,14 @@ private:
         for (int digit = 0; digit < most_digits; ++digit) {
             skip_controls();
             if (at_ >= bytes_.size()) {
-                refuse("PE: ends in the middle of a number");
+                refuse("PE: the data ends in the middle of a number");
                 return 0.0;
             }
             const int code = static_cast<unsigned char>(bytes_[at_++]);
             const int last = base_ == 64 ? 191 : 95;
             const bool ends = code >= last && code < last + base_;
             if (!ends && !(code >= 63 && code < 63 + base_)) {
-                refuse(fmt::format("PE: the byte {:02X} is no digit to the base {}", code, base_));
+                refuse(fmt::format("PE: the byte {:02X} is not a digit to base {}", code, base_));
                 return 0.0;
             }
             value += place * (code - (ends ? last : 63));
@@ -128,7 +128,7 @@ private:
                 return value > 2.0 * half ? -half : half;
             }
         }
-        refuse("PE: a number of more digits than any coordinate has");
+        refuse("PE: a number has more digits than any coordinate");
         return 0.0;
     }
 
@@ -170,7 +170,7 @@ void encoded_polyline(Run& run, const Given& given) {
     }
     for (const Step& step : steps) {
         if (step.kind == Step::Kind::pen && step.pen > run.settings.highest_pen) {
-            return run.refuse(fmt::format("PE: there is no pen {}", step.pen));
+            return run.refuse(fmt::format("PE: pen {} does not exist", step.pen));
         }
     }
     for (const Step& step : steps) {

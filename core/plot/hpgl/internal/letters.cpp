@@ -84,7 +84,7 @@ void note_blank(Run& run, std::int64_t byte) {
         }
     }
     run.plot.left_out.push_back({.name = std::string(name),
-                                 .why = "characters that are not ASCII are left blank",
+                                 .why = "characters that are not ASCII are drawn as blanks",
                                  .byte = byte,
                                  .count = 1});
 }
@@ -169,7 +169,7 @@ private:
 void set_direction(Run& run, const Given& given, bool relative) {
     const Vec2 direction = given.count() == 0 ? Vec2(1.0, 0.0) : given.point(0);
     if (exactly_equal(direction.x(), 0.0) && exactly_equal(direction.y(), 0.0)) {
-        return run.refuse(fmt::format("{}: 0,0 is no direction", given.command.name));
+        return run.refuse(fmt::format("{}: 0,0 is not a direction", given.command.name));
     }
     run.modes.label.direction = direction;
     run.modes.label.direction_relative = relative;
@@ -182,14 +182,14 @@ void label(Run& run, const Given& given) {
         return;
     }
     if (!given.command.terminated) {
-        return run.refuse("a label without its end");
+        return run.refuse("the terminator of a label is missing");
     }
     LabelWriter(run).write(given.command.arguments, given.command.byte);
 }
 
 void buffer_label(Run& run, const Given& given) {
     if (!given.command.terminated) {
-        return run.refuse("a label without its end");
+        return run.refuse("the terminator of a label is missing");
     }
     run.buffered_label = given.command.arguments;
 }
@@ -211,8 +211,10 @@ void character_size(Run& run, const Given& given) {
     constexpr double most_cm = 128.0; // of HP's plotters
     for (const double cm : given.numbers) {
         if (!(std::abs(cm) < most_cm)) {
-            return run.refuse(fmt::format(
-                "SI: characters of {} cm, at the most {}: two numbers may have become one", cm, most_cm));
+            return run.refuse(fmt::format("SI: characters of {} cm are too large, at most {} are allowed: "
+                                          "two numbers may have run together",
+                                          cm,
+                                          most_cm));
         }
     }
     run.modes.label.size_relative = false;
@@ -223,10 +225,10 @@ void relative_character_size(Run& run, const Given& given) {
     constexpr double most_percent = 128.0; // of HP's plotters
     for (const double percent : given.numbers) {
         if (!(std::abs(percent) < most_percent)) {
-            return run.refuse(
-                fmt::format("SR: characters of {} %, at the most {}: two numbers may have become one",
-                            percent,
-                            most_percent));
+            return run.refuse(fmt::format("SR: characters of {} % are too large, at most {} are allowed: two "
+                                          "numbers may have run together",
+                                          percent,
+                                          most_percent));
         }
     }
     run.modes.label.size_relative = true;
@@ -244,7 +246,7 @@ void relative_label_direction(Run& run, const Given& given) {
 void label_path(Run& run, const Given& given) {
     const double path = given.value(0, 0.0);
     if (path < 0.0 || path > 3.0) {
-        return run.refuse(fmt::format("DV: {} is none of the paths 0 to 3", path));
+        return run.refuse(fmt::format("DV: the path must be 0 to 3, not {}", path));
     }
     run.modes.label.path = static_cast<int>(path);
 }
@@ -261,7 +263,7 @@ void label_origin(Run& run, const Given& given) {
     const double origin = given.value(0, 1.0);
     const bool known = (origin >= 1.0 && origin <= 9.0) || (origin >= 11.0 && origin <= 19.0);
     if (!known) {
-        return run.refuse(fmt::format("LO: {} is none of the origins 1 to 9 and 11 to 19", origin));
+        return run.refuse(fmt::format("LO: the origin must be 1 to 9 or 11 to 19, not {}", origin));
     }
     run.modes.label.origin = static_cast<int>(origin);
 }
@@ -320,7 +322,7 @@ void user_character(Run& run, const Given& given) {
             continue;
         }
         if (n + 1 == given.count()) {
-            return run.refuse("UC: a step without y");
+            return run.refuse("UC: a step has no y");
         }
         if (!down || lines.empty() || lines.back().back() != at) {
             lines.push_back({at});

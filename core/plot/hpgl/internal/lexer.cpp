@@ -68,7 +68,7 @@ std::optional<Command> Lexer::next() {
         } else if (is_letter(c)) {
             return command();
         } else {
-            return damaged(here(), fmt::format("{} begins no command", shown(c)));
+            return damaged(here(), fmt::format("{} does not start a command", shown(c)));
         }
     }
 }
@@ -88,7 +88,7 @@ void Lexer::skip_line() {
 // The `;` of a command was taken with it; the sequences of the interface may have one behind them.
 void Lexer::separator() {
     if (!after_command_) {
-        problems_.add(here(), "an empty command: ';' follows ';'");
+        problems_.add(here(), "empty command: ';' follows ';'");
     }
     after_command_ = false;
     ++at_;
@@ -135,7 +135,7 @@ Command Lexer::damaged(std::int64_t byte, std::string message) {
     const auto end = bytes_.find_first_of(";:", at_);
     at_ = end == std::string_view::npos ? bytes_.size() : end + 1;
     after_command_ = false;
-    problems_.add(byte, std::move(message), "left out up to the next ';'");
+    problems_.add(byte, std::move(message), "skipped up to the next ';'");
     return {.name = {}, .byte = byte, .arguments = {}};
 }
 
@@ -144,10 +144,10 @@ std::optional<Command> Lexer::command() {
     const char first = capital(bytes_[at_++]);
     skip_blanks(); // wrapped listings cut commands in two
     if (at_end()) {
-        return damaged(byte, fmt::format("the file ends behind '{}', in the middle of a command", first));
+        return damaged(byte, fmt::format("the file ends after '{}', in the middle of a command", first));
     }
     if (!is_letter(look())) {
-        return damaged(byte, fmt::format("'{}' and {} are no command", first, shown(look())));
+        return damaged(byte, fmt::format("'{}' and {} do not form a command", first, shown(look())));
     }
     const char second = capital(bytes_[at_++]);
     Command command{.name = name_of(first, second), .byte = byte, .arguments = {}, .arguments_byte = here()};
@@ -267,7 +267,7 @@ public:
         skip_blanks();
         while (at_ < text_.size()) {
             if (numbers.size() == most) {
-                return fault(at_, fmt::format("more than {} numbers", most));
+                return fault(at_, fmt::format("there are more than {} numbers", most));
             }
             if (auto fault = read_one(numbers)) {
                 return fault;
@@ -303,7 +303,7 @@ private:
         }
         if (value > largest_number) {
             return fault(from,
-                         fmt::format("{} is beyond HPGL's range of 2^30", text_.substr(from, at_ - from)));
+                         fmt::format("{} exceeds HPGL's range of 2^30", text_.substr(from, at_ - from)));
         }
         numbers.push_back(text_[from] == '-' ? -value : value);
         return std::nullopt;
@@ -311,9 +311,9 @@ private:
 
     [[nodiscard]] std::string fault_text(std::size_t from, std::size_t digits) const {
         if (at_ > digits) {
-            return fmt::format("'{}' is no number", text_.substr(from, at_ - from));
+            return fmt::format("'{}' is not a number", text_.substr(from, at_ - from));
         }
-        return at_ < text_.size() ? fmt::format("{} where a number should stand", shown(text_[at_]))
+        return at_ < text_.size() ? fmt::format("{} is found where a number is expected", shown(text_[at_]))
                                   : std::string("a number is missing");
     }
 
@@ -323,7 +323,7 @@ private:
             ++at_;
             skip_blanks();
             if (at_ == text_.size()) {
-                NumberFault last = fault(at_ - 1, "a number is missing behind ','");
+                NumberFault last = fault(at_ - 1, "a number is missing after ','");
                 last.behind_all = true;
                 return last;
             }

@@ -67,7 +67,7 @@ bool Pen::is_near(const Vec2& place) {
         return true;
     }
     constexpr double m = 1e-3;
-    refuse(fmt::format("a position {:.0f} m away from the origin: two numbers may have become one",
+    refuse(fmt::format("a position is {:.0f} m from the origin: two numbers may have run together",
                        m * mm(place).cwiseAbs().maxCoeff()));
     return false;
 }
@@ -165,7 +165,8 @@ void Pen::append(const Vec2& from, const Vec2& to) {
 void Pen::count_points(int count) {
     points_left_ -= count;
     if (points_left_ < 0) {
-        throw Error(problems_.at(byte, "the plot has more points than are allowed", "it may be damaged"));
+        throw Error(
+            problems_.at(byte, "the plot has more points than allowed", "check the file: it may be damaged"));
     }
 }
 

@@ -70,12 +70,12 @@ void hatch_polygon(Run& run, const Polygon& polygon) {
     const HatchSettings settings = hatch_settings(run);
     constexpr double least_mm = 0.01; // no tool makes finer lines
     if (!(settings.pitch * run.settings.unit.x >= least_mm)) {
-        return run.refuse(fmt::format("a filling of lines {:.4g} mm apart is too fine to be cut",
+        return run.refuse(fmt::format("a fill with lines {:.4g} mm apart is too fine to cut",
                                       settings.pitch * run.settings.unit.x));
     }
     constexpr double most_lines = 1e6;
     if (!(line_count(region, settings) < most_lines)) {
-        return run.refuse("a filling of more than a million lines");
+        return run.refuse("a fill needs more than a million lines");
     }
     const Vec2 home = run.pen.at();
     for (const Stroke& stroke : hatch(region, settings)) {
@@ -144,9 +144,9 @@ Polygon wedge(Run& run, const Given& given) {
 
 bool refuses_without_polygon(Run& run) {
     if (run.pen.in_polygon()) {
-        run.refuse("a polygon is drawn before PM2 has closed it");
+        run.refuse("a polygon is drawn before PM2 closes it");
     } else if (run.polygon_damaged) {
-        run.refuse("the polygon is left out, because something in it was wrong");
+        run.refuse("the polygon is skipped because it contains an error");
     } else if (run.pen.polygon().empty()) {
         run.refuse("there is no polygon to draw");
     }
@@ -159,7 +159,7 @@ void polygon_mode(Run& run, const Given& given) {
     const double mode = given.value(0, 0.0);
     const bool open = run.pen.in_polygon();
     if (mode > 0.0 && !open) {
-        return run.refuse(fmt::format("PM{} without PM0 before it", mode));
+        return run.refuse(fmt::format("PM{} needs a PM0 before it", mode));
     }
     if (mode > 1.0) {
         run.pen.close_polygon();
@@ -210,7 +210,7 @@ void fill_wedge(Run& run, const Given& given) {
 void fill_type(Run& run, const Given& given) {
     const double spacing = given.value(1, 0.0);
     if (spacing < 0.0) {
-        return run.refuse(fmt::format("FT: a spacing of {}", spacing));
+        return run.refuse(fmt::format("FT: {} is not a valid spacing", spacing));
     }
     Filling filling;
     filling.type = static_cast<int>(given.value(0, 1.0));

@@ -65,7 +65,7 @@ struct Run {
     void refuse(std::string why) { pen.refuse(std::move(why)); }
     [[nodiscard]] bool refuses_if_lost() {
         if (pen.lost()) {
-            refuse("the pen's position is not known here, because of what was wrong before");
+            refuse("the pen position is unknown here because of an earlier error");
         }
         return pen.refused();
     }

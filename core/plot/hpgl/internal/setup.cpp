@@ -40,7 +40,7 @@ void input_points(Run& run, const Given& given) {
     const Vec2 p1 = given.point(0);
     const Vec2 p2 = given.count() == 4 ? given.point(2) : Vec2(p1 + run.units.span());
     if (!run.units.set_points(p1, p2)) {
-        return run.refuse("IP: P1 and P2 are on one line, which makes no scale");
+        return run.refuse("IP: P1 and P2 lie on one line, which does not define a scale");
     }
     run.misplace("IR", false);
 }
@@ -55,7 +55,7 @@ void input_relative_points(Run& run, const Given& given) {
     const Vec2 p2 =
         given.count() == 4 ? given.point(2) : Vec2(p1 + 100.0 * run.units.span().cwiseQuotient(sheet));
     if (!run.units.set_relative_points(p1, p2)) {
-        return run.refuse("IR: P1 and P2 are on one line, which makes no scale");
+        return run.refuse("IR: P1 and P2 lie on one line, which does not define a scale");
     }
     run.misplace("IP", false);
 }
@@ -66,7 +66,8 @@ void scale(Run& run, const Given& given) {
         return;
     }
     if (given.count() < 4) {
-        return run.refuse(fmt::format("SC: {}; there are 0, 4, 5 or 7", counted(given.count(), "number")));
+        return run.refuse(
+            fmt::format("SC: the type must be 0, 4, 5 or 7, not {}", counted(given.count(), "number")));
     }
     const Vec2 first(given[0], given[2]);
     const Vec2 second(given[1], given[3]);
@@ -80,13 +81,13 @@ void scale(Run& run, const Given& given) {
         done = run.units.scale_to_fit(first, second);
     }
     if (!done) {
-        return run.refuse("SC: these numbers make no scale");
+        return run.refuse("SC: these numbers do not define a scale");
     }
 }
 
 void rotate(Run& run, const Given& given) {
     if (!run.units.rotate(static_cast<int>(given.value(0, 0.0)))) {
-        return run.refuse(fmt::format("RO: {} is none of 0, 90, 180, 270 degrees", given[0]));
+        return run.refuse(fmt::format("RO: the angle must be 0, 90, 180 or 270 degrees, not {}", given[0]));
     }
 }
 
@@ -110,7 +111,7 @@ void select_pen(Run& run, const Given& given) {
     if (!known) {
         run.pen.put_away(); // what follows was meant for another pen than any that is there
         return run.refuse(
-            fmt::format("there is no pen {}; the highest is {}. Nothing is drawn from here to the next pen",
+            fmt::format("pen {} does not exist; the highest is {}. Nothing is drawn until the next pen",
                         number,
                         run.settings.highest_pen));
     }
@@ -124,7 +125,7 @@ namespace {
 PenUse* use_meant(Run& run, const Given& given, std::size_t n) {
     const double number = given.value(n, run.pen.number().value_or(1));
     if (!(number >= 0.0 && number <= run.settings.highest_pen)) {
-        run.refuse(fmt::format("there is no pen {}; the highest is {}", number, run.settings.highest_pen));
+        run.refuse(fmt::format("pen {} does not exist; the highest is {}", number, run.settings.highest_pen));
         return nullptr;
     }
     return &run.plot.pens.try_emplace(static_cast<int>(number), run.usual).first->second;
@@ -135,7 +136,7 @@ PenUse* use_meant(Run& run, const Given& given, std::size_t n) {
 void pen_speed(Run& run, const Given& given) {
     const double cm_per_s = given.value(0, 0.0);
     if (cm_per_s < 0.0) {
-        return run.refuse(fmt::format("VS: a speed of {} cm/s", cm_per_s));
+        return run.refuse(fmt::format("VS: {} cm/s is not a valid speed", cm_per_s));
     }
     constexpr double mm_per_cm = 10.0;
     const double speed = cm_per_s * mm_per_cm;
@@ -152,7 +153,7 @@ void pen_speed(Run& run, const Given& given) {
 void pen_width(Run& run, const Given& given) {
     const double width = given.value(0, 0.0);
     if (width < 0.0) {
-        return run.refuse(fmt::format("PW: a width of {}", width));
+        return run.refuse(fmt::format("PW: {} is not a valid width", width));
     }
     const double diagonal_mm =
         run.units.span().cwiseProduct(Vec2(run.settings.unit.x, run.settings.unit.y)).norm();
@@ -176,7 +177,7 @@ void line_type(Run& run, const Given& given) {
     }
     const double type = given[0];
     if (!(std::abs(type) <= static_cast<double>(run.modes.patterns.size()))) {
-        return run.refuse(fmt::format("LT: {} is none of the line types -8 to 8", type));
+        return run.refuse(fmt::format("LT: the line type must be -8 to 8, not {}", type));
     }
     const auto index = static_cast<int>(type);
     if (index == 0) {
@@ -189,7 +190,7 @@ void line_type(Run& run, const Given& given) {
     constexpr double least_mm = 0.1; // no pen and no tool makes finer dashes
     if (!(length * run.settings.unit.x >= least_mm)) {
         run.pen.line.set_solid();
-        return run.refuse(fmt::format("LT: a pattern of {:.4g} mm is too fine to be cut; lines are solid",
+        return run.refuse(fmt::format("LT: a pattern of {:.4g} mm is too fine to cut; lines are drawn solid",
                                       length * run.settings.unit.x));
     }
     const Pattern& pattern = run.modes.patterns[static_cast<std::size_t>(std::abs(index) - 1)];
@@ -207,7 +208,7 @@ void user_line_type(Run& run, const Given& given) {
     }
     const double index = std::abs(given[0]);
     if (!(index >= 1.0 && index <= static_cast<double>(run.modes.patterns.size()))) {
-        return run.refuse(fmt::format("UL: {} is none of the line types 1 to 8", given[0]));
+        return run.refuse(fmt::format("UL: the line type must be 1 to 8, not {}", given[0]));
     }
     const auto n = static_cast<std::size_t>(index) - 1;
     if (given.count() == 1) {
@@ -218,13 +219,13 @@ void user_line_type(Run& run, const Given& given) {
     double sum = 0.0;
     for (const double part : given.numbers.subspan(1)) {
         if (part < 0.0) {
-            return run.refuse(fmt::format("UL: a part of {} percent", part));
+            return run.refuse(fmt::format("UL: {} percent is not a valid part", part));
         }
         pattern.push_back(part);
         sum += part;
     }
     if (!(sum > 0.0)) {
-        return run.refuse("UL: a pattern without length");
+        return run.refuse("UL: the pattern has no length");
     }
     run.modes.patterns[n] = pattern;
 }

@@ -66,7 +66,7 @@ private:
         // A code of two bytes holds up to 255 pixels; what is far beyond that would only take time.
         constexpr std::int64_t empty_pixels = 4'000'000;
         if (width_ * height_ > 128 * std::ssize(bytes_) + empty_pixels) {
-            sink_.fail(fmt::format("the BMP of {} bytes cannot hold the {} x {} pixels of its head",
+            sink_.fail(fmt::format("the BMP of {} bytes is too small for the {} x {} pixels in its header",
                                    bytes_.size(),
                                    width_,
                                    height_));
@@ -85,8 +85,8 @@ private:
         const std::int64_t stride = (width_ * bits_ + 31) / 32 * 4;
         const std::int64_t needed = pixels_ + stride * height_;
         if (needed > std::ssize(bytes_)) {
-            sink_.fail(
-                fmt::format("the BMP is cut off: {} bytes where its size needs {}", bytes_.size(), needed));
+            sink_.fail(fmt::format(
+                "the BMP is cut off: it has {} bytes, but its size needs {}", bytes_.size(), needed));
         }
         std::vector<Rgb> row(static_cast<std::size_t>(width_));
         for (int y = 0; y < height_ && !sink_.over_at(y); ++y) {
@@ -117,7 +117,7 @@ private:
         const std::uint32_t head = word(file_head);
         const bool small = head == core_head;
         if (!small && (head < info_head || head > largest_head)) {
-            sink_.fail(fmt::format("the BMP has a head of {} bytes, which no kind has", head));
+            sink_.fail(fmt::format("the BMP has a header of {} bytes, which is not a known size", head));
         }
         width_ = small ? std::int64_t{number(18, 2)} : signed_word(18);
         height_ = small ? std::int64_t{number(20, 2)} : signed_word(22);
@@ -144,20 +144,19 @@ private:
         const bool known =
             bits_ == 1 || bits_ == 4 || bits_ == 8 || bits_ == 16 || bits_ == 24 || bits_ == 32;
         if (!known) {
-            sink_.fail(fmt::format("the BMP has pixels of {} bits, which none have", bits_));
+            sink_.fail(fmt::format("the BMP has pixels of {} bits, which is not supported", bits_));
         }
         in_runs_ = (compression == runs_of_8 && bits_ == 8) || (compression == runs_of_4 && bits_ == 4);
         if (in_runs_ && top_down_) {
-            sink_.fail("the BMP has run-length codes and is stored from the top down, which no kind allows");
+            sink_.fail("the BMP is run-length encoded and stored top-down, which is not allowed");
         }
         const bool fields =
             (compression == bit_fields || compression == alpha_bit_fields) && (bits_ == 16 || bits_ == 32);
         if (compression != uncompressed && !in_runs_ && !fields) {
-            sink_.fail(
-                fmt::format("the BMP's pixels of {} bits are compressed in a way that is not read (kind {})",
-                            bits_,
-                            compression),
-                "save it uncompressed, or as PNG");
+            sink_.fail(fmt::format("the BMP's pixels of {} bits use an unsupported compression (type {})",
+                                   bits_,
+                                   compression),
+                       "save it uncompressed, or as PNG");
         }
     }
 
@@ -165,7 +164,8 @@ private:
         const std::uint32_t most = 1U << bits_;
         count = count == 0 ? most : count;
         if (count > most) {
-            sink_.fail(fmt::format("the BMP has {} colours where {} bits hold {}", count, bits_, most));
+            sink_.fail(
+                fmt::format("the BMP has {} colours, but {} bits can only hold {}", count, bits_, most));
         }
         for (std::uint32_t n = 0; n < count; ++n) {
             const std::int64_t color = at + std::int64_t{n} * size;
@@ -180,7 +180,7 @@ private:
         fields_ = {Field(red), Field(green), Field(blue)};
         for (const Field& field : fields_) {
             if (!field.contiguous()) {
-                sink_.fail("the BMP spreads a colour over bits that are not neighbours");
+                sink_.fail("the BMP spreads a colour over bits that are not contiguous");
             }
         }
     }
@@ -201,7 +201,8 @@ private:
 
     [[nodiscard]] Rgb color(std::uint32_t index) const {
         if (index >= colors_) {
-            sink_.fail(fmt::format("a pixel of the BMP has colour {} of {}", index + 1, colors_));
+            sink_.fail(
+                fmt::format("a pixel of the BMP has colour {}, but there are only {}", index + 1, colors_));
         }
         return palette_[index];
     }

@@ -43,7 +43,7 @@ void BmpRuns::next_row(std::span<unsigned char> indices) {
 
 unsigned char BmpRuns::next_byte() {
     if (at_ >= std::ssize(bytes_)) {
-        sink_.fail(fmt::format("the BMP is cut off at byte {}, before the code that ends it", bytes_.size()));
+        sink_.fail(fmt::format("the BMP is cut off at byte {}, before the end code", bytes_.size()));
     }
     return static_cast<unsigned char>(bytes_[static_cast<std::size_t>(at_++)]);
 }
@@ -89,8 +89,10 @@ void BmpRuns::jump(std::span<const unsigned char> indices) {
 void BmpRuns::check_room(std::span<const unsigned char> indices, int count) const {
     const auto width = std::ssize(indices);
     if (x_ + count > width) {
-        sink_.fail(fmt::format(
-            "the run at byte {} of the BMP ends at column {} of {}", code_at_, x_ + count, width));
+        sink_.fail(fmt::format("the run at byte {} of the BMP ends at column {}, beyond the width of {}",
+                               code_at_,
+                               x_ + count,
+                               width));
     }
 }
 

@@ -10,13 +10,13 @@ namespace millwright::plot::internal {
 
 void check_above_zero(const char* name, double value) {
     if (!(value > 0.0) || !std::isfinite(value)) {
-        throw Error(fmt::format("{} of {}; it has to be above 0", name, value));
+        throw Error(fmt::format("{} is {}, but must be above 0", name, value));
     }
 }
 
 void check_not_below_zero(const char* name, double value) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
-        throw Error(fmt::format("{} of {} mm; it has to be 0 or more", name, value));
+        throw Error(fmt::format("{} is {} mm, but must be 0 or more", name, value));
     }
 }
 

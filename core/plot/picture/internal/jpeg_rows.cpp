@@ -30,7 +30,7 @@ public:
 
     void read() {
         if (!read_head()) {
-            fail("its head");
+            fail("its header");
         }
         if (jpeg_has_multiple_scans(&jpeg_) != 0) {
             sink_.allow_memory(coefficient_bytes(), "a progressive JPEG");
@@ -40,7 +40,7 @@ public:
         sink_.begin(jpeg_.image_width, jpeg_.image_height, {channels, 8});
         say_density();
         if (inks) {
-            sink_.notice("four inks (CMYK) are mixed without a colour profile");
+            sink_.notice("four inks (CMYK) are converted without a colour profile");
         }
         if (!start()) {
             fail("its first rows");
@@ -162,7 +162,7 @@ private:
     }
 
     [[noreturn]] void fail(const std::string& where) const {
-        sink_.fail(fmt::format("the JPEG cannot be read in {}: {}", where, text_));
+        sink_.fail(fmt::format("the JPEG cannot be read at {}: {}", where, text_));
     }
 
     std::string_view bytes_;

@@ -26,7 +26,7 @@ public:
 
     void read() {
         if (!begin()) {
-            fail("its head");
+            fail("its header");
         }
         const auto height = static_cast<int>(png_get_image_height(png_, info_));
         const int passes = passes_;
@@ -120,10 +120,10 @@ private:
 
     [[noreturn]] void fail(const std::string& where) const {
         if (cut_) {
-            sink_.fail(
-                fmt::format("the PNG ends too early, after {} bytes: {} is not whole", bytes_.size(), where));
+            sink_.fail(fmt::format(
+                "the PNG ends too early, after {} bytes: {} is incomplete", bytes_.size(), where));
         }
-        sink_.fail(fmt::format("the PNG is damaged in {}: {} (byte {})", where, text_, at_));
+        sink_.fail(fmt::format("the PNG is damaged at {}: {} (byte {})", where, text_, at_));
     }
 
     std::string_view bytes_;

@@ -21,7 +21,7 @@ public:
         const std::int64_t height = number("height");
         most_ = number("largest value");
         if (most_ < 1 || most_ > most_value) {
-            sink_.fail(fmt::format("the PNM has a largest value of {}, where 1 to 65535 can be", most_));
+            sink_.fail(fmt::format("the PNM has a largest value of {}, but 1 to 65535 are allowed", most_));
         }
         ++at_; // the one blank before the samples
         const bool bytes = most_ == 255;
@@ -30,8 +30,8 @@ public:
         const std::int64_t stride = samples * (most_ > 255 ? 2 : 1);
         const std::int64_t needed = at_ + stride * height;
         if (needed > std::ssize(bytes_)) {
-            sink_.fail(
-                fmt::format("the PNM is cut off: {} bytes where its size needs {}", bytes_.size(), needed));
+            sink_.fail(fmt::format(
+                "the PNM is cut off: it has {} bytes, but its size needs {}", bytes_.size(), needed));
         }
         std::vector<std::uint16_t> row(bytes ? 0U : static_cast<std::size_t>(samples));
         for (int y = 0; y < height && !sink_.over_at(y); ++y) {

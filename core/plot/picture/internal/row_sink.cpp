@@ -80,11 +80,11 @@ PixelRegion up_to_edge(PixelRegion region, int width, int height) {
 
 void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
     if (width < 1 || height < 1) {
-        fail(fmt::format("a picture of {} x {} pixels", width, height));
+        fail(fmt::format("a picture of {} x {} pixels is not possible", width, height));
     }
     if (width > largest_side || height > largest_side || width * height > most_source_pixels) {
         fail(fmt::format("a picture of {} x {} pixels is too large", width, height),
-             "at most 4,000 million pixels are read");
+             "use a picture of at most 4,000 million pixels");
     }
     format_ = format;
     region_ = up_to_edge(
@@ -93,7 +93,7 @@ void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
         return from >= 0 && count >= 1 && from + count <= all;
     };
     if (!inside(region_.left, region_.width, width) || !inside(region_.top, region_.height, height)) {
-        fail(fmt::format("the region of {} x {} pixels from ({}, {}) leaves the picture of {} x {}",
+        fail(fmt::format("the region of {} x {} pixels from ({}, {}) extends beyond the picture of {} x {}",
                          region_.width,
                          region_.height,
                          region_.left,
@@ -113,7 +113,7 @@ void RowSink::begin(std::int64_t width, std::int64_t height, RowFormat format) {
     line_.resize(static_cast<std::size_t>(region_.width));
     if (square_ > 1) {
         sums_.resize(static_cast<std::size_t>(read_.picture.width));
-        notice(fmt::format("{} x {} pixels are averaged over squares of {}: {} x {} are left",
+        notice(fmt::format("{} x {} pixels are averaged over squares of {}, which leaves {} x {}",
                            region_.width,
                            region_.height,
                            square_,
@@ -197,11 +197,11 @@ void RowSink::fail(std::string message, std::string hint) const {
 void RowSink::allow_memory(std::int64_t bytes, const std::string& what) const {
     if (bytes > settings_.most_memory) {
         constexpr std::int64_t megabyte = 1'000'000;
-        fail(fmt::format("{} of this size needs {} MB at once, more than the {} that are allowed",
+        fail(fmt::format("{} of this size needs {} MB at once, but only {} are allowed",
                          what,
                          bytes / megabyte,
                          settings_.most_memory / megabyte),
-             "save it as a plain one, neither interlaced nor progressive");
+             "save it as a plain picture, neither interlaced nor progressive");
     }
 }
 
@@ -218,16 +218,17 @@ void RowSink::square_pixels(PixelShape& shape) {
         return;
     }
     if (height * picture.width > static_cast<double>(settings_.most_pixels)) {
-        fail(fmt::format("pixels {:.4g} times as high as wide: with square ones it has {:.0f} rows, more "
-                         "than fit",
+        fail(fmt::format("the pixels are {:.4g} times as high as wide: with square pixels the picture would "
+                         "have {:.0f} rows, which is too many",
                          height_of_width_,
                          height),
              "save it with square pixels");
     }
-    notice(fmt::format("its pixels are {:.4g} times as high as wide: {} rows become {:.0f} of square ones",
-                       height_of_width_,
-                       picture.height,
-                       height));
+    notice(fmt::format(
+        "the pixels are {:.4g} times as high as wide: {} rows become {:.0f} rows of square pixels",
+        height_of_width_,
+        picture.height,
+        height));
     picture = with_rows(picture, static_cast<int>(height));
 }
 

@@ -24,7 +24,7 @@ private:
     int idle_reports_ = 0;
 };
 
-inline constexpr const char* guard_is_off = "nothing stops the motors when the link is lost: the guard in "
-                                            "the card does not run (PLC 31, which needs I5 = 2)";
+inline constexpr const char* guard_is_off = "the motors would not be stopped if the connection is lost: the "
+                                            "guard in the card is not running (PLC 31, which needs I5 = 2)";
 
 } // namespace millwright::pmac::internal

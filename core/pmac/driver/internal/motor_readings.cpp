@@ -77,7 +77,7 @@ std::vector<std::string> MotorReadings::protections_off() const {
     std::vector<MotorProtections> motors;
     for (const auto& motor : protections_) {
         if (!motor) {
-            return {"the card did not tell whether they are on"};
+            return {"the card did not report whether they are on"};
         }
         motors.push_back(*motor);
     }

@@ -18,30 +18,32 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
         constexpr std::size_t longest = 240;
         const bool plain = std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~'; });
         if (!plain || line.empty() || line.size() > longest) {
-            throw Error(fmt::format("a command is plain text of 1 to {} characters", longest));
+            throw Error(fmt::format("a command must be plain text of 1 to {} characters", longest));
         }
         if (!sets_p0(line) && (line.front() == '.' || (line.front() >= '0' && line.front() <= '9'))) {
-            throw Error(fmt::format("'{}' begins with a number, and is more than that", line),
+            throw Error(fmt::format("'{}' starts with a number but contains more", line),
                         {},
-                        "a number alone sets P0; anything else begins with a letter, # or &");
+                        "use a number alone to set P0, or a command that starts with a letter, # or &");
         }
         if (line.front() == '^') {
-            throw Error(fmt::format("'{}' means a control character, which has no place in a line", line),
+            throw Error(fmt::format("'{}' is a control character, which is not allowed in a line", line),
                         {},
-                        "stop, emergency stop and unlock do what ^A, ^K and others would; what the reports "
-                        "would tell (^B, ^C, ^F, ^G, ^P, ^V) the driver asks for and shows all the time");
+                        "use stop, emergency stop and unlock instead of ^A, ^K and others; the driver "
+                        "requests the reports (^B, ^C, ^F, ^G, ^P, ^V) itself and shows them all the time");
         }
         if (jogs_without_end(line)) {
-            throw Error(fmt::format("'{}' would jog until somebody thinks of stopping it", line),
+            throw Error(fmt::format("'{}' would jog without an end", line),
                         {},
-                        "the jog buttons stop when they are let go of; J:500 goes 500 counts");
+                        "use the jog buttons, which stop when released, or a jog with an end: J:500 moves "
+                        "500 counts");
         }
         if (opens_loop(line)) {
-            throw Error(fmt::format("'{}' would drive a motor without its loop: no speed, no limit and no "
-                                    "watchdog holds it",
-                                    line),
-                        {},
-                        "J:500 goes 500 counts");
+            throw Error(
+                fmt::format(
+                    "'{}' would drive a motor in open loop, without control of speed, limits or watchdog",
+                    line),
+                {},
+                "J:500 goes 500 counts");
         }
         check_guard(line);
     }
@@ -51,12 +53,13 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
 void PmacSession::check_guard(const std::string& line) {
     if (const std::string why = guard_refusal(line); !why.empty()) {
         throw Error(
-            fmt::format("'{}' would weaken the guard that stops the motors when the link is lost", line),
+            fmt::format("'{}' would weaken the guard that stops the motors when the connection is lost",
+                        line),
             {},
             why);
     }
     if (sets_handshake(line)) {
-        throw Error(fmt::format("'{}' would change the hand-shake, which is the driver's", line));
+        throw Error(fmt::format("'{}' would change the handshake, which is controlled by the driver", line));
     }
 }
 
@@ -67,7 +70,7 @@ void PmacSession::check_buffers(const std::vector<std::string>& lines) const {
         if (opens_buffer(line) && may_move && any_power()) {
             throw Error(fmt::format("'{}' would disarm the guard while motors may move", line),
                         {},
-                        "send it when the lines before it are done");
+                        "send it after the lines before it have finished");
         }
         may_move = may_move || (!stored && !opens_buffer(line) && !begins_nothing(line));
         stored = opens_buffer(line) || (stored && !closes_buffer(line));
@@ -102,7 +105,7 @@ bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
         return false;
     }
     if (std::all_of(lines.begin(), lines.end(), only_kills)) {
-        fail("a command took the power away");
+        fail("a command disabled the motors");
     } else if (std::all_of(lines.begin(), lines.end(), only_stops)) {
         halt();
     } else {
@@ -150,16 +153,17 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
     }
     const bool moves = stage_ == Stage::astir || stage_ == Stage::commanding || (rests() && !standing());
     if (!moves && std::all_of(lines.begin(), lines.end(), only_aborts)) {
-        answer_ = {answer_.number + 1,
-                   drivers::CommandAnswer::State::done,
-                   fmt::format("nothing moves; {} has no power and was given none", name_of(*to))};
+        answer_ = {
+            answer_.number + 1,
+            drivers::CommandAnswer::State::done,
+            fmt::format("nothing moves; {} is disabled, and the command did not enable it", name_of(*to))};
         return true;
     }
     if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
         throw Error(
-            fmt::format("'{}' would give power to {}, which has none", fmt::join(lines, " "), name_of(*to)),
+            fmt::format("'{}' would enable {}, which is disabled", fmt::join(lines, " "), name_of(*to)),
             {},
-            "look at the machine, then give its motors power: --power on the command line");
+            "inspect the machine, then enable its motors: --power on the command line");
     }
     command_lines_.clear();
     finish(Stage::stopping);
@@ -170,9 +174,9 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
 
 int PmacSession::load(const std::vector<std::string>& lines) {
     if (any_power()) {
-        throw Error("the motors have power, and a wrong gain or limit would move them at once",
+        throw Error("the motors are enabled, and a wrong gain or limit would move them immediately",
                     {},
-                    "take it away first, and give it again when the settings were looked at");
+                    "disable the motors first; enable them again after checking the settings");
     }
     return command(lines, true);
 }
@@ -189,7 +193,7 @@ int PmacSession::command(const std::vector<std::string>& typed, bool all) {
                                typed_.kept().front(),
                                count,
                                count == 1 ? "line is" : "lines are")};
-        tell(false, drivers::ConsoleKind::message, typed.back() + ": not sent yet; " + answer_.text);
+        tell(false, drivers::ConsoleKind::message, typed.back() + ": not yet sent; " + answer_.text);
         return answer_.number;
     }
     const std::vector<std::string> lines = all ? typed : typed_.completed(typed);
@@ -211,7 +215,7 @@ int PmacSession::command(const std::vector<std::string>& typed, bool all) {
                std::all_of(lines.begin(), lines.end(), only_sets)) {
         // nothing has power: what a test of a motor had borrowed is given back
     } else if (waits || !asks || !(active() || stage_ == Stage::astir) || stage_ == Stage::loading) {
-        require_rest("command");
+        require_rest("a command");
         finish(Stage::commanding);
     }
     begin_command(lines, all);

@@ -55,7 +55,7 @@ std::string PmacSession::leaves_limits(const std::vector<double>& from,
         const double target = targets[n] / axis.counts_per_degree;
         if (target > std::max(axis.max_deg.value_or(target), start) ||
             target < std::min(axis.min_deg.value_or(target), start)) {
-            return fmt::format("{} would leave its limits, at {:.2f} degrees", name_of(n), target);
+            return fmt::format("{} would exceed its limits, at {:.2f} degrees", name_of(n), target);
         }
         targets_deg.push_back(target);
     }
@@ -113,18 +113,18 @@ void PmacSession::give_jog_speeds_back() {
 
 void PmacSession::jog(const drivers::Jog& jog, double now) {
     if (stage_ != Stage::jogging || jog_stopping_) {
-        require_rest("jog");
+        require_rest("a jog");
     }
-    require_enabled("jog");
+    require_enabled("a jog");
     double longest = 0.0;
     for (Eigen::Index n = 0; n < jog.way.size(); ++n) {
         if (!std::isfinite(jog.way[n]) || (n >= std::ssize(motors_) && std::abs(jog.way[n]) > 0.0)) {
-            throw Error("this PMAC has no such axis to jog");
+            throw Error("this PMAC does not have this axis");
         }
         longest = std::max(longest, std::abs(jog.way[n]));
     }
     if (!(longest > 0.0) || !(jog.speed > 0.0)) {
-        throw Error("a jog has a way and a speed");
+        throw Error("a jog needs a distance and a speed");
     }
     const bool held = jog.dead_man > 0.0;
     const bool goes_on = stage_ == Stage::jogging;

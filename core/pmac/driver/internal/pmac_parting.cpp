@@ -39,7 +39,9 @@ void PmacSession::leave(double now) {
         return;
     }
     if (link_lost_) {
-        farewell_ = any_power() ? "the link is lost, and with it whether the motors still have power" : "";
+        farewell_ = any_power()
+                        ? "the connection is lost, so it is unknown whether the motors are still enabled"
+                        : "";
         return;
     }
     stays_armed_ = false; // else the guard would take the power of motors that are to keep it
@@ -74,7 +76,7 @@ void PmacSession::part(double now) {
         finish(Stage::stopped);
         end_leaving();
     } else if (over) {
-        farewell_ = "the card did not tell that its motors have lost their power";
+        farewell_ = "the card did not report that its motors are disabled";
         finish(Stage::alarm, farewell_);
         end_leaving();
     } else {

@@ -41,18 +41,18 @@ void PmacSession::require_rest(std::string_view what) const {
         return;
     }
     if (rests()) {
-        throw Error(fmt::format("the motors are moving, and take no {}", what));
+        throw Error(fmt::format("the motors are moving: {} is not possible now", what));
     }
-    throw Error(fmt::format("the PMAC is {} and cannot accept a {}", drivers::in_words(status().state), what),
+    throw Error(fmt::format("the PMAC is {}: {} is not possible", drivers::in_words(status().state), what),
                 {},
-                stage_ == Stage::alarm ? message_ + "; inspect the machine, then reset it" : "");
+                stage_ == Stage::alarm ? message_ + "; inspect the machine, then reset the alarm" : "");
 }
 
 void PmacSession::require_enabled(std::string_view what) const {
     if (!enabled()) {
-        throw Error(fmt::format("the motors have no power, so there is no {}", what),
+        throw Error(fmt::format("the motors are not enabled: {} is not possible", what),
                     {},
-                    "look at the machine, then enable them");
+                    "inspect the machine, then enable the motors");
     }
 }
 
@@ -65,10 +65,10 @@ std::string PmacSession::every_motor(std::string_view command) const {
 }
 
 void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
-    require_rest("program");
-    require_enabled("program");
+    require_rest("a program");
+    require_enabled("a program");
     if (!position_known()) {
-        throw Error("the position is not known, so there is no program", {}, "home first");
+        throw Error("the position is unknown, so a program cannot run", {}, "home the machine first");
     }
     for (const std::string& line : lines) {
         check_guard(line);
@@ -183,10 +183,10 @@ void PmacSession::reset(double /*now*/) {
 }
 
 void PmacSession::home(double now) {
-    require_rest("homing request");
+    require_rest("homing");
     require_enabled("homing");
     if (motors_.empty()) {
-        throw Error("there is no axis that could be homed");
+        throw Error("there is no axis to home");
     }
     finish(Stage::homing);
     was_home_ = false;
@@ -217,9 +217,9 @@ void PmacSession::home_axis(std::size_t n) {
 }
 
 void PmacSession::enable(double /*now*/) {
-    require_rest("power command");
+    require_rest("enabling the motors");
     if (!guard_.runs()) {
-        throw Error(guard_is_off, {}, "connect again: that writes it anew");
+        throw Error(guard_is_off, {}, "connect again, which rewrites the guard");
     }
     gave_power_ = true;
     ask(every_motor("J/"));
@@ -228,7 +228,7 @@ void PmacSession::enable(double /*now*/) {
 
 void PmacSession::set_overrides(const drivers::Overrides& wanted) {
     if (stage_ == Stage::closed || link_lost_ || !greeted()) {
-        throw Error("the PMAC is not connected and cannot accept overrides");
+        throw Error("the PMAC is not connected, so overrides are not possible");
     }
     constexpr int most = 100; // faster than programmed is no business of a hand
     overrides_.feed = std::clamp(wanted.feed, 0, most);

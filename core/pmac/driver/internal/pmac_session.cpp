@@ -56,10 +56,10 @@ void PmacSession::opened(double now) {
 
 void PmacSession::lost(const std::string& why) {
     const bool spoke = stage_ != Stage::greeting; // else nothing was sent that moves a motor
-    finish(Stage::alarm, links::loss_sentence(why) + (spoke ? "; the card stops its motors by itself" : ""));
+    finish(Stage::alarm, links::loss_sentence(why) + (spoke ? "; the card stops its motors on its own" : ""));
     link_lost_ = unseen_ = true;
     if (leaving_) {
-        farewell_ = "the link was lost before the card told that its motors have no power";
+        farewell_ = "the connection was lost before the card reported that its motors are disabled";
         end_leaving();
     }
     talk_.forget();
@@ -115,15 +115,15 @@ void PmacSession::receive(std::string_view bytes, double now) {
 std::string PmacSession::asked(const Request& request) {
     switch (request.kind) {
     case Kind::poll:
-        return "the question how its motors stand";
+        return "the query for motor status";
     case Kind::rating:
     case Kind::reading:
     case Kind::jog_speeds:
-        return "the question for its motors' values";
+        return "the query for motor values";
     case Kind::address:
-        return "the question which motor it addresses";
+        return "the query for the addressed motor";
     case Kind::watch:
-        return "one of this program's own settings";
+        return "a setting of Millwright's own";
     case Kind::step:
         return request.line.starts_with('I') ? "a jog's speed" : "'" + request.line + "'";
     default:
@@ -141,9 +141,7 @@ void PmacSession::greet(double now) {
     constexpr std::size_t behind_close = 2;
     if (greet_step_ == behind_close && greeting_heard_.find("CLOSE\r") != std::string::npos) {
         output_ += repeats_or_not; // else each line would be taken for its answer
-        tell(true,
-             drivers::ConsoleKind::realtime,
-             "^T: the card repeated what it was sent, and does so no more");
+        tell(true, drivers::ConsoleKind::realtime, "^T: the card echoed what it was sent; echo is now off");
     }
     if (greet_step_ < steps.size()) {
         output_ += steps[greet_step_++];
@@ -200,10 +198,10 @@ void PmacSession::watch_time(double now) {
     if (stage_ == Stage::stopping && !brake_by_) {
         brake_by_ = now + braking;
     } else if (stage_ == Stage::stopping && now > *brake_by_) {
-        fail("the motors do not come to rest, or the line is too slow to tell it");
+        fail("the motors do not come to rest, or the connection is too slow to report it");
     } else if (stage_ == Stage::greeting && now > opened_at_ + greeting) {
         queue_.clear();
-        finish(Stage::alarm, fmt::format("its answers take too long: the greeting took {:.0f} s", greeting));
+        finish(Stage::alarm, fmt::format("the answers take too long: the greeting took {:.0f} s", greeting));
     }
 }
 
@@ -282,16 +280,14 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
     default:
         if (stage_ == Stage::greeting) {
             queue_.clear();
-            finish(Stage::alarm,
-                   heard_ ? "what answers is not what a PMAC would" : "nobody answers as a PMAC");
+            finish(Stage::alarm, heard_ ? "the device that answers is not a PMAC" : "no PMAC answers");
         } else if (request.kind == Kind::command && request.line.starts_with("$$$")) {
-            fail(
-                "the card was reset: the settings that it had saved are in force, and it does not know where "
-                "the arm stands");
+            fail("the card was reset: its saved settings are active, and it does not know the position of "
+                 "the arm");
         } else {
             unseen_ = true;
-            fail(reply.heard ? fmt::format("the card answers {} in another way than it was set up to: was it "
-                                           "reset, or is the line disturbed?",
+            fail(reply.heard ? fmt::format("the card answers {} in an unexpected format: check whether it "
+                                           "was reset or the connection is disturbed",
                                            asked(request))
                              : fmt::format("the card did not answer {}", asked(request)));
         }
@@ -319,7 +315,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
     case Kind::greet:
         if (request.line == "TYPE" && (lines.size() != 1 || !lines.front().starts_with("PMAC"))) {
             queue_.clear();
-            finish(Stage::alarm, "this is no PMAC");
+            finish(Stage::alarm, "the device is not a PMAC");
         } else if (request.line == "I10") {
             make_guard(lines);
         }
@@ -362,11 +358,11 @@ void PmacSession::refused(const Request& request, int error) {
     const bool of_motors = error == no_command && request.line.ends_with("J/");
     tell(false, drivers::ConsoleKind::fault, fmt::format("ERR{:03}, {}", error, pmac_error(error)));
     const std::string why = fmt::format(
-        "{} is refused: ERR{:03}, {}{}",
+        "{} is rejected: ERR{:03}, {}{}",
         asked(request),
         error,
         pmac_error(error),
-        of_motors ? "; so it answers where a motor is not active (Ix00 = 0): load the settings of the card"
+        of_motors ? "; the card answers so if a motor is not active (Ix00 = 0): load the card's settings"
                   : "");
     if (request.kind == Kind::rating || request.kind == Kind::reading) {
         readings_.give_up();

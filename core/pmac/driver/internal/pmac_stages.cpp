@@ -70,14 +70,13 @@ std::string PmacSession::astray_sentence() const {
     const auto n = static_cast<std::size_t>(astray - motors_.begin());
     const double at = axes_deg()[n];
     const std::vector<drivers::MotorReading>& readings = readings_.motors();
-    return fmt::format(
-        "{} has power and is not where it was sent: it stands at {:.2f} degrees{}; has its "
-        "amplifier power, is its brake off and the way free?",
-        name_of(n),
-        at,
-        readings.size() == motors_.size()
-            ? fmt::format(" and was sent to {:.2f}", at + to_degrees(readings[n].following_error))
-            : "");
+    return fmt::format("{} is enabled but not at its commanded position: it is at {:.2f} degrees{}; check "
+                       "that its amplifier has power, the brake is released and the path is clear",
+                       name_of(n),
+                       at,
+                       readings.size() == motors_.size()
+                           ? fmt::format(" instead of {:.2f}", at + to_degrees(readings[n].following_error))
+                           : "");
 }
 
 bool PmacSession::at_limit(std::size_t n) const {
@@ -89,7 +88,7 @@ bool PmacSession::at_limit(std::size_t n) const {
 std::string PmacSession::limit_sentence() const {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         if (at_limit(n)) {
-            return fmt::format("motor {} ran into a limit of the card", settings_.axes[n].motor);
+            return fmt::format("motor {} reached a limit of the card", settings_.axes[n].motor);
         }
     }
     return {};
@@ -105,10 +104,10 @@ std::string PmacSession::commanded_limit() const {
             continue;
         }
         if (moved) {
-            return fmt::format("motor {} ran into a limit of the card", motor);
+            return fmt::format("motor {} reached a limit of the card", motor);
         }
         if (commanded_.find(fmt::format("#{}", motor)) != std::string::npos) {
-            return fmt::format("motor {} stands at a limit of the card", motor);
+            return fmt::format("motor {} is at a limit of the card", motor);
         }
     }
     return {};
@@ -118,9 +117,9 @@ std::string PmacSession::commanded_limit() const {
 std::string PmacSession::unheard() const {
     return mark_ > 0.5 * heard_nothing
                ? ""
-               : fmt::format(
-                     "it heard nothing from this computer for {:.0f} ms, which was busy, or the line is slow",
-                     1e3 * settings_.abort_after);
+               : fmt::format("the card received nothing from this computer for {:.0f} ms: the computer was "
+                             "busy, or the connection is slow",
+                             1e3 * settings_.abort_after);
 }
 
 /// Nothing moves: the card need not watch, and no character that was garbled into ^R finds a program.
@@ -142,7 +141,7 @@ void PmacSession::watch_program(bool settled) {
     const bool all_sent = queue_.empty(); // else the report may be older than our resume
     if ((system_2_ & held_bit) != 0 && !held_ && all_sent) {
         held_ = true;
-        message_ = "held, and nobody here asked for it";
+        message_ = "feed hold was triggered outside Millwright";
     }
     if ((system_2_ & errors) != 0) {
         fail("the card ended the program with a run-time error");
@@ -153,7 +152,7 @@ void PmacSession::watch_program(bool settled) {
         const std::string limit = limit_sentence();
         fail(!unheard().empty() ? "the card ended the program: " + unheard()
              : !limit.empty()   ? limit
-                                : "the program was ended by somebody else");
+                                : "the program was ended outside Millwright");
     }
 }
 
@@ -247,7 +246,7 @@ void PmacSession::forget_all() {
 /// The one command that nothing refuses; three times, since a character may be lost.
 void PmacSession::kill() {
     output_ += "\x0B\x0B\x0B";
-    tell(true, drivers::ConsoleKind::realtime, "^K: every motor without power");
+    tell(true, drivers::ConsoleKind::realtime, "^K: all motors disabled");
 }
 
 } // namespace millwright::pmac::internal

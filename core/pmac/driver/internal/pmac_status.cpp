@@ -56,7 +56,11 @@ std::optional<Diagnostic> PmacSession::stranger() const {
         return std::nullopt;
     }
     return Diagnostic{
-        {}, message_, link_lost_ ? "" : "is the card on, and the baud rate of a serial port the card's?"};
+        {},
+        message_,
+        link_lost_
+            ? ""
+            : "check that the card is on and that the baud rate of the serial port matches the card's"};
 }
 
 /// Of the program, into the card's buffer; each of them may have its mark with it.
@@ -108,7 +112,7 @@ std::string PmacSession::loop_advice(const std::vector<std::string>& definitions
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         if (!motors_[n].enabled()) {
             return fmt::format(
-                "; motor {} ({}) has no power: give the motors power", settings_.axes[n].motor, name_of(n));
+                "; motor {} ({}) is disabled: enable the motors", settings_.axes[n].motor, name_of(n));
         }
     }
     std::string others;
@@ -120,11 +124,11 @@ std::string PmacSession::loop_advice(const std::vector<std::string>& definitions
     }
     return others.empty()
                ? std::string()
-               : fmt::format("; the card's settings give coordinate system {} also {}, which is not "
-                             "driven here: connect with its axis (\"Axis 5\", --axes XYZAB), or load "
-                             "settings without it",
-                             settings_.system,
-                             others);
+               : fmt::format(
+                     "; the card's settings assign to coordinate system {} also {}, which is not driven "
+                     "here: connect with its axis (\"Axis 5\", --axes XYZAB), or load settings without it",
+                     settings_.system,
+                     others);
 }
 
 /// A program or a command waits for the answer.

@@ -45,7 +45,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     const auto mark = system ? card_number(lines[of_motors + 1]) : std::nullopt;
     const auto guard = system ? card_number(lines[of_motors + 2]) : std::nullopt;
     if (!mark || !guard) {
-        fail("the card's report is not what was asked for");
+        fail("the card's status report is not in the expected format");
         return;
     }
     const double since = now - polled_at_;
@@ -53,7 +53,7 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
         const auto words = status_words(lines[2 * n]);
         const auto counts = card_number(lines[2 * n + 1]);
         if (!words || !counts) {
-            fail("the card's report of a motor is not what was asked for");
+            fail("the card's motor report is not in the expected format");
             return;
         }
         MotorState& motor = motors_[n];
@@ -144,7 +144,7 @@ void PmacSession::watch_motors() {
     const bool forgot = was_home_ && !position_known() && stage_ != Stage::homing &&
                         stage_ != Stage::commanding && stage_ != Stage::astir;
     if (forgot) {
-        fail("the card forgot the position: was it reset?");
+        fail("the card lost the position: check whether it was reset");
     }
     was_home_ = position_known();
 }
@@ -160,7 +160,7 @@ void PmacSession::watch_own_stop() {
         return (motor.had_power || motor.was_given_power) && !motor.enabled();
     });
     if ((commands || rests()) && lost_power) {
-        fail("the card took the power of its motors: " + unheard());
+        fail("the card disabled its motors: " + unheard());
     } else if (stage_ == Stage::astir && !only_set_ && any_power()) {
         const std::string why = unheard();
         halt();
@@ -179,7 +179,7 @@ std::string PmacSession::reason_of_kill(bool now) const {
             return fmt::format("motor {}: its amplifier reports a fault", settings_.axes[n].motor);
         }
         if (motor.left_behind() && !motor.enabled() && !motor.lag_is_old) {
-            return fmt::format("motor {}: its following error became too great", settings_.axes[n].motor);
+            return fmt::format("motor {}: its following error exceeded the limit", settings_.axes[n].motor);
         }
     }
     return {};
@@ -210,8 +210,8 @@ void PmacSession::watch_power() {
     const auto without =
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });
     fail(!why.empty()
-             ? why + ", and it takes no power"
-             : fmt::format("motor {} takes no power",
+             ? why + ", and it cannot be enabled"
+             : fmt::format("motor {} cannot be enabled",
                            settings_.axes[static_cast<std::size_t>(without - motors_.begin())].motor));
 }
 
@@ -236,11 +236,10 @@ void PmacSession::watch_following(double now) {
         lags.push_back(motors_[n].enabled() ? to_degrees(readings[n].following_error) : 0.0);
     }
     if (const auto n = following_.left_behind(lags, axes_deg(), now)) {
-        fail(fmt::format(
-            "{} is sent {:.2f} degrees further and does not go there: has its amplifier power, is "
-            "its brake off and the way free?",
-            name_of(*n),
-            std::abs(lags[*n])));
+        fail(fmt::format("{} is commanded {:.2f} degrees further but does not move: check that its amplifier "
+                         "has power, the brake is released and the path is clear",
+                         name_of(*n),
+                         std::abs(lags[*n])));
     }
 }
 
@@ -274,7 +273,7 @@ void PmacSession::watch_zone() {
     }
     if (const std::string why = leaves_zone(settings_, before, watched_deg_, slack_mm); !why.empty()) {
         halt();
-        message_ = "stopped at the border of the arm's workspace: " + why;
+        message_ = "stopped at the limit of the arm's workspace: " + why;
     }
 }
 
@@ -293,7 +292,7 @@ void PmacSession::watch_rest() {
             rest_counts_[n] = motors_[n].counts;
         } else if (std::abs(motors_[n].counts - rest_counts_[n]) >
                    slack_deg * settings_.axes[n].counts_per_degree) {
-            fail(fmt::format("{} has power and moves, and nobody sent it", name_of(n)));
+            fail(fmt::format("{} is enabled and moves without a command", name_of(n)));
             return;
         }
     }
@@ -320,10 +319,11 @@ void PmacSession::watch_way_home() {
     const double way = std::abs(motors_[homing_axis_].counts - homing_from_) / axis.counts_per_degree;
     if (way > range + slack_deg) {
         halt();
-        message_ = fmt::format("motor {} went {:.0f} degrees and found no home: are its flag and I{} set up?",
-                               axis.motor,
-                               way,
-                               902 + 5 * (axis.motor - 1));
+        message_ =
+            fmt::format("motor {} moved {:.0f} degrees without finding its home: check its home flag and I{}",
+                        axis.motor,
+                        way,
+                        902 + 5 * (axis.motor - 1));
     }
 }
 

@@ -23,11 +23,11 @@ std::string enabled(const PmacSettings& settings) {
 std::vector<std::string> watchdog_lines(const PmacSettings& settings, double servo_time) {
     constexpr double shortest = 232'107.0, longest = 8'388'607.0; // what jumpers give, and 23 bits hold
     if (!(servo_time >= shortest && servo_time <= longest)) {
-        throw Error(
-            fmt::format("the card says I10 = {:.0f}, which is no servo time of a PMAC", servo_time),
-            {},
-            "it says how long a servo cycle lasts, which the jumpers of the card tell: 3713707 from the "
-            "factory");
+        throw Error(fmt::format("the card reports I10 = {:.0f}, which is not a valid servo time of a PMAC",
+                                servo_time),
+                    {},
+                    "set I10 to the length of a servo cycle, which depends on the card's jumpers: 3713707 "
+                    "with factory jumpers");
     }
     constexpr double units_per_ms = 8'388'608.0;
     const double cycle = servo_time / units_per_ms / 1000.0; // s

@@ -293,9 +293,9 @@ TEST(GrblFirmware, IsNotSentWhatIsNoPlainText) {
         return std::string();
     };
     EXPECT_EQ(refusal("\xFF\xFEG\0002\0001\0\n\0"s),
-              "part.nc:1:1: the text is UTF-16 (save it as plain text)");
+              "part.nc:1:1: the file is UTF-16 (save it as plain text)");
     EXPECT_EQ(refusal("G\0\0\0002\0\0\0\n\0\0\0"s),
-              "part.nc:1:1: the text is UTF-32 (save it as plain text)");
+              "part.nc:1:1: the file is UTF-32 (save it as plain text)");
     EXPECT_THAT(refusal("G21\nG0 X1\0\nM2\n"s), HasSubstr("part.nc:2:6: byte 0x00 found"));
     EXPECT_EQ(refusal("G21\nG0 X1\nM2\n"), "");
 }
@@ -368,7 +368,7 @@ TEST(GrblFirmware, AProgramForAxesThatTheMachineLacksIsRefused) {
     EXPECT_EQ(found(four).errors.front().message,
               "the program moves B, but the machine has only X, Y, Z and A");
     EXPECT_EQ(found(four).errors.back().message,
-              "this Grbl has the axes XYZA and does not know B words (error 20)");
+              "this Grbl has the axes XYZA and does not support B words (error 20)");
     std::vector<program::ProgramAxis> five = four;
     five.push_back({'B', AxisKind::rotary});
     EXPECT_THAT(found(five).errors, IsEmpty());

@@ -85,7 +85,7 @@ TEST(GrblToolSafety, AfterAMacroWithNoKnownHeightTheMachineStays) {
     plan.macro = "G53 G0 Z-2\nG53 G0 X-10 Y-290\nG53 G0 Z-40\n";
     wire.begin("G21 G90 G94\nT1 M6\nM3 S500\nG0 Z5\nX10\nM30\n", plan);
     ASSERT_TRUE(wire.run_to_change());
-    EXPECT_THAT(wire.session.status().message, HasSubstr("no safe height for the return is known"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("no safe height is known yet"));
     wire.sent.clear();
     wire.session.resume(wire.now);
     wire.run_until([&] { return !wire.session.status().tool_change; }, 60.0);

@@ -287,8 +287,9 @@ TEST(MedialAxis, RefusesWhatItCannotHold) {
     EXPECT_THAT(refusal_of({box_ring({0, 0}, {nan, 10})}), HasSubstr("nan"));
     EXPECT_THAT(refusal_of({box_ring({0, 0}, {2e6, 10})}), HasSubstr("a point at (2e+06, 0) mm"));
     const Region wide{box_ring({-9e5, -9e5}, {9e5, 9e5})};
-    EXPECT_THAT(refusal_of(wide),
-                HasSubstr("outlines 1.8e+06 mm wide can be carved to 0.02 mm, not to 0.0025 mm"));
+    EXPECT_THAT(
+        refusal_of(wide),
+        HasSubstr("outlines 1.8e+06 mm wide can be carved to a tolerance of 0.02 mm, not of 0.0025 mm"));
     EXPECT_EQ(refusal_of(wide, {.sampling = 0.1, .pruning = 0.1}), "");
     EXPECT_THAT(refusal_of(ell(), {.sampling = 0.0}), HasSubstr("a medial axis to 0 mm"));
     EXPECT_THAT(refusal_of(ell(), {.sampling = nan}), HasSubstr("a medial axis to nan mm"));

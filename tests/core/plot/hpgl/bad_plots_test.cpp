@@ -28,29 +28,29 @@ struct BadCase {
 
 TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
     const BadCase cases[] = {
-        {"SP1;PD;PA,,;", 9, "where a number should stand"},
-        {"SP1;PD100,;", 9, "a number is missing behind ','"},
-        {"SP1;PD100,1.2.3;", 10, "'1.2.3' is no number"},
+        {"SP1;PD;PA,,;", 9, "where a number is expected"},
+        {"SP1;PD100,;", 9, "a number is missing after ','"},
+        {"SP1;PD100,1.2.3;", 10, "'1.2.3' is not a number"},
         {"SP1;PD100;", 4, "PD cannot have 1 number"},
-        {"SP1;PA5000000000,1;", 6, "beyond HPGL's range"},
-        {"SP1;;PU;", 4, "an empty command"},
-        {"SP1;...;PU;", 4, "'.' begins no command"},
-        {"SP1;QX4;", 4, "QX is no command"},
-        {"SP1;P5,5;", 4, "are no command"},
-        {"SP999;", 0, "there is no pen 999"},
-        {"SP1.5;", 0, "there is no pen 1.5"},
-        {"SP1;SC0,0,1,2;", 4, "make no scale"},
+        {"SP1;PA5000000000,1;", 6, "exceeds HPGL's range"},
+        {"SP1;;PU;", 4, "empty command"},
+        {"SP1;...;PU;", 4, "'.' does not start a command"},
+        {"SP1;QX4;", 4, "QX is not an HPGL command"},
+        {"SP1;P5,5;", 4, "do not form a command"},
+        {"SP999;", 0, "pen 999 does not exist"},
+        {"SP1.5;", 0, "pen 1.5 does not exist"},
+        {"SP1;SC0,0,1,2;", 4, "do not define a scale"},
         {"SP1;SC1,2;", 4, "SC: 2 numbers"},
-        {"SP1;IP1,1,1,5;", 4, "which makes no scale"},
-        {"SP1;RO45;", 4, "RO: 45 is none of"},
-        {"SP1;LBnever ends", 4, "a label without its end"},
-        {"SP1;WG0,0,90;", 4, "an arc without a radius"},
+        {"SP1;IP1,1,1,5;", 4, "which does not define a scale"},
+        {"SP1;RO45;", 4, "degrees, not 45"},
+        {"SP1;LBnever ends", 4, "the terminator of a label is missing"},
+        {"SP1;WG0,0,90;", 4, "an arc has no radius"},
         {"SP1;FP;", 4, "there is no polygon"},
-        {"SP1;PM1;", 4, "without PM0"},
+        {"SP1;PM1;", 4, "needs a PM0"},
         {"SP1;PM0;PD9,9;", 14, "in the middle of a polygon"},
         {"SP1;PE<=abc;", 4, "PE: "},
         {"SP1;PD100,100;PD200,20", 14, "the file ends in the middle of PD"},
-        {"SP1;LT55;", 4, "none of the line types"},
+        {"SP1;LT55;", 4, "the line type must be"},
     };
     for (const BadCase& bad : cases) {
         SCOPED_TRACE(bad.text);
@@ -159,7 +159,7 @@ TEST(BadPlots, NothingIsDrawnOnTheWayToAPositionTooFarAway) {
         SCOPED_TRACE(damage);
         const Plot plot = read_hpgl(std::string("SP1;PU0,0;") + damage + "PU0,0;PD400,0;PU;", "bad.plt");
         ASSERT_EQ(plot.diagnostics.size(), 1U);
-        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("two numbers may have become one"));
+        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("two numbers may have run together"));
         EXPECT_NEAR(draw_length(plot.strokes), 10.0, 1e-12);
     }
     ReaderSettings wide;
@@ -212,7 +212,7 @@ TEST(BadPlots, ACommandThatIsRefusedLeavesThePenAsItWas) {
 TEST(BadPlots, APatternTooFineToBeCutIsDrawnSolid) {
     const Plot plot = read_hpgl("SP1;LT2,0.0001;PU0,0;PD400,0;PU;", "fine.plt");
     ASSERT_EQ(plot.diagnostics.size(), 1U);
-    EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("too fine to be cut"));
+    EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("too fine to cut"));
     ASSERT_EQ(plot.strokes.size(), 1U);
     EXPECT_EQ(plot.strokes.front().points.size(), 2U);
 }
@@ -222,7 +222,7 @@ TEST(BadPlots, AFillingTooFineToBeCutIsLeftOut) {
         SCOPED_TRACE(fine);
         const Plot plot = read_hpgl(std::string("SP1;PU0,0;") + fine + "PU0,0;PD400,0;PU;", "fine.plt");
         ASSERT_EQ(plot.diagnostics.size(), 1U);
-        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("a filling of"));
+        EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("a fill"));
         EXPECT_EQ(plot.strokes.size(), 1U);
     }
 }
@@ -266,7 +266,7 @@ TEST(BadPlots, AGiganticPlotEndsWithAnError) {
             EXPECT_FALSE(plot.diagnostics.empty());
             EXPECT_TRUE(plot.strokes.empty());
         } catch (const Error& error) {
-            EXPECT_THAT(error.what(), HasSubstr("more points than are allowed"));
+            EXPECT_THAT(error.what(), HasSubstr("more points than allowed"));
         }
     }
     std::string polygon = "SP1;PU0,0;PM0;PD";
@@ -293,8 +293,9 @@ TEST(BadPlots, AnyBytesGiveFinitePoints) {
                 }
             }
         } catch (const Error& error) {
-            EXPECT_THAT(error.what(),
-                        testing::AnyOf(HasSubstr("more points"), HasSubstr("does not show whether")));
+            EXPECT_THAT(
+                error.what(),
+                testing::AnyOf(HasSubstr("more points"), HasSubstr("not clear from the file whether")));
         }
     }
 }
@@ -333,7 +334,7 @@ TEST(BadPlots, AFileOfFiveGigabytesIsNotRead) {
     std::ofstream(file) << "IN;";
     std::filesystem::resize_file(file, 5'000'000'000U); // takes no room on the disk
     EXPECT_THAT(test::reason([&] { (void)read_hpgl_file(file); }),
-                HasSubstr("huge.plt: the file has 5.0 GB; plots are read up to 1 GiB"));
+                HasSubstr("huge.plt: the file has 5.0 GB, but plots can be at most 1 GiB"));
 }
 
 TEST(BadPlots, DiagnosticsAreKeptUpToALimitAndCounted) {

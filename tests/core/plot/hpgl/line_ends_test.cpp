@@ -54,7 +54,7 @@ TEST(HpglLineEnds, NumbersThatAreWrappedAnywhereStayWhole) {
             const std::string text = wrapped(circle(), width, line_end);
             const std::string refused = refusal_of(text);
             if (refused != "none") { // better than another drawing
-                EXPECT_THAT(refused, HasSubstr("does not show")) << width;
+                EXPECT_THAT(refused, HasSubstr("not clear from the file")) << width;
                 continue;
             }
             const Plot plot = read_hpgl(text, "a.plt");
@@ -88,7 +88,7 @@ TEST(HpglLineEnds, PairsOnLinesOfTheirOwnAreSeparate) {
     EXPECT_EQ(plot.strokes.front().points.size(), 4U);
     ASSERT_TRUE(plot.line_ends); // two numbers of one fit, too
     EXPECT_THAT(plot.line_ends->message,
-                HasSubstr("line ends between two digits are read as separators (2, the first here)"));
+                HasSubstr("line ends between two digits are read as separators (2, this is the first)"));
     const Plot blanks = read_hpgl("SP1\nPU 0 0\nPD 4000 0\nPD 4000 2000\nPU\n", "a.plt");
     EXPECT_EQ(blanks.strokes.front().points.size(), 3U);
     EXPECT_FALSE(blanks.line_ends);
@@ -104,8 +104,9 @@ TEST(HpglLineEnds, ASignBeforeALineEndBelongsToTheDigitsBehindIt) {
 
 TEST(HpglLineEnds, AFileThatDoesNotShowItIsRefused) {
     const std::string text = "SP1;PU0,0;PD40\n0,4\n00;PU;"; // 40 0, 4 0 or 400, 400
-    EXPECT_THAT(refusal_of(text),
-                HasSubstr("a.plt byte 14: the file does not show whether line ends between two digits"));
+    EXPECT_THAT(
+        refusal_of(text),
+        HasSubstr("a.plt byte 14: the file not clear from the file whether line ends between two digits"));
     EXPECT_THAT(refusal_of(text), HasSubstr("--line-ends separate or join"));
     ReaderSettings chosen;
     chosen.line_ends = LineEnds::separate;
@@ -134,12 +135,12 @@ TEST(HpglBeginAndEnd, ALastCommandWithoutItsEndKeepsWhatIsCertain) {
     ASSERT_EQ(closed.strokes.size(), 1U);
     EXPECT_EQ(closed.strokes.front().points.size(), 5U);
     ASSERT_EQ(closed.diagnostics.size(), 1U);
-    EXPECT_THAT(closed.diagnostics.front().hint, HasSubstr("closes the stroke and is taken"));
+    EXPECT_THAT(closed.diagnostics.front().hint, HasSubstr("closes the stroke and is used"));
     // 20 may be the beginning of 2000.
     const Plot open = read_hpgl("IN;SP1;PU0,0;PD4000,0,4000,2000,0,20", "a.plt");
     ASSERT_EQ(open.strokes.size(), 1U);
     EXPECT_EQ(open.strokes.front().points.back(), Vec2(100.0, 50.0));
-    EXPECT_THAT(open.diagnostics.front().hint, HasSubstr("may be cut off and is left out"));
+    EXPECT_THAT(open.diagnostics.front().hint, HasSubstr("may be incomplete and is ignored"));
     const Plot relative = read_hpgl("IN;SP1;PU0,0;PR;PD400,0,0,400,-400,0,0,-400", "a.plt");
     EXPECT_EQ(relative.strokes.front().points.size(), 5U);
     EXPECT_TRUE(read_hpgl("IN;SP1;PU0,0;PD4000,0", "a.plt").strokes.empty());

@@ -94,9 +94,9 @@ TEST(HpglReader, NoticesHaveWhatIsWrongAndWhatIsLeftOut) {
     }
     EXPECT_EQ(lines,
               (std::vector<std::string>{
-                  "a.plt byte 3: QX is no command of HPGL",
+                  "a.plt byte 3: QX is not an HPGL command",
                   "a.plt: and 1 more",
-                  "a.plt byte 9: 2 PC left out: colours of pens and paper mean nothing to a cutter"}));
+                  "a.plt byte 9: 2 PC ignored: colours of pens and paper have no effect on cutting"}));
 }
 
 TEST(HpglReader, CommentsAreNoCommands) {

@@ -155,16 +155,15 @@ TEST(BmpRuns, JumpOverRowsAndEndBeforeTheTop) {
 
 TEST(BmpRuns, SayWhereTheyAreWrong) {
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 5, 1, 0, 1}))),
-                HasSubstr("the run at byte 1082 of the BMP ends at column 5 of 4"));
+                HasSubstr("the run at byte 1082 of the BMP ends at column 5, beyond the width of 4"));
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 5, 1, 2, 3, 4, 5, 0}))),
                 HasSubstr("ends at column 5 of 4"));
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 2, 9, 0}))), HasSubstr("ends at column 9 of 4"));
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 3}))),
-                HasSubstr("the BMP is cut off at byte 1083, before the code that ends it"));
-    EXPECT_THAT(bmp_error(codes_bmp(4, -2, 8, of_bytes({4, 1, 0, 1}))),
-                HasSubstr("stored from the top down"));
+                HasSubstr("the BMP is cut off at byte 1083, before the end code"));
+    EXPECT_THAT(bmp_error(codes_bmp(4, -2, 8, of_bytes({4, 1, 0, 1}))), HasSubstr("stored top-down"));
     EXPECT_THAT(bmp_error(codes_bmp(30'000, 30'000, 8, of_bytes({0, 1}))),
-                HasSubstr("cannot hold the 30000 x 30000 pixels of its head"));
+                HasSubstr("is too small for the 30000 x 30000 pixels in its header"));
 }
 
 } // namespace

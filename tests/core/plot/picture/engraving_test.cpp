@@ -133,7 +133,7 @@ TEST(Engraving, NamesWhatIsWrong) {
         static_cast<void>(halftone(picture, 1.0, settings));
         ADD_FAILURE();
     } catch (const Error& error) {
-        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("flat:6 makes holes of one width only"));
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("flat:6 can only make holes of one width"));
     }
     settings = {};
     settings.pitch = 1e-6;

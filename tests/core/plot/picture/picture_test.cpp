@@ -198,7 +198,7 @@ TEST(PictureReader, SaysWhatIsWrongInAPnm) {
     EXPECT_THAT(picture_error("P5 3 # no more"), HasSubstr("the PNM has no height"));
     EXPECT_THAT(picture_error("P5 3 2 70000\n"), HasSubstr("a largest value of 70000"));
     EXPECT_THAT(picture_error("P6 2 2 255\n12345678901"),
-                HasSubstr("cut off: 22 bytes where its size needs 23"));
+                HasSubstr("cut off: it has 22 bytes, but its size needs 23"));
     EXPECT_THAT(picture_error("P5 99999999999 2 255\n"), HasSubstr("is too large"));
     EXPECT_THAT(picture_error(pnm_of({1, 1, 1, {11}}, 10)),
                 HasSubstr("a sample of 11, above its largest value"));
@@ -222,9 +222,9 @@ TEST(PictureReader, TakesTheRegionAlone) {
     ASSERT_EQ(rest.height, 11);
     EXPECT_EQ(rest.at(10, 16), all.at(15, 19));
     EXPECT_THAT(picture_error(png_of(samples), {.region = PixelRegion{20, 0, 0, 0}}),
-                HasSubstr("the region of 0 x 16 pixels from (20, 0) leaves the picture of 20 x 16"));
+                HasSubstr("the region of 0 x 16 pixels from (20, 0) extends beyond the picture of 20 x 16"));
     EXPECT_THAT(picture_error(png_of(samples), {.region = PixelRegion{15, 0, 6, 1}}),
-                HasSubstr("the region of 6 x 1 pixels from (15, 0) leaves the picture of 20 x 16"));
+                HasSubstr("the region of 6 x 1 pixels from (15, 0) extends beyond the picture of 20 x 16"));
 }
 
 TEST(PictureReader, SaysHowManyPixelsAMillimetreHas) {
@@ -296,27 +296,26 @@ TEST(PictureReader, SaysWhatIsWrong) {
     const std::string bmp = bmp_of(noise(20, 20, 3, 8), 24, false);
     EXPECT_THAT(picture_error(""), HasSubstr("bad.png: the file is empty"));
     EXPECT_THAT(picture_error("GIF89a"),
-                HasSubstr("this is no picture that can be read (PNG, JPEG, BMP, PGM and PPM"));
+                HasSubstr("the picture format is not supported (use a PNG, JPEG, BMP, PGM or PPM"));
     EXPECT_THAT(picture_error(png.substr(0, 12)),
-                HasSubstr("the PNG ends too early, after 12 bytes: its head is not whole"));
+                HasSubstr("the PNG ends too early, after 12 bytes: its head is incomplete"));
     EXPECT_THAT(picture_error(png.substr(0, png.size() / 2)), HasSubstr("the PNG ends too early, after"));
-    EXPECT_THAT(picture_error(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read in its head"));
-    EXPECT_THAT(picture_error(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("the JPEG cannot be read in row"));
+    EXPECT_THAT(picture_error(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read at its header"));
+    EXPECT_THAT(picture_error(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("the JPEG cannot be read at row"));
     EXPECT_THAT(picture_error(bmp.substr(0, 20)), HasSubstr("the BMP is cut off at byte 20"));
     EXPECT_THAT(picture_error(bmp.substr(0, 100)),
-                HasSubstr("the BMP is cut off: 100 bytes where its size needs 1254"));
+                HasSubstr("the BMP is cut off: it has 100 bytes, but its size needs 1254"));
     std::string flipped = png;
     flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 0x10);
-    EXPECT_THAT(picture_error(flipped), HasSubstr("the PNG is damaged in row"));
+    EXPECT_THAT(picture_error(flipped), HasSubstr("the PNG is damaged at row"));
     std::string compressed = bmp;
     compressed[30] = 1;
-    EXPECT_THAT(
-        picture_error(compressed),
-        HasSubstr("the BMP's pixels of 24 bits are compressed in a way that is not read (kind 1) (save it "
-                  "uncompressed, or as PNG)"));
+    EXPECT_THAT(picture_error(compressed),
+                HasSubstr("the BMP's pixels of 24 bits use an unsupported compression (type 1) (save it "
+                          "uncompressed, or as PNG)"));
     std::string flat = bmp;
     flat[18] = 0;
-    EXPECT_THAT(picture_error(flat), HasSubstr("a picture of 0 x 20 pixels"));
+    EXPECT_THAT(picture_error(flat), HasSubstr("a picture of 0 x 20 pixels is not possible"));
     std::string huge = bmp;
     huge[21] = 0x7f;
     EXPECT_THAT(picture_error(huge), HasSubstr("is too large"));

@@ -41,7 +41,7 @@ TEST(PixelShape, PixelsOfEveryFormatBecomeSquare) {
     EXPECT_DOUBLE_EQ(read.picture.pixels_per_mm.value(), 10.0);
     EXPECT_DOUBLE_EQ(pixel_pitch({}, read.picture) * read.picture.height, 0.8); // 4 rows of 0.2 mm
     ASSERT_EQ(read.notices.size(), 1U);
-    EXPECT_THAT(read.notices.front().message, HasSubstr("4 rows become 8 of square ones"));
+    EXPECT_THAT(read.notices.front().message, HasSubstr("4 rows become 8 rows of square pixels"));
 
     const std::string flat = png_of(stripes(6, 4), {.pixels_per_metre = 5'000, .rows_per_metre = 10'000});
     expect_rows(read_picture(flat, "a.png").picture, {20, 100});

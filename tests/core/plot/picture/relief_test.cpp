@@ -356,12 +356,12 @@ TEST(Relief, NamesTheSettingThatIsWrong) {
         return "none";
     };
     using testing::HasSubstr;
-    EXPECT_THAT(error_of([](ReliefSettings& s) { s.cutting = 0.0; }), HasSubstr("a cutting speed of 0"));
+    EXPECT_THAT(error_of([](ReliefSettings& s) { s.cutting = 0.0; }), HasSubstr("the cutting speed is 0"));
     EXPECT_THAT(error_of([](ReliefSettings& s) { s.step_over = -1.0; }), HasSubstr("a step-over of -1"));
     EXPECT_THAT(error_of([](ReliefSettings& s) { s.step_over = 1e-9; }),
                 HasSubstr("more than 100 million points"));
     EXPECT_THAT(error_of([](ReliefSettings& s) { s.merge_tolerance = std::nan(""); }),
-                HasSubstr("a tolerance of nan"));
+                HasSubstr("the tolerance is nan"));
     EXPECT_THAT(error_of([](ReliefSettings& s) {
                     s.roughing = Roughing{.depth_per_pass = 1e-6, .allowance = 0.0, .step_over = {}};
                 }),
@@ -432,10 +432,10 @@ TEST(ReliefPlan, TabsThatDoNotFitAreToldOfTheFrameInTheUsersWidth) {
         }
         return std::string();
     };
-    EXPECT_TRUE(refusal().starts_with("the frame: 50 tabs of 20 mm do not fit on a way of ")) << refusal();
-    EXPECT_TRUE(refusal().ends_with("each takes 2 mm more, the width of the tool")) << refusal();
+    EXPECT_TRUE(refusal().starts_with("frame: 50 tabs of 20 mm do not fit on a path of ")) << refusal();
+    EXPECT_TRUE(refusal().ends_with("each also needs 2 mm, the width of the tool")) << refusal();
     plan.tabs = {.count = 1, .width = 2.0, .height = 4.0};
-    EXPECT_EQ(refusal(), "the frame: tabs of 4 mm stand above a plate of 3 mm");
+    EXPECT_EQ(refusal(), "frame: tabs of 4 mm are higher than the plate of 3 mm");
 }
 
 TEST(ReliefPlan, TellsWhatARoundTipLeavesOfAFrameOrHowDeepItGoes) {

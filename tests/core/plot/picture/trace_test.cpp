@@ -146,10 +146,10 @@ TEST(Trace, NamesTheSettingThatIsWrong) {
         }
         return "none";
     };
-    EXPECT_THAT(error_of({.threshold = 1.5}), HasSubstr("a threshold of 1.5"));
-    EXPECT_THAT(error_of({.speckle = -1}), HasSubstr("speckles of -1"));
-    EXPECT_THAT(error_of({.corner = std::nan("")}), HasSubstr("a corner of nan"));
-    EXPECT_THAT(error_of({.tolerance = -0.1}), HasSubstr("a tolerance of -0.1"));
+    EXPECT_THAT(error_of({.threshold = 1.5}), HasSubstr("the threshold is 1.5"));
+    EXPECT_THAT(error_of({.speckle = -1}), HasSubstr("the speckle size is -1"));
+    EXPECT_THAT(error_of({.corner = std::nan("")}), HasSubstr("the corner smoothing is nan"));
+    EXPECT_THAT(error_of({.tolerance = -0.1}), HasSubstr("the tolerance is -0.1"));
     EXPECT_THROW(static_cast<void>(strokes_of(trace(picture), 0.0, 0.1)), Error);
 }
 

@@ -112,10 +112,9 @@ TEST(PmacLinkGuardF2, NoFileOfSettingsSwitchesItOff) {
     const PmacFile file = read_pmac_file("I130=700\n" + text + "P7=3", "thesis.ini");
     ASSERT_EQ(file.lines.size(), 2u);
     EXPECT_EQ(file.left_out, 0);
-    EXPECT_EQ(
-        to_text(file.omissions.front()),
-        "thesis.ini:2:1: I5=0 is left out: it would weaken the guard that stops the motors when the link is "
-        "lost (the guard is PLC 31, which runs with I5 = 2 or 3 only)");
+    EXPECT_EQ(to_text(file.omissions.front()),
+              "thesis.ini:2:1: I5=0 is skipped: it would weaken the guard that stops the motors when the "
+              "connection is lost (the guard is PLC 31, which runs only with I5 = 2 or 3)");
     PmacWire wire({}, false);
     std::vector<std::string> lines;
     for (const PmacFile::Line& line : file.lines) {
@@ -152,12 +151,12 @@ TEST(PmacLinkGuardF2, NoProgramThatIsSentSwitchesItOff) {
     EXPECT_THAT(refusal([&] {
                     wire.session.start({"INC", "CMD\"I3=0\"", "X70"}, wire.now);
                 }),
-                HasSubstr("hand-shake"));
+                HasSubstr("handshake"));
     EXPECT_EQ(wire.state(), drivers::DriverState::idle);
     const auto faults = motion_program_faults("INC\nX10 F5\nDISABLE PLC 31\nI6=0\nX70\n", "a.pmc");
     ASSERT_EQ(faults.size(), 2u);
     EXPECT_THAT(to_text(faults.front()), HasSubstr("a.pmc:3: 'DISABLE PLC 31' would weaken the guard"));
-    EXPECT_THAT(to_text(faults.back()), HasSubstr("a.pmc:4: 'I6=0' would change the hand-shake"));
+    EXPECT_THAT(to_text(faults.back()), HasSubstr("a.pmc:4: 'I6=0' would change the handshake"));
 }
 
 /// Of a program that is in the card's memory, and has gone 2 degrees before that line.
@@ -172,7 +171,7 @@ TEST(PmacLinkGuardF2, AProgramOfTheCardThatSwitchesItOffEndsInAlarm) {
         PmacWire wire({}, true, "XYZA", {}, program_with(line));
         (void)wire.session.command({"&1B7R"}, false);
         ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 4.0)) << line;
-        EXPECT_THAT(wire.session.status().message, HasSubstr("the guard in the card does not run")) << line;
+        EXPECT_THAT(wire.session.status().message, HasSubstr("the guard in the card is not running")) << line;
         wire.pass(0.3);
         EXPECT_FALSE(wire.powered()) << line;
         EXPECT_LT(wire.degrees(0), 5.0) << line;
@@ -191,9 +190,9 @@ TEST(PmacLinkGuardF2, WithoutItMotorsGetNoPowerAndItIsListed) {
     wire.pass(1.0);
     EXPECT_EQ(wire.state(), drivers::DriverState::idle);
     EXPECT_THAT(wire.session.protections_off().value(),
-                Contains(HasSubstr("the guard in the card does not run")));
+                Contains(HasSubstr("the guard in the card is not running")));
     EXPECT_THAT(refusal([&] { wire.session.enable(wire.now); }),
-                HasSubstr("the guard in the card does not run"));
+                HasSubstr("the guard in the card is not running"));
     wire.session.closed();
     wire.come_back(); // which writes it anew
     EXPECT_THAT(wire.session.protections_off().value(), Not(Contains(HasSubstr("PLC 31"))));
@@ -300,7 +299,7 @@ TEST(PmacLinkGuardF2, CountsTimeInTheServoCyclesThatTheCardHas) {
     }
     PmacWire wire({}, false, "XYZA", {}, "I10=1000\n");
     EXPECT_EQ(wire.state(), drivers::DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("I10 = 1000, which is no servo time"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("I10 = 1000, which is not a valid servo time"));
 }
 
 // Both ends see the other's words late, as on a busy computer. The power that a line gave was taken again at
@@ -339,7 +338,7 @@ TEST(PmacLinkGuardF2, PowerThatItTookBehindALineIsTold) {
     wire.card.advance(0.3); // nobody is heard
     EXPECT_FALSE(wire.card.enabled(1));
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 1.0));
-    EXPECT_THAT(wire.session.status().message, HasSubstr("heard nothing from this computer for 50 ms"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("received nothing from this computer for 50 ms"));
     EXPECT_NE(wire.session.status().answer.state, drivers::CommandAnswer::State::pending);
     // A mark of then is no reason to refuse what comes after.
     wire.pass(0.5);
@@ -361,7 +360,8 @@ TEST(PmacLinkGuardF2, AMotionOfALineThatItCutShortIsNotCalledDone) {
     EXPECT_TRUE(wire.powered());
     ASSERT_TRUE(wire.run_to_end(10.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::stopped);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("the card stopped its motors: it heard nothing"));
+    EXPECT_THAT(wire.session.status().message,
+                HasSubstr("the card stopped its motors: the card received nothing"));
     wire.pass(2.0); // the servo settles
     EXPECT_TRUE(wire.standing());
     EXPECT_LT(wire.card.position(1), 1900.0);

@@ -46,9 +46,9 @@ TEST(PmacFileF1, WarnsOfEachProtectionThatIsOff) {
     for (const Diagnostic& warning : file.warnings) {
         all += to_text(warning) + "\n";
     }
-    EXPECT_THAT(all, HasSubstr("I111=0: motor 1 is not stopped by a following error"));
+    EXPECT_THAT(all, HasSubstr("I111=0: a following error does not stop motor 1"));
     EXPECT_THAT(all, HasSubstr("pmac.ini:10:1: I125 bit 16: motor 1: its amplifier is never disabled"));
-    EXPECT_THAT(all, HasSubstr("I125 bit 17: motor 1: its limit switches are not looked at"));
+    EXPECT_THAT(all, HasSubstr("I125 bit 17: motor 1: its limit switches are ignored"));
     EXPECT_THAT(all, HasSubstr("I125 bit 20: motor 1: a fault of its amplifier"));
     EXPECT_EQ(file.warnings.size(), 4u);
     ASSERT_EQ(file.omissions.size(), 3u);
@@ -64,7 +64,7 @@ TEST(PmacFileF1, TakesNoFlagsFromANumberThatIsNoWord) {
             FAIL() << line;
         } catch (const Error& error) {
             EXPECT_THAT(error.what(),
-                        HasSubstr("a.ini:2:1: '" + line + "': no setting of the card has more"));
+                        HasSubstr("a.ini:2:1: '" + line + "': settings of the card have at most"));
         }
     }
 }
@@ -78,7 +78,7 @@ TEST(PmacFileF1, LeavesOutWhatSetsNothing) {
     EXPECT_EQ(file.left_out, 7);
     ASSERT_EQ(file.omissions.size(), 7u);
     EXPECT_THAT(to_text(file.omissions.front()),
-                HasSubstr("a.ini:2:1: FROBNICATE=3 is left out: it sets nothing"));
+                HasSubstr("a.ini:2:1: FROBNICATE=3 is skipped: it does not set anything"));
     EXPECT_EQ(file.omissions.back().place.line, 16);
     EXPECT_TRUE(file.warnings.empty());
     EXPECT_EQ(file.lines.size(), 9u);
@@ -87,7 +87,8 @@ TEST(PmacFileF1, LeavesOutWhatSetsNothing) {
 TEST(PmacFileP4, TellsWhatTheCardWouldRollOver) {
     const PmacFile file = read_pmac_file("I169=40000\nI100=2\nI8=0", "a.ini");
     ASSERT_EQ(file.warnings.size(), 2u);
-    EXPECT_THAT(to_text(file.warnings[0]), HasSubstr("a.ini:1:1: I169=40000: the card rolls this over"));
+    EXPECT_THAT(to_text(file.warnings[0]),
+                HasSubstr("a.ini:1:1: I169=40000: the card wraps this value around"));
     EXPECT_THAT(to_text(file.warnings[1]), HasSubstr("a.ini:2:1"));
     EXPECT_TRUE(read_pmac_file("; only words\n\n   \n", "a.ini").lines.empty());
     try {

@@ -90,7 +90,7 @@ TEST(PmacJogF3, ThatIsTypedAndWouldEndBeyondALimitIsNotSent) {
          {"#1J=24000", "#1J:24000", "J=-24000", "#2P #1 J ^ 24000.5", "#2J=0#1J=24000"}) {
         EXPECT_THAT(
             refusal([&] { (void)wire.session.command({line}, false); }),
-            AllOf(HasSubstr("'" + line + "' is not sent: X would leave its limits"), HasSubstr("200")))
+            AllOf(HasSubstr("'" + line + "' is not sent: X would exceed its limits"), HasSubstr("200")))
             << line;
     }
     EXPECT_THAT(refusal([&] {
@@ -121,14 +121,14 @@ TEST(PmacJogF3, ThatIsTypedAndEndsAtALimitOfTheCardIsToldSo) {
     (void)wire.session.command({"#1J=3000"}, false);
     ASSERT_TRUE(wire.run_to_end(20.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::stopped);
-    EXPECT_EQ(wire.session.status().message, "motor 1 ran into a limit of the card");
+    EXPECT_EQ(wire.session.status().message, "motor 1 reached a limit of the card");
     wire.pass(1.0);
     (void)wire.session.command({"#2J=111"}, false); // another motor's move is none of its
     ASSERT_TRUE(wire.run_to_end(20.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::idle) << wire.session.status().message;
     (void)wire.session.command({"#1J=4000"}, false);
     ASSERT_TRUE(wire.run_to_end(20.0));
-    EXPECT_EQ(wire.session.status().message, "motor 1 stands at a limit of the card");
+    EXPECT_EQ(wire.session.status().message, "motor 1 is at a limit of the card");
     wire.pass(1.0);
     wire.session.jog(jog_of(0, -5.0, 5.0), wire.now); // the way back is free
     ASSERT_TRUE(wire.run_to_end(20.0));
@@ -166,7 +166,7 @@ TEST(PmacJog, ThatIsHeldEndsAtALimit) {
     PmacWire wire; // with limits of 90 degrees
     wire.session.jog(jog_of(0, 80.0, 5.0), wire.now);
     ASSERT_TRUE(wire.run_to_end(60.0));
-    EXPECT_THAT(held_to_the_end(wire, jog_of(0, 25.0, 25.0, 0.1)), HasSubstr("X would leave its limits"));
+    EXPECT_THAT(held_to_the_end(wire, jog_of(0, 25.0, 25.0, 0.1)), HasSubstr("X would exceed its limits"));
     EXPECT_NEAR(wire.degrees(0), 90.0, 0.2);
     wire.pass(0.5);
     EXPECT_NE(wire.state(), drivers::DriverState::alarm) << wire.session.status().message;

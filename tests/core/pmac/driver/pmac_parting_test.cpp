@@ -69,19 +69,19 @@ TEST(PmacPartingF2, AKillThatNobodyHearsIsToldAsLost) {
     deaf.on_the_way = [](std::string& bytes) { bytes.clear(); };
     deaf.leave();
     EXPECT_TRUE(deaf.powered());
-    EXPECT_THAT(deaf.session.farewell(), testing::HasSubstr("did not tell that its motors have lost"));
+    EXPECT_THAT(deaf.session.farewell(), testing::HasSubstr("did not report that its motors are disabled"));
     PmacWire cut;
     cut.on_the_way = [](std::string& bytes) { bytes.clear(); };
     cut.session.leave(cut.now);
     cut.pass(0.1);
     cut.cut();
     ASSERT_TRUE(cut.run_until([&] { return cut.state() != drivers::DriverState::stopping; }, 5.0));
-    EXPECT_THAT(cut.session.farewell(), testing::HasSubstr("the link was lost before"));
+    EXPECT_THAT(cut.session.farewell(), testing::HasSubstr("the connection was lost before"));
     PmacWire broken;
     broken.cut();
     broken.pass(0.1);
     broken.leave();
-    EXPECT_THAT(broken.session.farewell(), testing::HasSubstr("whether the motors still have power"));
+    EXPECT_THAT(broken.session.farewell(), testing::HasSubstr("whether the motors are still enabled"));
 }
 
 TEST(PmacPartingF2, PowerThatWasThereBeforeStaysWhereAPersonOnlyAsks) {

@@ -84,7 +84,7 @@ TEST(PmacPowerF2, AHeldJogOfAmplifiersWithoutPowerEndsInAlarm) {
         EXPECT_GT(taken, 0.0);
         EXPECT_LT(taken, 1.2);
         EXPECT_THAT(wire.session.status().message,
-                    AllOf(HasSubstr("does not go there"), HasSubstr("has its amplifier power")));
+                    AllOf(HasSubstr("does not move"), HasSubstr("that its amplifier has power")));
         wire.pass(0.5);
         EXPECT_FALSE(wire.powered());
     }
@@ -96,9 +96,10 @@ TEST(PmacPowerF2, AStepThatIsNotMadeNamesItsJointAndWhereItWasSent) {
     wire.card.emergency_stop();
     wire.session.jog(jog_of(1, 0.1, 5.0), wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 3.0));
-    EXPECT_THAT(wire.session.status().message,
-                testing::StartsWith("Y has power and is not where it was sent: it stands at 0.00 degrees and "
-                                    "was sent to 0.10;"));
+    EXPECT_THAT(
+        wire.session.status().message,
+        testing::StartsWith(
+            "Y is enabled but not at its commanded position: it is at 0.00 degrees instead of 0.10;"));
 }
 
 TEST(PmacPowerF2, MotorsThatTakeNoPowerSaySo) {
@@ -106,7 +107,8 @@ TEST(PmacPowerF2, MotorsThatTakeNoPowerSaySo) {
     wire.card.raise_alarm();
     wire.session.enable(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 2.0));
-    EXPECT_EQ(wire.session.status().message, "motor 1: its amplifier reports a fault, and it takes no power");
+    EXPECT_EQ(wire.session.status().message,
+              "motor 1: its amplifier reports a fault, and it cannot be enabled");
     wire.card.clear_faults();
     wire.session.reset(wire.now);
     wire.session.enable(wire.now);
@@ -124,7 +126,7 @@ TEST(PmacPowerF2, AMotorThatTripsAtRestAfterItGotPowerSaysWhy) {
             << limit;
         wire.pass(0.1);
         EXPECT_THAT(wire.session.status().message,
-                    testing::StartsWith("motor 1: its following error became too great"))
+                    testing::StartsWith("motor 1: its following error exceeded the limit"))
             << limit;
         EXPECT_FALSE(wire.powered());
     }
@@ -142,7 +144,7 @@ TEST(PmacPowerF2, AMotorThatTripsWhileTheCardIsAskedSaysWhy) {
     }
     ASSERT_EQ(wire.state(), drivers::DriverState::alarm);
     EXPECT_THAT(wire.session.status().message,
-                testing::StartsWith("motor 1: its following error became too great"));
+                testing::StartsWith("motor 1: its following error exceeded the limit"));
 }
 
 TEST(PmacPowerF2, AFaultOfAnAmplifierAtRestIsAnAlarm) {

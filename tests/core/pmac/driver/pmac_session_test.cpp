@@ -49,9 +49,8 @@ TEST(PmacSession, TellsSilenceFromHalfAnAnswer) {
             }
         }
         EXPECT_LT(now, 30.0);
-        EXPECT_THAT(
-            session.status().message,
-            HasSubstr(heard.empty() ? "nobody answers as a PMAC" : "what answers is not what a PMAC would"));
+        EXPECT_THAT(session.status().message,
+                    HasSubstr(heard.empty() ? "no PMAC answers" : "the device that answers is not a PMAC"));
     }
 }
 
@@ -75,7 +74,7 @@ TEST(PmacSession, AProgramThatAnOpenLoopRefusesNamesItsMotor) {
     ASSERT_EQ(wire.state(), drivers::DriverState::idle) << wire.session.status().message;
     wire.session.start(program_one, wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() != drivers::DriverState::running; }, 10.0));
-    EXPECT_THAT(wire.session.status().message, HasSubstr("ERR012, a motor's loop is open; "));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("ERR012, a motor is in open loop; "));
     EXPECT_THAT(wire.session.status().message,
                 HasSubstr("also motor 5 (71.1111B), which is not driven here"));
     EXPECT_EQ(wire.card.command(1), 0.0);
@@ -100,7 +99,7 @@ TEST(PmacSession, ATypedRunThatAnOpenLoopRefusesNamesItsMotorToo) {
               drivers::CommandAnswer::State::done);
     const drivers::CommandAnswer answer = answer_to({"&1B1R"});
     EXPECT_EQ(answer.state, drivers::CommandAnswer::State::refused);
-    EXPECT_THAT(answer.text, HasSubstr("ERR012, a motor's loop is open; "));
+    EXPECT_THAT(answer.text, HasSubstr("ERR012, a motor is in open loop; "));
     EXPECT_THAT(answer.text, HasSubstr("also motor 5 (71.1111B), which is not driven here"));
     EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 5.0))
         << wire.session.status().message;
@@ -113,11 +112,11 @@ TEST(PmacSession, KnowsNoPositionBeforeHoming) {
     EXPECT_FALSE(wire.session.enabled());
     EXPECT_FALSE(wire.session.status().position_known);
     EXPECT_EQ(wire.session.status().message, "");
-    EXPECT_THAT(refusal([&] { wire.session.start(program_one, wire.now); }), HasSubstr("no power"));
+    EXPECT_THAT(refusal([&] { wire.session.start(program_one, wire.now); }), HasSubstr("not enabled"));
     wire.session.enable(wire.now);
     wire.run_until([&] { return wire.session.enabled(); }, 2.0);
     EXPECT_TRUE(wire.session.enabled());
-    EXPECT_THAT(refusal([&] { wire.session.start(program_one, wire.now); }), HasSubstr("not known"));
+    EXPECT_THAT(refusal([&] { wire.session.start(program_one, wire.now); }), HasSubstr("is unknown"));
     wire.session.home(wire.now);
     EXPECT_TRUE(wire.run_until([&] { return wire.state() != drivers::DriverState::running; }, 60.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::idle) << wire.session.status().message;
@@ -164,7 +163,7 @@ TEST_P(PmacSessionP12, JogsAndRunsAFifthAxis) {
     EXPECT_NEAR(wire.degrees(4), 10.0, 0.02);
     EXPECT_NEAR(wire.session.status().position[4], from_degrees(10.0), 1e-3);
     jog.way[4] = from_degrees(85.0);
-    EXPECT_THAT(refusal([&] { wire.session.jog(jog, wire.now); }), HasSubstr("B would leave its limits"));
+    EXPECT_THAT(refusal([&] { wire.session.jog(jog, wire.now); }), HasSubstr("B would exceed its limits"));
     wire.session.start({"ABS", "LINEAR", "TM2000", "X5 B-20"}, wire.now);
     ASSERT_TRUE(wire.run_to_end(20.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::idle) << wire.session.status().message;
@@ -308,7 +307,7 @@ TEST(PmacSafetyF2, AnEndByTheCardsOwnWatchIsToldAsThat) {
     wire.step(late);
     ASSERT_TRUE(wire.run_to_end(5.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::alarm);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("heard nothing from this computer for 50 ms"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("received nothing from this computer for 50 ms"));
     wire.pass(1.0);
     EXPECT_TRUE(wire.standing());
 }
@@ -329,8 +328,8 @@ TEST(PmacSafetyF2, AnEmergencyStopKillsAndNothingGivesPowerBack) {
     EXPECT_EQ(wire.state(), drivers::DriverState::idle);
     wire.pass(1.0);
     EXPECT_FALSE(wire.powered());
-    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(0, 1.0, 1.0), wire.now); }), HasSubstr("no power"));
-    EXPECT_THAT(refusal([&] { wire.session.home(wire.now); }), HasSubstr("no power"));
+    EXPECT_THAT(refusal([&] { wire.session.jog(jog_of(0, 1.0, 1.0), wire.now); }), HasSubstr("not enabled"));
+    EXPECT_THAT(refusal([&] { wire.session.home(wire.now); }), HasSubstr("not enabled"));
     wire.session.stop(wire.now);
     wire.session.hold(wire.now);
     wire.session.resume(wire.now);

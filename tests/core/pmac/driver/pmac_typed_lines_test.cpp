@@ -31,7 +31,7 @@ TEST(PmacTypedLines, TakesCommandsAndTellsTheCardsErrors) {
     EXPECT_THAT(refused.text, HasSubstr("ERR003, no such command"));
     EXPECT_EQ(wire.card.variable('P', 1), 4.0);
     EXPECT_THAT(ask({"OPEN PROG 3", "CLEAR", "X1", "CLOSE", "UNKNOWN", "P1=6"}, true).text,
-                HasSubstr("'UNKNOWN' is refused"));
+                HasSubstr("'UNKNOWN' is rejected"));
     EXPECT_EQ(wire.card.variable('P', 1), 6.0);
     EXPECT_NE(refusal([&] { (void)wire.session.command({"J\x01+"}, false); }), "");
 }
@@ -48,7 +48,7 @@ TEST(PmacTypedLines, FillABufferLineByLine) {
     EXPECT_EQ(ask("P20=P20+1").text, "OPEN PLC 5: 2 lines are kept until CLOSE");
     const std::vector<drivers::ConsoleLine> shown = wire.session.take_console();
     ASSERT_FALSE(shown.empty());
-    EXPECT_EQ(shown.back().text, "P20=P20+1: not sent yet; OPEN PLC 5: 2 lines are kept until CLOSE");
+    EXPECT_EQ(shown.back().text, "P20=P20+1: not yet sent; OPEN PLC 5: 2 lines are kept until CLOSE");
     EXPECT_EQ(shown.back().kind, drivers::ConsoleKind::message); // shown with the status reports off, too
     EXPECT_EQ(ask("#1P").text, "0") << "a question is answered at once";
     EXPECT_NE(refusal([&] { (void)wire.session.command({"I5=0"}, false); }), "");
@@ -75,7 +75,7 @@ TEST(PmacTypedLines, ANumberAloneSetsP0) {
         EXPECT_EQ(wire.card.variable('P', 0), value);
     }
     EXPECT_THAT(refusal([&] { (void)wire.session.command({"5P"}, false); }),
-                HasSubstr("begins with a number"));
+                HasSubstr("starts with a number"));
 }
 
 bool line_is_answered(PmacWire& wire) {
@@ -139,7 +139,7 @@ TEST(PmacTypedLines, AStopThatIsTypedStopsTheProgram) {
 TEST(PmacTypedLines, TakesNoJogWithoutAnEnd) {
     PmacWire wire;
     for (const std::string line : {"#1J+", "J-", "#2 j +"}) {
-        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("until somebody"));
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("without an end"));
     }
     wire.pass(1.0);
     EXPECT_EQ(wire.card.command(1), 0.0);
@@ -165,8 +165,7 @@ TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
     PmacWire wire({}, false);
     for (const std::vector<std::string>& lines : std::vector<std::vector<std::string>>{
              {"#2J/"}, {"#1J:12"}, {"#3", "J=5"}, {"#1HM"}, {"#4J^0"}, {"OPEN PROG 2", "X1", "CLOSE", "a"}}) {
-        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
-                    HasSubstr("would give power to"))
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }), HasSubstr("would enable"))
             << lines.front();
     }
     (void)wire.session.command({"#4->150A", "OPEN PROG 2", "ABS X10A", "HOME1", "CLOSE", "#1HMZ"}, false);
@@ -211,8 +210,7 @@ TEST(PmacTypedLinesF2, NoneGivesPowerBackBehindAKill) {
     PmacWire wire;
     for (const std::vector<std::string>& lines :
          std::vector<std::vector<std::string>>{{"#1K", "A"}, {"#2K #2J/"}}) {
-        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
-                    HasSubstr("would give power to"));
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }), HasSubstr("would enable"));
     }
 }
 
@@ -263,8 +261,7 @@ TEST(PmacTypedLines, TakesNoControlCharacterByItsName) {
 TEST(PmacTypedLines, OpensNoLoop) {
     PmacWire wire;
     for (const std::string line : {"#1O5", "O-0.5", "#2 o 50", "#1O(P1)", "#1O0.01"}) {
-        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }),
-                    HasSubstr("without its loop"))
+        EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }), HasSubstr("in open loop"))
             << line;
     }
     for (const std::string line : {"#1O0", "OPEN PROG 7", "GOTO5", "CLOSE"}) {
@@ -276,10 +273,10 @@ TEST(PmacTypedLines, OpensNoLoop) {
 
 TEST(PmacTypedLines, LoadsNoSettingsWhileAMotorHasPower) {
     PmacWire wire;
-    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
+    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("are enabled"));
     (void)wire.session.command({"#1K#2K#3K"}, false);
     ASSERT_TRUE(line_is_answered(wire));
-    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("have power"));
+    EXPECT_THAT(refusal([&] { (void)wire.session.load({"I130=3000"}); }), HasSubstr("are enabled"));
     (void)wire.session.command({"#4K"}, false);
     ASSERT_TRUE(line_is_answered(wire));
     wire.pass(0.5);
@@ -292,7 +289,7 @@ TEST(PmacTypedLines, AMotorThatGoesWhereNobodySentItLosesItsPower) {
     PmacWire wire;
     (void)wire.session.command({"I111=0", "I130=-2000", "I129=10"}, false); // the loop's sign is wrong
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 5.0));
-    EXPECT_EQ(wire.session.status().message, "X has power and moves, and nobody sent it");
+    EXPECT_EQ(wire.session.status().message, "X is enabled and moves without a command");
     EXPECT_LT(std::abs(wire.degrees(0)), 10.0);
     wire.pass(1.0);
     EXPECT_FALSE(wire.powered());

@@ -30,17 +30,18 @@ std::string lines_of(const std::string& sample) {
 }
 
 TEST(PmacProtectionsF1, EachThatIsOffIsToldWithWhatItMeans) {
-    EXPECT_THAT(protections_off(
-                    {{1, 0.0, 1.0, -1.0, 0xC000}, {2, 32000.0, 0.0, 0.0, 0x13C004}, {4, 0.0, 1.0, -1.0, 0}}),
-                ElementsAre("motors 1 and 4 are not stopped when they do not follow (I111, I411 = 0)",
-                            "motor 2 has no upper position limit in the card (I213 = 0)",
-                            "motor 2 has no lower position limit in the card (I214 = 0)",
-                            "motor 2 keeps its amplifier enabled even when it is killed (I225 bit 16)",
-                            "motor 2 runs through its limit switches, which are not looked at (I225 bit 17)",
-                            "motor 2 goes on when its amplifier reports a fault (I225 bit 20)"));
+    EXPECT_THAT(
+        protections_off(
+            {{1, 0.0, 1.0, -1.0, 0xC000}, {2, 32000.0, 0.0, 0.0, 0x13C004}, {4, 0.0, 1.0, -1.0, 0}}),
+        ElementsAre("motors 1 and 4 have no following-error limit and are not stopped by it (I111, I411 = 0)",
+                    "motor 2 has no upper position limit in the card (I213 = 0)",
+                    "motor 2 has no lower position limit in the card (I214 = 0)",
+                    "motor 2 keeps its amplifier enabled even if it is killed (I225 bit 16)",
+                    "motor 2 runs through its limit switches, which are ignored (I225 bit 17)",
+                    "motor 2 continues if its amplifier reports a fault (I225 bit 20)"));
     EXPECT_THAT(protections_off({{1, 32000.0, 21000.0, -21000.0, 0xC000}}), IsEmpty());
     EXPECT_EQ(protections_notice({}), "");
-    EXPECT_EQ(protections_notice({"one", "two"}), "Protections are off in the card:\none\ntwo");
+    EXPECT_EQ(protections_notice({"one", "two"}), "Protections disabled in the card:\none\ntwo");
 }
 
 TEST(PmacProtectionsF1, TheCardIsAskedWhenItIsConnectedAndAfterCommands) {
@@ -53,7 +54,7 @@ TEST(PmacProtectionsF1, TheCardIsAskedWhenItIsConnectedAndAfterCommands) {
     (void)wire.session.command({"I411=0"}, false);
     wire.pass(1.0);
     EXPECT_THAT(wire.session.protections_off().value(),
-                ElementsAre("motor 4 is not stopped when it does not follow (I411 = 0)"));
+                ElementsAre("motor 4 has no following-error limit and is not stopped by it (I411 = 0)"));
 }
 
 TEST(PmacProtectionsF1, MotorsThatAreNotActiveHaveNone) {

@@ -56,7 +56,7 @@ TEST(DirectionCheckF4, PowerThatWasJustLostIsToldWithItsReason) {
     bool seen = false;
     const CardTalk watched{[&, talk = test::talk_to(pmac)](const std::string& line) {
                                if (seen) {
-                                   throw Error("in alarm: motor 3: its following error became too great");
+                                   throw Error("in alarm: motor 3: its following error exceeded the limit");
                                }
                                return talk.ask(line);
                            },
@@ -68,10 +68,11 @@ TEST(DirectionCheckF4, PowerThatWasJustLostIsToldWithItsReason) {
 TEST(DirectionCheckF4, GivesNoPowerAndNeedsAnAxis) {
     test::PmacCard pmac;
     ASSERT_EQ(pmac.send("I100=1\n#1->120X"), "");
-    EXPECT_THAT(reason([&] { (void)direction_check(test::talk_to(pmac), 1); }), HasSubstr("no power"));
+    EXPECT_THAT(reason([&] { (void)direction_check(test::talk_to(pmac), 1); }), HasSubstr("is disabled"));
     EXPECT_FALSE(pmac.card.enabled(1));
     ASSERT_EQ(pmac.send("I200=1\n#2J/"), "");
-    EXPECT_THAT(reason([&] { (void)direction_check(test::talk_to(pmac), 2); }), HasSubstr("moves no axis"));
+    EXPECT_THAT(reason([&] { (void)direction_check(test::talk_to(pmac), 2); }),
+                HasSubstr("does not move an axis"));
 }
 
 } // namespace

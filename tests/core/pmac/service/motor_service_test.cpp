@@ -53,7 +53,7 @@ TEST(OffsetFinderC2, GivesUpWithoutPowerLeftOn) {
     heavy.friction = 1e9;
     test::PmacCard stuck({.plants = {heavy}});
     EXPECT_THAT(reason([&] { (void)find_offset(talk_to(stuck), 1, {.look = 0.05}); }),
-                HasSubstr("motor 1 does not go back with any offset up to"));
+                HasSubstr("motor 1 does not move backward with any offset up to"));
     EXPECT_FALSE(stuck.card.enabled(1));
     EXPECT_EQ(stuck.ask("I130"), "2000");
     PmacPlant fast;

@@ -83,8 +83,8 @@ TEST(ScaleCalibrationC1, SaysWhatIsWrongAndWhere) {
     const auto why = [](std::string_view text) {
         return reason([&] { (void)fit_scales(parse_scale_readings(text, "a.csv")); });
     };
-    EXPECT_THAT(why("1 0 0\n1 x 3\n"), HasSubstr("a.csv:2:3: where the motor stood"));
-    EXPECT_THAT(why("9 0 0\n"), HasSubstr("a.csv:1:1: a motor has a number from 1 to 8"));
+    EXPECT_THAT(why("1 0 0\n1 x 3\n"), HasSubstr("a.csv:2:3: the motor position in counts"));
+    EXPECT_THAT(why("9 0 0\n"), HasSubstr("a.csv:1:1: a motor number must be from 1 to 8"));
     EXPECT_THAT(why("1.5 0 0\n"), HasSubstr("a.csv:1:1"));
     EXPECT_THAT(why("1 0\n"), HasSubstr("a.csv:1:4: the measured angle"));
     EXPECT_THAT(why("1 0 nan\n"), HasSubstr("the measured angle"));
