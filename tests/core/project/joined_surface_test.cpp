@@ -48,8 +48,9 @@ TEST(JoinedSurface, NamesEightOpenSeamsAndCountsTheRest) {
         (void)joined_surface(row_of_squares(12, 1.0), geometry::Continuity::position, 0.5);
         FAIL() << "nothing is within the gap";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(),
-                    ::testing::HasSubstr("within 0.5 mm of each other; open seams: 0 u = 1 - 1 u = 0 with a gap"));
+        EXPECT_THAT(
+            error.what(),
+            ::testing::HasSubstr("within 0.5 mm of each other; open seams: 0 u = 1 - 1 u = 0 with a gap"));
         EXPECT_THAT(error.what(),
                     ::testing::HasSubstr("7 u = 1 - 8 u = 0 with a gap of 1.0000 mm, and 3 more"));
     }

@@ -63,7 +63,7 @@ void ShellSession::lost(const std::string& why) {
         stage_ == Stage::running || stage_ == Stage::foreign
             ? "; LinuxCNC continues the program: inspect the machine"
         : stage_ == Stage::stopping
-            ? "; it is not known whether LinuxCNC was told to stop: inspect the machine"
+            ? "; it is not known whether LinuxCNC received the stop command: inspect the machine"
             : "";
     finish(Stage::alarm, links::loss_sentence(why) + std::string(then));
     output_.clear();
@@ -127,7 +127,7 @@ void ShellSession::fall_silent() {
     }
     finish(Stage::alarm,
            stage_ == Stage::greeting ? "no linuxcncrsh answers at this port"
-           : moves ? "LinuxCNC no longer answers; it was told to stop, but it is not known whether it did: "
+           : moves ? "LinuxCNC no longer answers; a stop was sent, but it is not known whether it stopped: "
                      "inspect the machine"
                    : "LinuxCNC no longer answers: inspect the machine");
     outstanding_.clear();

@@ -164,7 +164,7 @@ TEST(ShellSession, TellsALinuxCncThatFallsSilentToStop) {
     wire.run_until([&] { return wire.state() == DriverState::alarm; }, 60.0);
     EXPECT_EQ(wire.state(), DriverState::alarm);
     EXPECT_THAT(wire.sent, HasSubstr("set abort"));
-    EXPECT_THAT(wire.session.status().message, HasSubstr("was told to stop"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("a stop was sent"));
 }
 
 TEST(ShellSession, DoesNotTakeItsOwnPauseForLinuxCncsSilence) {
