@@ -316,7 +316,7 @@ CutStudy study_cut_of(project::GridMethod method,
                       const Plan& plan,
                       const project::Project& project,
                       const Progress& progress) {
-    const auto& path = plan.evaluation(method);
+    const auto& path = plan.grid(method).evaluation;
     expects(plan.workpiece && path, "there is the grid whose cut is studied");
     const program::PostResult posted = program::post(plan.workpiece->machine,
                                                      path->toolpath,
@@ -340,8 +340,8 @@ void add_compared_cuts(Plan& plan, const project::Project& project, const Progre
     const double share = 1.0 / static_cast<double>(project::every_grid_method.size());
     double from = 0.0;
     for (const project::GridMethod method : project::every_grid_method) {
-        const auto& path = plan.evaluation(method);
-        auto& cut = plan.compared_cuts[static_cast<std::size_t>(method)];
+        const auto& path = plan.grid(method).evaluation;
+        auto& cut = plan.grid(method).cut;
         if (path && path != plan.program_path(project) && !cut) {
             try {
                 cut = std::make_shared<const CutStudy>(

@@ -30,15 +30,15 @@ namespace millwright::plan {
 
 namespace {
 
+using project::GridMethod;
+
 /// What produced the program, written on its top.
 std::vector<program::HeaderLine>
 header_of(const project::Project& project, const Plan& plan, const Evaluation& chosen) {
     const grid::Grid& grid = chosen.outcome.grid;
-    const bool uniform = keeps_grid(chosen, *plan.uniform); // whatever was tried
+    const bool uniform = keeps_grid(chosen, *plan.grid(GridMethod::uniform).evaluation); // whatever was tried
     const std::string_view method =
-        project::row_of(project::grid_methods(),
-                        uniform ? project::GridMethod::uniform : program_grid(project))
-            .label;
+        project::row_of(project::grid_methods(), uniform ? GridMethod::uniform : program_grid(project)).label;
     const bool has_nodes = follows_nodes(project.toolpath.strategy);
     std::vector<program::HeaderLine> lines{
         {"made by", fmt::format("Millwright {}", project::version())},
@@ -61,10 +61,6 @@ header_of(const project::Project& project, const Plan& plan, const Evaluation& c
     return lines;
 }
 
-/// By GridMethod.
-constexpr std::array evaluations{
-    &Plan::uniform, &Plan::redistributed, &Plan::elliptic, &Plan::harmonic, &Plan::optimised, &Plan::chain};
-
 void refuse_faults(const project::Project& project) {
     const std::vector<std::string> faults = project::faults_of(project);
     if (!faults.empty()) {
@@ -74,20 +70,12 @@ void refuse_faults(const project::Project& project) {
 
 } // namespace
 
-const std::shared_ptr<const Evaluation>& Plan::evaluation(project::GridMethod method) const {
-    return this->*evaluations.at(static_cast<std::size_t>(method));
-}
-
-std::shared_ptr<const Evaluation>& Plan::evaluation(project::GridMethod method) {
-    return this->*evaluations.at(static_cast<std::size_t>(method));
-}
-
 const std::shared_ptr<const Evaluation>& Plan::program_path(const project::Project& project) const {
-    return has_own_path(project) ? path : evaluation(program_grid(project));
+    return has_own_path(project) ? path : grid(program_grid(project)).evaluation;
 }
 
 std::optional<double>& Plan::program_time(const project::Project& project) {
-    return has_own_path(project) ? path_time : estimated_time(program_grid(project));
+    return has_own_path(project) ? path_time : grid(program_grid(project)).estimated_time;
 }
 
 std::shared_ptr<const CutStudy> Plan::cut_of(const project::Project& project,
@@ -95,12 +83,9 @@ std::shared_ptr<const CutStudy> Plan::cut_of(const project::Project& project,
     if (evaluation == nullptr || evaluation == program_path(project).get()) {
         return evaluation == nullptr ? nullptr : cut;
     }
-    for (const project::GridMethod method : project::every_grid_method) {
-        if (this->evaluation(method).get() == evaluation) {
-            return compared_cuts[static_cast<std::size_t>(method)];
-        }
-    }
-    return nullptr;
+    const auto found = std::ranges::find(
+        grids, evaluation, [](const GridResult& result) { return result.evaluation.get(); });
+    return found == grids.end() ? nullptr : found->cut;
 }
 
 namespace {
@@ -253,11 +238,11 @@ void add_unsequenced(Plan& plan, const project::Project& project, const Progress
 
 void add_estimated_times(Plan& plan, const project::Project& project, const Progress& progress) {
     double from = 0.0;
-    for (const project::GridMethod method : project::every_grid_method) {
+    for (const GridMethod method : project::every_grid_method) {
         const double to = from + 1.0 / static_cast<double>(project::every_grid_method.size());
-        const auto& evaluation = plan.evaluation(method);
-        if (evaluation && !plan.estimated_time(method)) {
-            plan.estimated_time(method) = estimated_time(
+        const auto& evaluation = plan.grid(method).evaluation;
+        if (evaluation && !plan.grid(method).estimated_time) {
+            plan.grid(method).estimated_time = estimated_time(
                 *evaluation, plan.workpiece->machine, project.program, progress.part(from, to));
         }
         from = to;
@@ -271,11 +256,11 @@ std::vector<std::string> memory_sentences(const project::Project& project, Scope
     if (nodes < many_nodes) {
         return sentences;
     }
-    std::set<project::GridMethod> methods{program_grid(project)};
+    std::set<GridMethod> methods{program_grid(project)};
     if (scope == Scope::everything) {
         methods.insert(project::compared_methods.begin(), project::compared_methods.end());
     }
-    for (const project::GridMethod method : methods) {
+    for (const GridMethod method : methods) {
         const std::string sentence =
             is_left_out(project, method) ? std::string() : memory_sentence(method, project.grid);
         if (!sentence.empty()) {
@@ -304,19 +289,19 @@ Plan make_plan(const project::Project& project,
     const Workpiece& workpiece = *plan.workpiece;
     plan.singular_points = toolpath::singular_points(workpiece.patch, workpiece.machine);
 
-    progress.report(0.0, title_of_making(project::GridMethod::uniform));
-    plan.uniform = std::make_shared<const Evaluation>(
+    progress.report(0.0, title_of_making(GridMethod::uniform));
+    plan.grid(GridMethod::uniform).evaluation = std::make_shared<const Evaluation>(
         evaluate(workpiece, uniform_outcome(project.grid), report_sampling, progress.part(0.0, 0.1)));
-    const auto make = [&](project::GridMethod method, const Progress& part) {
+    const auto make = [&](GridMethod method, const Progress& part) {
         part.report(0.0, title_of_making(method));
-        if (method == project::GridMethod::elliptic && scope == Scope::everything) {
+        if (method == GridMethod::elliptic && scope == Scope::everything) {
             plan.weight =
                 std::make_shared<const WeightMap>(weight_map(project.grid, workpiece, part.part(0.0, 0.0)));
         }
-        plan.evaluation(method) = std::make_shared<const Evaluation>(
-            improved_evaluation({method, project.grid, workpiece}, *plan.uniform, part));
+        plan.grid(method).evaluation = std::make_shared<const Evaluation>(improved_evaluation(
+            {method, project.grid, workpiece}, *plan.grid(GridMethod::uniform).evaluation, part));
     };
-    const auto improve = [&](project::GridMethod method, const Progress& part) {
+    const auto improve = [&](GridMethod method, const Progress& part) {
         if (method == program_grid(project)) {
             make(method, part);
         } else if (scope == Scope::everything && std::ranges::count(project::compared_methods, method) > 0 &&
@@ -324,22 +309,22 @@ Plan make_plan(const project::Project& project,
             try {
                 make(method, part);
             } catch (const Error& fault) { // its own: the program needs it not
-                plan.failure(method) = fault.diagnostic();
+                plan.grid(method).failure = fault.diagnostic();
             }
         }
     };
-    improve(project::GridMethod::redistribution, progress.part(0.1, 0.12));
-    improve(project::GridMethod::elliptic, progress.part(0.12, 0.25));
-    improve(project::GridMethod::harmonic, progress.part(0.25, 0.4));
-    improve(project::GridMethod::tracks, progress.part(0.4, 0.5));
-    improve(project::GridMethod::chain, progress.part(0.5, 0.85));
+    improve(GridMethod::redistribution, progress.part(0.1, 0.12));
+    improve(GridMethod::elliptic, progress.part(0.12, 0.25));
+    improve(GridMethod::harmonic, progress.part(0.25, 0.4));
+    improve(GridMethod::tracks, progress.part(0.4, 0.5));
+    improve(GridMethod::chain, progress.part(0.5, 0.85));
     if (has_own_path(project)) {
         progress.part(0.85, 0.9).report(0.0, title_of_path);
         plan.path =
             std::make_shared<const Evaluation>(path_evaluation(project,
                                                                workpiece,
-                                                               *plan.evaluation(program_grid(project)),
-                                                               *plan.uniform,
+                                                               *plan.grid(program_grid(project)).evaluation,
+                                                               *plan.grid(GridMethod::uniform).evaluation,
                                                                report_sampling,
                                                                progress.part(0.85, 0.9)));
     }

@@ -24,58 +24,47 @@ namespace millwright::plan {
 
 struct CutStudy; // cut_study.h
 
+/// What is known of the grid of one method.
+struct GridResult {
+    std::shared_ptr<const Evaluation> evaluation; ///< the grid with its error; null if not made
+    std::shared_ptr<const CutStudy> cut;  ///< of the program it would have; null for the program's own
+    std::optional<double> estimated_time; ///< of that program on the machine, s; nothing if unknown
+    std::optional<Diagnostic> failure;    ///< why a grid that is only compared with the program's is missing
+};
+
 /// Everything derived from one project. Parts that a caller did not ask for are null.
 struct Plan {
     std::shared_ptr<const geometry::Surface> surface;
     std::shared_ptr<const std::vector<geometry::Trim>> trims; ///< of the surface, one a patch; null: whole
     std::shared_ptr<const Workpiece> workpiece;
     std::vector<toolpath::SingularPoint> singular_points;
-    std::shared_ptr<const Evaluation> uniform;
-    std::shared_ptr<const Evaluation> elliptic;  ///< the adapted grid
-    std::shared_ptr<const Evaluation> optimised; ///< the track optimiser's grid
-    /// Those that are made where the program uses them only.
-    std::shared_ptr<const Evaluation> redistributed, harmonic, chain;
+    std::array<GridResult, project::every_grid_method.size()> grids; ///< by GridMethod
     std::shared_ptr<const Evaluation> path;  ///< of a project that has_own_path(); null else
+    std::optional<double> path_time;         ///< of its program on the machine, s
     std::shared_ptr<const WeightMap> weight; ///< of the elliptic functional
     std::shared_ptr<const program::Program> program;
     program::PostNotes program_notes;
     std::shared_ptr<const program::Listing> listing; ///< G-code text
     std::shared_ptr<const motion::Trajectory> trajectory;
-    std::shared_ptr<const CutStudy> cut; ///< what the cutter does on the program's way; null for a point
-    /// The same of the grids beside it, by GridMethod; null where there is none.
-    std::array<std::shared_ptr<const CutStudy>, project::every_grid_method.size()> compared_cuts;
-    /// What a program of each grid would take on the machine, s, by GridMethod; nothing where there is none.
-    std::array<std::optional<double>, project::every_grid_method.size()> estimated_times;
-    std::optional<double> path_time; ///< the same of `path`
+    std::shared_ptr<const CutStudy> cut; ///< what the cutter does on the program's path; null for a point
     /// The program's path with the nearest angles and no point added, and its time; nothing where it is that.
     std::shared_ptr<const Evaluation> unsequenced;
     std::optional<double> unsequenced_time;
-    /// Why there is none of a grid that is only compared with the program's, by GridMethod.
-    std::array<std::optional<Diagnostic>, project::every_grid_method.size()> failed;
 
-    /// The evaluation that `method` stands for; null if not there.
-    [[nodiscard]] const std::shared_ptr<const Evaluation>& evaluation(project::GridMethod method) const;
-    [[nodiscard]] std::shared_ptr<const Evaluation>& evaluation(project::GridMethod method);
+    [[nodiscard]] const GridResult& grid(project::GridMethod method) const {
+        return grids[static_cast<std::size_t>(method)];
+    }
+    [[nodiscard]] GridResult& grid(project::GridMethod method) {
+        return grids[static_cast<std::size_t>(method)];
+    }
     /// What the program of `project` follows; null if not there.
     [[nodiscard]] const std::shared_ptr<const Evaluation>&
     program_path(const project::Project& project) const;
     /// What that takes on the machine.
     [[nodiscard]] std::optional<double>& program_time(const project::Project& project);
-    /// What the cutter does on the way of that evaluation of this plan; null where nobody knows.
+    /// What the cutter does on the path of that evaluation of this plan; null if unknown.
     [[nodiscard]] std::shared_ptr<const CutStudy> cut_of(const project::Project& project,
                                                          const Evaluation* evaluation) const;
-    [[nodiscard]] const std::optional<double>& estimated_time(project::GridMethod method) const {
-        return estimated_times[static_cast<std::size_t>(method)];
-    }
-    [[nodiscard]] std::optional<double>& estimated_time(project::GridMethod method) {
-        return estimated_times[static_cast<std::size_t>(method)];
-    }
-    [[nodiscard]] const std::optional<Diagnostic>& failure(project::GridMethod method) const {
-        return failed[static_cast<std::size_t>(method)];
-    }
-    [[nodiscard]] std::optional<Diagnostic>& failure(project::GridMethod method) {
-        return failed[static_cast<std::size_t>(method)];
-    }
 };
 
 /// Where the project's machine is looked for.

@@ -17,6 +17,7 @@ namespace millwright::plan {
 namespace {
 
 namespace fs = std::filesystem;
+using project::GridMethod;
 
 /// Whether both tools make the same path; by what the cut is judged may differ, and what the program calls
 /// them.
@@ -45,19 +46,19 @@ bool same_metric(project::EllipticInput a, const project::EllipticInput& b) {
     return a == b;
 }
 
-bool same_settings(project::GridMethod method, const project::GridInput& a, const project::GridInput& b) {
+bool same_settings(GridMethod method, const project::GridInput& a, const project::GridInput& b) {
     switch (method) {
-    case project::GridMethod::uniform:
+    case GridMethod::uniform:
         return true;
-    case project::GridMethod::redistribution:
+    case GridMethod::redistribution:
         return a.redistribution == b.redistribution;
-    case project::GridMethod::elliptic:
+    case GridMethod::elliptic:
         return a.elliptic == b.elliptic;
-    case project::GridMethod::harmonic:
+    case GridMethod::harmonic:
         return same_metric(a.elliptic, b.elliptic);
-    case project::GridMethod::tracks:
+    case GridMethod::tracks:
         return a.tracks == b.tracks;
-    case project::GridMethod::chain:
+    case GridMethod::chain:
         return a.tracks == b.tracks && a.chain == b.chain;
     }
     return false;
@@ -90,10 +91,10 @@ bool quick_enough(const project::GridInput& input) {
 
 } // namespace
 
-void PlanStages::hold(project::GridMethod method, Held found) {
-    now_.plan.evaluation(method) = found.evaluation;
-    now_.plan.estimated_time(method).reset();
-    now_.plan.compared_cuts[static_cast<std::size_t>(method)] = nullptr;
+void PlanStages::hold(GridMethod method, Held found) {
+    now_.plan.grid(method).evaluation = found.evaluation;
+    now_.plan.grid(method).estimated_time.reset();
+    now_.plan.grid(method).cut = nullptr;
     if (method == program_grid(project())) {
         drop_program();
     }
@@ -153,14 +154,13 @@ void PlanStages::begin(const project::Project& project, const Folders& folders) 
 
 void PlanStages::keep_grids(const State& last) {
     const project::GridInput& then = last.source->project.grid;
-    for (const project::GridMethod method : project::every_grid_method) {
+    for (const GridMethod method : project::every_grid_method) {
         const Held& old = last.held[static_cast<std::size_t>(method)];
         if (old.exact && same_nodes(then, input()) && same_settings(method, then, input())) {
             hold(method, old);
             if (last.source->project.tool == project().tool &&
                 last.source->project.program == project().program) {
-                const auto n = static_cast<std::size_t>(method);
-                now_.plan.compared_cuts[n] = last.plan.compared_cuts[n];
+                now_.plan.grid(method).cut = last.plan.grid(method).cut;
             }
         }
     }
@@ -218,7 +218,7 @@ void PlanStages::derive(const project::Project& project,
 }
 
 /// The grid of the surface before, on the surface now: it follows a drag at once and is made anew afterwards.
-void PlanStages::carry_over(project::GridMethod method, const Progress& progress) {
+void PlanStages::carry_over(GridMethod method, const Progress& progress) {
     const auto& old = before_[static_cast<std::size_t>(method)].evaluation;
     const bool fits = old && old->outcome.grid.nu() == input().nu && old->outcome.grid.nv() == input().nv &&
                       old->toolpath.direction == input().direction;
@@ -233,23 +233,23 @@ void PlanStages::carry_over(project::GridMethod method, const Progress& progress
 }
 
 void PlanStages::measure_uniform(toolpath::MoveSampling sampling, const Progress& progress) {
-    const Held& there = held(project::GridMethod::uniform);
+    const Held& there = held(GridMethod::uniform);
     const bool exact = sampling == report_sampling;
     if (there.exact || (there.evaluation && !exact)) {
         return;
     }
-    progress.report(0.0, title_of_making(project::GridMethod::uniform));
+    progress.report(0.0, title_of_making(GridMethod::uniform));
     Evaluation found = evaluate(workpiece(), uniform_outcome(input()), sampling, progress);
-    hold(project::GridMethod::uniform, {shared(std::move(found), exact), exact});
+    hold(GridMethod::uniform, {shared(std::move(found), exact), exact});
 }
 
-void PlanStages::improve(project::GridMethod method, Effort effort, const Progress& progress) {
+void PlanStages::improve(GridMethod method, Effort effort, const Progress& progress) {
     if (held(method).exact) {
         return;
     }
     progress.report(0.0, title_of_making(method));
-    Evaluation found =
-        improved_evaluation({method, input(), workpiece(), effort}, *now_.plan.uniform, progress);
+    Evaluation found = improved_evaluation(
+        {method, input(), workpiece(), effort}, *now_.plan.grid(GridMethod::uniform).evaluation, progress);
     const bool exact = effort == Effort::full;
     hold(method, {shared(std::move(found), exact), exact});
 }
@@ -273,7 +273,8 @@ void PlanStages::add_path(toolpath::MoveSampling sampling, const Progress& progr
         return;
     }
     progress.report(0.0, title_of_path);
-    Evaluation found = path_evaluation(project(), workpiece(), *over, *now_.plan.uniform, sampling, progress);
+    Evaluation found = path_evaluation(
+        project(), workpiece(), *over, *now_.plan.grid(GridMethod::uniform).evaluation, sampling, progress);
     hold({shared(std::move(found), exact), over, exact});
 }
 
@@ -286,23 +287,23 @@ void PlanStages::add_program_of_chosen(const Progress& progress) {
 }
 
 void PlanStages::coarse(const Publish& publish, const Progress& progress) {
-    const project::GridMethod chosen = program_grid(project());
-    if (chosen != project::GridMethod::uniform) {
+    const GridMethod chosen = program_grid(project());
+    if (chosen != GridMethod::uniform) {
         carry_over(chosen, progress.part(0.0, 0.1));
     }
-    if (!now_.plan.evaluation(chosen)) {
+    if (!now_.plan.grid(chosen).evaluation) {
         measure_uniform(coarse_sampling(input()), progress.part(0.1, 0.2));
     }
     publish(now_.plan, std::nullopt, false);
     measure_uniform(coarse_sampling(input()), progress.part(0.2, 0.3));
     now_.plan.singular_points = toolpath::singular_points(workpiece().patch, workpiece().machine);
-    for (const project::GridMethod method : project::compared_methods) {
+    for (const GridMethod method : project::compared_methods) {
         if (!is_left_out(project(), method)) {
             carry_over(method, progress.part(0.3, 0.4));
         }
     }
     publish(now_.plan, std::nullopt, false);
-    if (chosen == project::GridMethod::tracks && quick_enough(input())) {
+    if (chosen == GridMethod::tracks && quick_enough(input())) {
         improve(chosen, Effort::live, progress.part(0.4, 0.9));
     }
     if (quick_enough(input())) {
@@ -319,21 +320,21 @@ void PlanStages::coarse(const Publish& publish, const Progress& progress) {
 
 /// The grids that stand beside the program's: what is wrong with one of them is its own, and told with it.
 void PlanStages::compare(const Progress& progress) {
-    static_assert(std::ranges::count(project::compared_methods, project::GridMethod::elliptic) == 1);
+    static_assert(std::ranges::count(project::compared_methods, GridMethod::elliptic) == 1);
     const double share = 1.0 / static_cast<double>(project::compared_methods.size());
     double from = 0.0;
-    for (const project::GridMethod method : project::compared_methods) {
+    for (const GridMethod method : project::compared_methods) {
         const Progress part = progress.part(from, from + share);
         from += share;
-        now_.plan.failure(method) = failure_of([&] {
-            if (method == project::GridMethod::elliptic) {
+        now_.plan.grid(method).failure = failure_of([&] {
+            if (method == GridMethod::elliptic) {
                 add_weight(part.part(0.0, 0.0));
             }
             if (!is_left_out(project(), method)) {
                 improve(method, Effort::full, part);
             }
         });
-        const bool none = now_.plan.failure(method) || is_left_out(project(), method);
+        const bool none = now_.plan.grid(method).failure || is_left_out(project(), method);
         if (none && !held(method).exact) {
             hold(method, {}); // one that was carried over must not be taken for this project's
         }
@@ -341,13 +342,13 @@ void PlanStages::compare(const Progress& progress) {
 }
 
 void PlanStages::exact(const Publish& publish, const Progress& progress) {
-    const project::GridMethod chosen = program_grid(project());
+    const GridMethod chosen = program_grid(project());
     measure_uniform(report_sampling, progress.part(0.0, 0.1));
-    const double made = chosen == project::GridMethod::chain ? 0.75 : 0.45; // of the whole
+    const double made = chosen == GridMethod::chain ? 0.75 : 0.45; // of the whole
     const auto rest = [&](double from, double to) {
         return progress.part(made + (1.0 - made) * from, made + (1.0 - made) * to);
     };
-    if (chosen != project::GridMethod::uniform) {
+    if (chosen != GridMethod::uniform) {
         improve(chosen, Effort::full, progress.part(0.1, made));
     }
     add_path(report_sampling, rest(0.0, 0.1));
@@ -361,9 +362,10 @@ void PlanStages::exact(const Publish& publish, const Progress& progress) {
     add_estimated_times(now_.plan, project(), rest(0.9, 0.91));
     add_unsequenced(now_.plan, project(), rest(0.91, 0.92));
     add_compared_cuts(now_.plan, project(), rest(0.92, 0.99));
-    const auto fault = std::ranges::find_if(now_.plan.failed, [](const auto& f) { return f.has_value(); });
-    const bool all_there = fault == now_.plan.failed.end();
-    publish(now_.plan, all_there ? std::nullopt : *fault, all_there);
+    const auto fault = std::ranges::find_if(
+        now_.plan.grids, [](const GridResult& result) { return result.failure.has_value(); });
+    const bool all_there = fault == now_.plan.grids.end();
+    publish(now_.plan, all_there ? std::nullopt : fault->failure, all_there);
 }
 
 } // namespace millwright::plan

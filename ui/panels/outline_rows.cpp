@@ -29,7 +29,7 @@ std::string mean_text(const plan::Evaluation& evaluation) {
 
 std::string error_of(const Workbench& now, GridMethod method) {
     const auto evaluation = now.evaluation(method);
-    if (now.plan && now.plan->plan.failure(method)) {
+    if (now.plan && now.plan->plan.grid(method).failure) {
         return "failed";
     }
     if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {

@@ -52,7 +52,7 @@ TEST_F(GridTold, ACancelledChainLeavesANotice) {
     person_.wait_idle();
     EXPECT_TRUE(
         was_told("Cancelled: Moving all nodes at once. What is missing is made with the next change"));
-    EXPECT_FALSE(person_.workshop().look().plan->plan.chain);
+    EXPECT_FALSE(person_.workshop().look().plan->plan.grid(GridMethod::chain).evaluation);
     person_.keep("grid-chain-cancelled");
 }
 
