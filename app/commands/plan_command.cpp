@@ -251,7 +251,7 @@ int plan(const PlanOptions& options) {
     OpenedProject opened = open_project(options.project);
     opened.project = changed(std::move(opened.project), options);
     const OutputFolder folder(options.out);
-    const plan::Plan plan = planned(opened, plan::Scope::everything, interrupt.token());
+    const plan::Plan plan = planned(opened, plan::Scope::report, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     const std::string gouges = gouges_of(opened, plan);

@@ -125,6 +125,51 @@ TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
     EXPECT_NE(pipeline.latest()->plan.weight->values, before->plan.weight->values);
 }
 
+TEST_F(PipelineTest, MakesWhatIsWantedOnly) {
+    project::Project project = small_sample("dome", 6);
+    pipeline.want(Scope{.cut = true});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto alone = pipeline.latest();
+    EXPECT_TRUE(alone->exact);
+    EXPECT_NE(alone->plan.program, nullptr);
+    EXPECT_EQ(alone->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+    pipeline.want(Scope::everything);
+    pipeline.wait_idle();
+    const auto all = pipeline.latest();
+    EXPECT_TRUE(all->exact);
+    EXPECT_EQ(all->plan.program, alone->plan.program) << "it was there";
+    EXPECT_NE(all->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+    pipeline.want(Scope{.cut = true});
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->revision, all->revision) << "less is no work";
+    project.surface.patches[0].point(1, 1).z() += 5.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_TRUE(pipeline.latest()->exact);
+    EXPECT_EQ(pipeline.latest()->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+}
+
+// What runs is not begun again, and what a person has cancelled does not come back by a look elsewhere.
+TEST_F(PipelineTest, MoreIsMadeAfterWhatRunsAndNotAfterACancel) {
+    const project::Project project = small_sample("two-bell", 40);
+    pipeline.want(Scope{});
+    pipeline.request(project);
+    (void)wait_for([](const PublishedPlan& plan) { return plan.plan.program != nullptr; });
+    pipeline.want(Scope{.times = true});
+    const auto alone = wait_for([](const PublishedPlan& plan) { return plan.program_exact; });
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.program, alone->plan.program);
+    EXPECT_TRUE(pipeline.latest()->plan.grid(GridMethod::uniform).estimated_time);
+    pipeline.request(small_sample("two-bell", 60));
+    pipeline.cancel();
+    pipeline.wait_idle();
+    const auto revision = pipeline.latest()->revision;
+    pipeline.want(Scope::everything);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->revision, revision);
+}
+
 TEST_F(PipelineTest, TheLastOfManyRequestsWins) {
     project::Project project = small_sample("sine", 6);
     for (int n = 0; n < 20; ++n) {
