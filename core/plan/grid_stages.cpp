@@ -1,5 +1,6 @@
 #include "core/plan/internal/grid_stages.h"
 
+#include "core/plan/grid_method.h"
 #include "core/plan/left_out.h"
 #include "core/plan/strategy_path.h"
 
@@ -12,33 +13,8 @@ namespace {
 
 using project::GridMethod;
 
-/// For the harmonic map, which has no LV, no LO and its own solver.
-bool same_metric(project::EllipticInput a, const project::EllipticInput& b) {
-    a.solver = b.solver;
-    a.adaptation = b.adaptation;
-    a.orthogonality = b.orthogonality;
-    return a == b;
-}
-
-bool same_settings(GridMethod method, const project::GridInput& a, const project::GridInput& b) {
-    switch (method) {
-    case GridMethod::uniform:
-        return true;
-    case GridMethod::redistribution:
-        return a.redistribution == b.redistribution;
-    case GridMethod::elliptic:
-        return a.elliptic == b.elliptic;
-    case GridMethod::harmonic:
-        return same_metric(a.elliptic, b.elliptic);
-    case GridMethod::tracks:
-        return a.tracks == b.tracks;
-    case GridMethod::chain:
-        return a.tracks == b.tracks && a.chain == b.chain;
-    }
-    return false;
-}
-
-/// The grid of the surface before, on the surface now: it follows a drag at once and is made anew afterwards.
+/// The grid of the surface before, on the surface now: it follows a drag at
+/// once and is made anew afterwards.
 bool carry_over(GridMethod method, const StageWork& work) {
     const project::GridInput& input = work.project().grid;
     const auto& old = work.earlier[static_cast<std::size_t>(method)];
@@ -77,23 +53,6 @@ bool improve(GridMethod method, const StageWork& work) {
     return true;
 }
 
-/// Parts of the work of a plan, by what they take.
-double share_of(GridMethod method) {
-    switch (method) {
-    case GridMethod::uniform:
-        return 0.1;
-    case GridMethod::redistribution:
-        return 0.05;
-    case GridMethod::elliptic:
-    case GridMethod::harmonic:
-    case GridMethod::tracks:
-        return 0.4;
-    case GridMethod::chain:
-        return 3.0;
-    }
-    return 0.0;
-}
-
 } // namespace
 
 bool is_quick(const project::GridInput& input) {
@@ -123,13 +82,13 @@ Stage grid_stage(GridMethod method, const project::Project& project, const Scope
     const bool of_program = method == program_grid(project);
     const bool is_uniform = method == GridMethod::uniform;
     const bool compared = std::ranges::count(project::compared_methods, method) > 0;
-    Stage stage{.key = grid_key(method), .title = title_of_making(method), .share = share_of(method)};
+    Stage stage{.key = grid_key(method), .title = row_of(method).title, .share = row_of(method).share};
     stage.asked =
         of_program || is_uniform || (scope.comparisons && compared && !is_left_out(project, method));
     stage.reads = {{StageKind::workpiece}};
     stage.same = [method](const Source& then, const Source& now) {
         return same_nodes(then.project.grid, now.project.grid) &&
-               same_settings(method, then.project.grid, now.project.grid);
+               row_of(method).same_settings(then.project.grid, now.project.grid);
     };
     stage.make = [](const StageWork& work) { return measure_uniform(work); };
     stage.clear = [method](Plan& plan) { plan.grid(method).evaluation = nullptr; };
@@ -139,7 +98,7 @@ Stage grid_stage(GridMethod method, const project::Project& project, const Scope
         stage.qualities = {Quality::coarse, Quality::exact};
         stage.shown_early = Quality::coarse;
     } else {
-        const bool live = of_program && method == GridMethod::tracks && is_quick(project.grid);
+        const bool live = of_program && row_of(method).follows_drag && is_quick(project.grid);
         stage.reads.push_back(grid_key(GridMethod::uniform));
         stage.make = [method](const StageWork& work) { return improve(method, work); };
         stage.qualities = live ? std::vector{Quality::carried, Quality::coarse, Quality::exact}

@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/plan/cut_remarks.h"
 #include "core/plan/cut_study.h"
+#include "core/plan/grid_method.h"
 #include "core/plan/largest_error.h"
 #include "core/plan/left_out.h"
 #include "core/plan/strategy_path.h"
@@ -17,7 +18,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -68,7 +68,8 @@ Json gap_of(const Evaluation& evaluation) {
     return evaluation.track_gap ? Json(project::rounded(*evaluation.track_gap)) : Json();
 }
 
-/// Null where nodes that are never cut cannot be reached, or have no normal: a grid is measured over all.
+/// Null where nodes that are never cut cannot be reached, or have no normal: a
+/// grid is measured over all.
 Json known(double figure) {
     return std::isfinite(figure) ? Json(project::rounded(figure)) : Json();
 }
@@ -134,17 +135,15 @@ Json errors(const Plan& plan, GridMethod method) {
 
 /// Of every grid that is there, and of the path where it is none of theirs.
 Json all_errors(const project::Project& project, const Plan& plan) {
-    constexpr std::array<std::string_view, project::every_grid_method.size()> names{
-        "uniform", "redistribution", "adapted", "harmonic", "optimised", "chain"};
     Json json;
     for (const GridMethod method : project::every_grid_method) {
+        const std::string key(row_of(method).report_key);
         if (plan.grid(method).evaluation) {
-            json[std::string(names[static_cast<std::size_t>(method)])] = errors(plan, method);
+            json[key] = errors(plan, method);
         } else if (const auto& failure = plan.grid(method).failure) {
-            json[std::string(names[static_cast<std::size_t>(method)])] = {{"failed", to_text(*failure)}};
+            json[key] = {{"failed", to_text(*failure)}};
         } else if (is_left_out(project, method)) {
-            json[std::string(names[static_cast<std::size_t>(method)])] = {
-                {"left_out", left_out_sentence(project)}};
+            json[key] = {{"left_out", left_out_sentence(project)}};
         }
     }
     if (has_own_path(project)) {
