@@ -19,7 +19,7 @@ OpenedProject open_project(const fs::path& file) {
     return {file, project::read_project(file), {file.parent_path(), project::assets_folder()}};
 }
 
-plan::Plan planned(const OpenedProject& opened, plan::Scope scope, const std::stop_token& stop) {
+plan::Plan planned(const OpenedProject& opened, const plan::Scope& scope, const std::stop_token& stop) {
     for (const std::string& sentence : plan::memory_sentences(opened.project, scope)) {
         fmt::print(stderr, "{}\n", sentence);
     }

@@ -24,6 +24,7 @@ struct OpenedProject {
 [[nodiscard]] OpenedProject open_project(const std::filesystem::path& file);
 
 /// make_plan under a progress bar that Ctrl+C cancels. An Error that names no file gets the project's.
-[[nodiscard]] plan::Plan planned(const OpenedProject& opened, plan::Scope scope, const std::stop_token& stop);
+[[nodiscard]] plan::Plan
+planned(const OpenedProject& opened, const plan::Scope& scope, const std::stop_token& stop);
 
 } // namespace millwright::app

@@ -39,6 +39,8 @@ namespace millwright::app {
 
 namespace {
 
+using project::GridMethod;
+
 struct PlanOptions {
     std::string project;
     std::string out;
@@ -62,12 +64,12 @@ void print_figures(std::string_view name, const plan::Evaluation& evaluation) {
 
 /// What is wrong with a grid, also where it is only compared with the program's.
 void print_warnings(const plan::Plan& plan) {
-    for (const project::GridMethod method : project::every_grid_method) {
+    for (const GridMethod method : project::every_grid_method) {
         const std::string_view id = project::row_of(project::grid_methods(), method).id;
-        if (const auto& failure = plan.failure(method)) {
+        if (const auto& failure = plan.grid(method).failure) {
             fmt::print(stderr, "warning: no {} grid to compare with: {}\n", id, to_text(*failure));
         }
-        const auto& evaluation = plan.evaluation(method);
+        const auto& evaluation = plan.grid(method).evaluation;
         if (evaluation && !evaluation->outcome.warning.empty()) {
             fmt::print(stderr, "warning: {} grid: {}\n", id, evaluation->outcome.warning);
         }
@@ -76,11 +78,12 @@ void print_warnings(const plan::Plan& plan) {
 
 /// Why the uniform grid is kept, whose figures stand there then, and whose grid the whole chain took.
 void print_plan_notes(const plan::Plan& plan) {
-    for (const project::GridMethod method : project::every_grid_method) {
-        const auto& evaluation = plan.evaluation(method);
-        const bool kept = evaluation && plan::keeps_grid(*evaluation, *plan.uniform);
-        if (method == project::GridMethod::uniform || !(kept || method == project::GridMethod::chain) ||
-            !evaluation || evaluation->outcome.note.empty()) {
+    for (const GridMethod method : project::every_grid_method) {
+        const auto& evaluation = plan.grid(method).evaluation;
+        const bool kept =
+            evaluation && plan::keeps_grid(*evaluation, *plan.grid(GridMethod::uniform).evaluation);
+        if (method == GridMethod::uniform || !(kept || method == GridMethod::chain) || !evaluation ||
+            evaluation->outcome.note.empty()) {
             continue;
         }
         fmt::print("{}{}: {}\n",
@@ -92,7 +95,7 @@ void print_plan_notes(const plan::Plan& plan) {
 
 /// What each link of the whole chain brought, by the distance from the surface curve.
 void print_links(const plan::Plan& plan) {
-    if (!plan.chain) {
+    if (!plan.grid(GridMethod::chain).evaluation) {
         return;
     }
     const bool turns = !plan.workpiece->machine.rotary_axes().empty();
@@ -110,7 +113,7 @@ void print_links(const plan::Plan& plan) {
                "best max",
                "best mean",
                "best axis");
-    for (const grid::ImproverLink& link : plan.chain->outcome.links) {
+    for (const grid::ImproverLink& link : plan.grid(GridMethod::chain).evaluation->outcome.links) {
         fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}{}\n",
                    link.name,
                    figure(link.reached.max, 4),
@@ -131,11 +134,11 @@ void print_plan_summary(const plan::Plan& plan, const project::Project& project)
                "lmean mm",
                "axis deg",
                "gap mm");
-    for (const project::GridMethod method : project::every_grid_method) {
+    for (const GridMethod method : project::every_grid_method) {
         const std::string_view id = project::row_of(project::grid_methods(), method).id;
-        if (const auto& evaluation = plan.evaluation(method)) {
+        if (const auto& evaluation = plan.grid(method).evaluation) {
             print_figures(id, *evaluation);
-        } else if (plan.failure(method)) {
+        } else if (plan.grid(method).failure) {
             fmt::print("{:<10} failed\n", id);
         } else if (plan::is_left_out(project, method)) {
             fmt::print("{:<10} skipped\n", id);
@@ -249,7 +252,7 @@ int plan(const PlanOptions& options) {
     OpenedProject opened = open_project(options.project);
     opened.project = changed(std::move(opened.project), options);
     const OutputFolder folder(options.out);
-    const plan::Plan plan = planned(opened, plan::Scope::everything, interrupt.token());
+    const plan::Plan plan = planned(opened, plan::Scope::report, interrupt.token());
     const PostedText text =
         posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
     const std::string gouges = gouges_of(opened, plan);

@@ -68,7 +68,7 @@ int write_program_grid(const GridOptions& options) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     const plan::Plan plan = planned(opened, plan::Scope::program, interrupt.token());
-    write_nodes(options, plan.evaluation(plan::program_grid(opened.project))->outcome.grid.array());
+    write_nodes(options, plan.grid(plan::program_grid(opened.project)).evaluation->outcome.grid.array());
     return 0;
 }
 

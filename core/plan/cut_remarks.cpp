@@ -23,6 +23,8 @@ namespace millwright::plan {
 
 namespace {
 
+using project::GridMethod;
+
 constexpr double little = 0.1; // of a height, beside it
 
 /// What helps against moves of a track of `points` that are `off`: the error falls with the square of their
@@ -119,25 +121,27 @@ std::string why_not_kept(const project::Project& project, const Evaluation& path
 }
 
 std::string crossing_remark(const project::Project& project, const Plan& plan) {
-    const auto& base = plan.evaluation(program_grid(project));
+    const auto& base = plan.grid(program_grid(project)).evaluation;
+    const auto& uniform = plan.grid(GridMethod::uniform).evaluation;
     const bool crosses = project.toolpath.strategy == project::StrategyInput::spiral && plan.path && base &&
-                         plan.uniform && keeps_grid(*plan.path, *plan.uniform);
-    return crosses && !keeps_grid(*base, *plan.uniform) ? plan.path->outcome.note : std::string();
+                         uniform && keeps_grid(*plan.path, *uniform);
+    return crosses && !keeps_grid(*base, *uniform) ? plan.path->outcome.note : std::string();
 }
 
 std::string sequencing_remark(const project::Project& project, const Plan& plan) {
     const auto& path = plan.program_path(project);
+    const auto& uniform = plan.grid(GridMethod::uniform).evaluation;
     const bool sequenced = project.machine.angle_mode == kinematics::AngleMode::consistent &&
                            project.sequencing != project::SequencingInput{};
-    if (!sequenced || has_own_path(project) || !path || !plan.uniform || keeps_grid(*path, *plan.uniform)) {
+    if (!sequenced || has_own_path(project) || !path || !uniform || keeps_grid(*path, *uniform)) {
         return {};
     }
     const kinematics::MachineModel& machine = plan.workpiece->machine;
-    if (!is_worse(*path, *plan.uniform, machine)) { // a larger mean by length may be the grid's own
+    if (!is_worse(*path, *uniform, machine)) { // a larger mean by length may be the grid's own
         return {};
     }
     const bool turns = !machine.rotary_axes().empty();
-    const std::string figures = larger_figures(path->closest, plan.uniform->closest, turns);
+    const std::string figures = larger_figures(path->closest, uniform->closest, turns);
     return figures.empty()
                ? std::string()
                : fmt::format("with its {} points the path over the grid \"{}\" has more error than over the "
@@ -145,7 +149,7 @@ std::string sequencing_remark(const project::Project& project, const Plan& plan)
                              "that the sequencing chooses; if these figures matter, use the uniform grid",
                              path->toolpath.points.size(),
                              project::row_of(project::grid_methods(), program_grid(project)).label,
-                             plan.uniform->toolpath.points.size(),
+                             uniform->toolpath.points.size(),
                              figures);
 }
 
@@ -178,7 +182,7 @@ std::string certainty_remark(const Plan& plan, const Evaluation& path) {
 
 std::vector<std::string> path_remarks(const project::Project& project, const Plan& plan) {
     const auto& path = plan.program_path(project);
-    const project::GridMethod method = program_grid(project);
+    const GridMethod method = program_grid(project);
     const bool weighs = uses_weight(method);
     std::vector<std::string> remarks;
     for (std::string remark : {weighs ? weight_remark(project.grid.elliptic) : std::string(),

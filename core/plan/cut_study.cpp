@@ -316,7 +316,7 @@ CutStudy study_cut_of(project::GridMethod method,
                       const Plan& plan,
                       const project::Project& project,
                       const Progress& progress) {
-    const auto& path = plan.evaluation(method);
+    const auto& path = plan.grid(method).evaluation;
     expects(plan.workpiece && path, "the grid of the study has been evaluated");
     const program::PostResult posted = program::post(plan.workpiece->machine,
                                                      path->toolpath,
@@ -333,24 +333,18 @@ void add_cut_study(Plan& plan, const project::Project& project, const Progress& 
     }
 }
 
-void add_compared_cuts(Plan& plan, const project::Project& project, const Progress& progress) {
-    if (!plan.workpiece->tool.cutter) {
+void add_compared_cut(project::GridMethod method,
+                      Plan& plan,
+                      const project::Project& project,
+                      const Progress& progress) {
+    GridResult& grid = plan.grid(method);
+    if (!plan.workpiece->tool.cutter || !grid.evaluation) {
         return;
     }
-    const double share = 1.0 / static_cast<double>(project::every_grid_method.size());
-    double from = 0.0;
-    for (const project::GridMethod method : project::every_grid_method) {
-        const auto& path = plan.evaluation(method);
-        auto& cut = plan.compared_cuts[static_cast<std::size_t>(method)];
-        if (path && path != plan.program_path(project) && !cut) {
-            try {
-                cut = std::make_shared<const CutStudy>(
-                    study_cut_of(method, plan, project, progress.part(from, from + share)));
-            } catch (const Error&) { // such a program is beyond the machine's limits: it has no time either
-                cut = nullptr;
-            }
-        }
-        from += share;
+    try {
+        grid.cut = std::make_shared<const CutStudy>(study_cut_of(method, plan, project, progress));
+    } catch (const Error&) { // such a program is beyond the machine's limits: it has no time either
+        grid.cut = nullptr;
     }
 }
 

@@ -57,9 +57,12 @@ struct CutStudy {
 /// The study into `plan`, where the tool has a body. Throws Cancelled, then `plan` is as it was.
 void add_cut_study(Plan& plan, const project::Project& project, const Progress& progress);
 
-/// Those of the grids beside the program's into `plan`, where the tool has a body and the machine can run
-/// them. Throws Cancelled.
-void add_compared_cuts(Plan& plan, const project::Project& project, const Progress& progress);
+/// That of the grid by `method` into `plan`, where the grid is there, the tool has a body and the machine can
+/// run it. Throws Cancelled.
+void add_compared_cut(project::GridMethod method,
+                      Plan& plan,
+                      const project::Project& project,
+                      const Progress& progress);
 
 /// cut.json: docs/reference/cutter.md. `plan` has its study.
 [[nodiscard]] std::string cut_report_text(const project::Project& project, const Plan& plan);

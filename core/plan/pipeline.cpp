@@ -1,8 +1,8 @@
 #include "core/plan/pipeline.h"
 
 #include "core/plan/internal/background.h"
+#include "core/plan/internal/derivation.h"
 #include "core/plan/internal/failure.h"
-#include "core/plan/internal/plan_stages.h"
 
 #include <utility>
 
@@ -13,17 +13,12 @@ class Pipeline::Planner {
 public:
     explicit Planner(const std::function<void()>& wake) : wake_(wake), background_(wake) {}
 
-    void derive(const project::Project& project, const Folders& folders) {
-        background_.replace([this, project, folders](const Progress& progress) {
-            const auto publish = [&](const Plan& plan, const std::optional<Diagnostic>& failure, bool exact) {
-                progress.check();
-                set({project, plan, failure, 0, exact});
-            };
-            if (const auto failure =
-                    failure_of([&] { stages_.derive(project, folders, publish, progress); })) {
-                publish({}, failure, false);
-            }
-        });
+    void derive(const project::Project& project, const Folders& folders, const Scope& scope) {
+        background_.replace(job_of(project, folders, scope));
+    }
+    /// After what runs.
+    void derive_more(const project::Project& project, const Folders& folders, const Scope& scope) {
+        background_.append(job_of(project, folders, scope));
     }
     void stop() { background_.clear(); }
 
@@ -35,6 +30,20 @@ public:
     void wait_idle() const { background_.wait_idle(); }
 
 private:
+    Background::Job job_of(const project::Project& project, const Folders& folders, const Scope& scope) {
+        return [this, project, folders, scope](const Progress& progress) {
+            const auto publish = [&](const Publication& now) {
+                progress.check();
+                set({project, now.plan, now.failure, 0, now.program_exact, now.exact});
+            };
+            if (const auto failure =
+                    failure_of([&] { derivation_.derive(project, folders, scope, publish, progress); })) {
+                const Plan nothing;
+                publish({nothing, failure});
+            }
+        };
+    }
+
     void set(PublishedPlan plan) {
         {
             const std::scoped_lock lock(mutex_);
@@ -48,7 +57,7 @@ private:
     mutable std::mutex mutex_;
     std::shared_ptr<const PublishedPlan> latest_;
     std::uint64_t revision_ = 0;
-    PlanStages stages_;     // of the worker
+    Derivation derivation_; // of the worker
     Background background_; // last: its thread uses all of the above
 };
 
@@ -185,6 +194,14 @@ Pipeline::Pipeline(Folders folders, std::function<void()> wake)
 
 Pipeline::~Pipeline() = default;
 
+void Pipeline::want(const Scope& scope) {
+    wanted_ = scope;
+    if (const Scope all = derived_.with(scope); requested_ && !cancelled_ && !(all == derived_)) {
+        derived_ = all;
+        planner_->derive_more(*requested_, folders_, derived_);
+    }
+}
+
 void Pipeline::request(const project::Project& project, const Folders& folders) {
     if (!cancelled_ && requested_ == project && folders_ == folders) {
         return;
@@ -195,13 +212,14 @@ void Pipeline::request(const project::Project& project, const Folders& folders) 
     if (!adapter_->is_about(project, folders)) {
         adapter_->end();
     }
-    planner_->derive(project, folders);
+    derived_ = wanted_;
+    planner_->derive(project, folders, derived_);
 }
 
 void Pipeline::cancel() {
+    cancelled_ = cancelled_ || planner_->activity().busy;
     planner_->stop();
     adapter_->pause();
-    cancelled_ = true;
 }
 
 std::shared_ptr<const PublishedPlan> Pipeline::latest() const {

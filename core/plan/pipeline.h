@@ -29,7 +29,8 @@ struct PublishedPlan {
     Plan plan;                         ///< parts that are not there yet are null
     std::optional<Diagnostic> failure; ///< why the plan stops short of a program
     std::uint64_t revision = 0;
-    bool exact = false; ///< complete and sampled as for a report, not as for a drag
+    bool program_exact = false; ///< the program, and what the cutter does on it, are as for a report
+    bool exact = false;         ///< complete and sampled as for a report, not as for a drag
 };
 
 /// A grid improvement that a person watches.
@@ -49,6 +50,11 @@ public:
     Pipeline& operator=(const Pipeline&) = delete;
     /// Waits until the workers have noticed: 100 ms at most.
     ~Pipeline();
+
+    /// What of the plan is looked at, from now on; at first all of it. What comes to it is made after what
+    /// runs, but nothing after cancel() before the next request; what goes from it is made no more for later
+    /// projects.
+    void want(const Scope& scope);
 
     /// Derive for this project from now on; what runs for an older one is dropped within 100 ms. Does nothing
     /// if it is the project already asked for. A watched adaptation ends if its surface, machine or grid
@@ -83,7 +89,9 @@ private:
     class Adapter;
 
     Folders folders_;
+    Scope wanted_ = Scope::everything;
     std::optional<project::Project> requested_;
+    Scope derived_;          ///< what of its plan was asked for
     bool cancelled_ = false; ///< what was asked for last may be asked for again
     std::unique_ptr<Planner> planner_;
     std::unique_ptr<Adapter> adapter_;

@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/plan/cut_remarks.h"
 #include "core/plan/cut_study.h"
+#include "core/plan/grid_method.h"
 #include "core/plan/largest_error.h"
 #include "core/plan/left_out.h"
 #include "core/plan/strategy_path.h"
@@ -17,7 +18,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -26,6 +26,7 @@ namespace millwright::plan {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using project::GridMethod;
 
 std::string_view status_id(grid::ImproverStatus status) {
     switch (status) {
@@ -67,7 +68,8 @@ Json gap_of(const Evaluation& evaluation) {
     return evaluation.track_gap ? Json(project::rounded(*evaluation.track_gap)) : Json();
 }
 
-/// Null where nodes that are never cut cannot be reached, or have no normal: a grid is measured over all.
+/// Null where nodes that are never cut cannot be reached, or have no normal: a
+/// grid is measured over all.
 Json known(double figure) {
     return std::isfinite(figure) ? Json(project::rounded(figure)) : Json();
 }
@@ -122,28 +124,26 @@ Json errors(const Plan& plan,
     return json;
 }
 
-Json errors(const Plan& plan, project::GridMethod method) {
-    const Evaluation& evaluation = *plan.evaluation(method);
+Json errors(const Plan& plan, GridMethod method) {
+    const Evaluation& evaluation = *plan.grid(method).evaluation;
     auto by_curve = evaluation.outcome.by_curve;
-    if (method == project::GridMethod::uniform && plan.optimised) {
-        by_curve = plan.optimised->outcome.start_by_curve;
+    if (method == GridMethod::uniform && plan.grid(GridMethod::tracks).evaluation) {
+        by_curve = plan.grid(GridMethod::tracks).evaluation->outcome.start_by_curve;
     }
-    return errors(plan, evaluation, plan.estimated_time(method), by_curve);
+    return errors(plan, evaluation, plan.grid(method).estimated_time, by_curve);
 }
 
 /// Of every grid that is there, and of the path where it is none of theirs.
 Json all_errors(const project::Project& project, const Plan& plan) {
-    constexpr std::array<std::string_view, project::every_grid_method.size()> names{
-        "uniform", "redistribution", "adapted", "harmonic", "optimised", "chain"};
     Json json;
-    for (const project::GridMethod method : project::every_grid_method) {
-        if (plan.evaluation(method)) {
-            json[std::string(names[static_cast<std::size_t>(method)])] = errors(plan, method);
-        } else if (const auto& failure = plan.failure(method)) {
-            json[std::string(names[static_cast<std::size_t>(method)])] = {{"failed", to_text(*failure)}};
+    for (const GridMethod method : project::every_grid_method) {
+        const std::string key(row_of(method).report_key);
+        if (plan.grid(method).evaluation) {
+            json[key] = errors(plan, method);
+        } else if (const auto& failure = plan.grid(method).failure) {
+            json[key] = {{"failed", to_text(*failure)}};
         } else if (is_left_out(project, method)) {
-            json[std::string(names[static_cast<std::size_t>(method)])] = {
-                {"left_out", left_out_sentence(project)}};
+            json[key] = {{"left_out", left_out_sentence(project)}};
         }
     }
     if (has_own_path(project)) {
@@ -253,10 +253,11 @@ Json program_json(const Plan& plan) {
 } // namespace
 
 std::string report_text(const project::Project& project, const Plan& plan) {
-    const bool compared = std::ranges::all_of(project::compared_methods, [&](project::GridMethod method) {
-        return plan.evaluation(method) || plan.failure(method) || is_left_out(project, method);
+    const bool compared = std::ranges::all_of(project::compared_methods, [&](GridMethod method) {
+        return plan.grid(method).evaluation || plan.grid(method).failure || is_left_out(project, method);
     });
-    expects(plan.uniform && compared && plan.program && plan.listing && plan.trajectory,
+    expects(plan.grid(GridMethod::uniform).evaluation && compared && plan.program && plan.listing &&
+                plan.trajectory,
             "a plan is complete before it is reported");
     const Evaluation& chosen = *plan.program_path(project);
     Json json;

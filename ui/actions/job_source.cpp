@@ -99,7 +99,8 @@ Permission program_ready(const Workbench& now) {
     if (!now.program() || !now.trajectory() || !now.listing()) {
         return Permission::refused("There is no program yet.");
     }
-    return now.plan->exact ? Permission{} : Permission::refused("The program is still being computed.");
+    return now.plan->program_exact ? Permission{}
+                                   : Permission::refused("The program is still being computed.");
 }
 
 Permission axes_ready(const Workbench& now) {

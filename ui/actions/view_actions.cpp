@@ -1,6 +1,10 @@
+#include "core/plan/left_out.h"
 #include "core/project/settings.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/shown_grid.h"
+#include "ui/actions/wanted_plan.h"
+
+#include <algorithm>
 
 namespace millwright::actions {
 
@@ -28,9 +32,17 @@ template <project::GridMethod method> void show(Hands& hands) {
     show_grid(hands.session, method);
 }
 
+/// A grid to compare with is made when it is looked at.
+bool is_made_when_shown(const Workbench& now, project::GridMethod method) {
+    return now.plan && !now.plan->plan.grid(method).failure &&
+           !wanted_plan(now.session, now.project).comparisons && !plan::is_left_out(now.project, method) &&
+           std::ranges::count(project::compared_methods, method) > 0;
+}
+
 template <project::GridMethod method> widgets::Permission is_there(const Workbench& now) {
-    return now.evaluation(method) ? widgets::Permission{}
-                                  : widgets::Permission::refused("This grid has not been computed yet.");
+    return now.evaluation(method) || is_made_when_shown(now, method)
+               ? widgets::Permission{}
+               : widgets::Permission::refused("This grid has not been computed yet.");
 }
 
 template <project::GridMethod method>

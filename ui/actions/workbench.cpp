@@ -35,7 +35,7 @@ viewport::Moment moment_in(const program::Program& program, const motion::Sample
 } // namespace
 
 std::shared_ptr<const plan::Evaluation> Workbench::evaluation(project::GridMethod method) const {
-    return plan ? plan->plan.evaluation(method) : nullptr;
+    return plan ? plan->plan.grid(method).evaluation : nullptr;
 }
 
 toolpath::SetUpPlace Workbench::set_up_place() const {

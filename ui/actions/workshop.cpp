@@ -8,6 +8,7 @@
 #include "ui/actions/job_source.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/actions/surface_export.h"
+#include "ui/actions/wanted_plan.h"
 
 #include <algorithm>
 #include <utility>
@@ -131,6 +132,7 @@ void Workshop::follow_project() {
     project::Project design = history_.current();
     const project::PlotInput plot = std::exchange(design.plot, {}); // the plan has no use for it
     design.arm = {};
+    want_plan();
     pipeline_->request(design, {folder, options_.assets});
     guarded([&] { machine_solids_.follow(design, {folder, options_.assets}); });
     if (!(plot_->input() == plot)) {
@@ -140,6 +142,10 @@ void Workshop::follow_project() {
         }
         guarded([&] { plot_->follow(plot); });
     }
+}
+
+void Workshop::want_plan() {
+    pipeline_->want(wanted_plan(session_, history_.current()));
 }
 
 void Workshop::search_set_up() {
@@ -239,6 +245,7 @@ void Workshop::watch_jog(bool held, bool focused) {
 }
 
 bool Workshop::advance(double seconds) {
+    want_plan();
     follow_received();
     follow_plot();
     follow_import();
@@ -308,6 +315,7 @@ void Workshop::edit(const std::string& title,
 }
 
 void Workshop::wait_idle() {
+    want_plan();
     pipeline_->wait_idle();
     set_up_->wait_idle();
     import_->wait_idle();

@@ -244,6 +244,7 @@ private:
     void start_autosave();
     void follow_autosave();
     void follow_project();
+    void want_plan(); ///< what of it is looked at
     void follow_job();
     void follow_begin();
     void follow_queue();

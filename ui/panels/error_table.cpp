@@ -81,7 +81,7 @@ std::vector<ErrorRow> error_rows(const Workbench& now) {
         rows.push_back(row_of(std::string(grid.id),
                               std::string(grid.label),
                               now.evaluation(method).get(),
-                              now.plan ? now.plan->plan.estimated_time(method) : std::nullopt));
+                              now.plan ? now.plan->plan.grid(method).estimated_time : std::nullopt));
     }
     if (plan::has_own_path(now.project)) {
         rows.push_back(row_of("path",

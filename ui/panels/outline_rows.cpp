@@ -6,6 +6,7 @@
 #include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
 #include "ui/actions/shown_grid.h"
+#include "ui/actions/wanted_plan.h"
 #include "ui/panels/numbers_text.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ std::string mean_text(const plan::Evaluation& evaluation) {
 
 std::string error_of(const Workbench& now, GridMethod method) {
     const auto evaluation = now.evaluation(method);
-    if (now.plan && now.plan->plan.failure(method)) {
+    if (now.plan && now.plan->plan.grid(method).failure) {
         return "failed";
     }
     if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {
@@ -51,10 +52,13 @@ std::string short_count(std::ptrdiff_t count, std::string_view one) {
     return count < whole_below ? counted(count, one) : fmt::format("{} k {}s", (count + 500) / 1000, one);
 }
 
-/// Grids that are always made, or that the program uses.
+/// Grids that are there, that the program uses, or that are made to compare where that is looked at.
 bool is_listed(const Workbench& now, GridMethod method) {
-    return method == GridMethod::uniform || std::ranges::count(project::compared_methods, method) > 0 ||
-           now.evaluation(method) || plan::program_grid(now.project) == method;
+    const bool compared = std::ranges::count(project::compared_methods, method) > 0 &&
+                          actions::wanted_plan(now.session, now.project).comparisons;
+    const bool failed = now.plan && now.plan->plan.grid(method).failure;
+    return method == GridMethod::uniform || compared || failed || now.evaluation(method) ||
+           plan::program_grid(now.project) == method;
 }
 
 } // namespace

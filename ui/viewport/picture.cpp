@@ -138,8 +138,8 @@ Scene scene_of(const project::Project& project, const plan::Plan& plan, ViewKind
     Scene scene;
     scene.layers = layers_of(kind);
     show_plan(scene, plan);
-    scene.shown = chosen ? chosen : plan.uniform;
-    scene.start = plan.uniform;
+    scene.shown = chosen ? chosen : plan.grid(GridMethod::uniform).evaluation;
+    scene.start = plan.grid(GridMethod::uniform).evaluation;
     scene.cut = plan.cut;
     return scene;
 }

@@ -36,11 +36,12 @@ std::vector<std::string> error_row(std::string_view name, const plan::Evaluation
 
 void add_errors(PictureFacts& facts, const project::Project& project, const plan::Plan& plan) {
     facts.columns = {"error", "max mm", "mean mm", "by length mm", "95 % mm", "axis \u00B0", "track gap mm"};
-    if (plan.uniform) {
-        facts.rows.push_back(error_row(title(GridMethod::uniform), *plan.uniform));
+    if (plan.grid(GridMethod::uniform).evaluation) {
+        facts.rows.push_back(
+            error_row(title(GridMethod::uniform), *plan.grid(GridMethod::uniform).evaluation));
     }
     const auto& chosen = plan.program_path(project);
-    if (chosen && chosen != plan.uniform) {
+    if (chosen && chosen != plan.grid(GridMethod::uniform).evaluation) {
         facts.rows.push_back(error_row(program_title(project), *chosen));
     }
 }

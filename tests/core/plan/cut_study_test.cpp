@@ -20,6 +20,7 @@
 namespace millwright::plan {
 namespace {
 
+using project::GridMethod;
 using toolpath::CutterKind;
 
 /// A plane of 40 x 40 mm on the router, cut along u.
@@ -37,7 +38,7 @@ project::Project plane(int nu, int nv) {
     project.grid.nu = nu;
     project.grid.nv = nv;
     project.grid.direction = grid::TrackDirection::along_u;
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     return project;
 }
 
@@ -61,7 +62,7 @@ TEST(CutStudy, OfABallOverAPlaneHasTheScallopsOfTheClosedForm) {
     EXPECT_LT(found.deepest, 1e-6);
     EXPECT_TRUE(found.bites.empty());
     EXPECT_TRUE(found.local_gouges.empty());
-    const Evaluation& cut = *plan.evaluation(project::GridMethod::uniform);
+    const Evaluation& cut = *plan.grid(GridMethod::uniform).evaluation;
     EXPECT_LT(cut.closest.max, 1e-9);
     EXPECT_GT(plan.trajectory->duration(), 0.0);
 }
@@ -72,7 +73,7 @@ TEST(CutStudy, TheMeanOfWhatIsLeftIsOfPointsThatAreNotTooDeep) {
     project.machine.file = "router-xyz";
     project.grid.nu = 6;
     project.grid.nv = 30;
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     project::ToolInput tool = ball_tool;
     tool.diameter_mm = 60.0;
     tool.length_mm = 100.0;
@@ -105,7 +106,7 @@ TEST(CutStudy, TellsTheBlocksThatGouge) {
     project.machine.file = "router-xyz";
     project.grid.nu = 6;
     project.grid.nv = 30;
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     project::ToolInput tool = ball_tool;
     tool.diameter_mm = 60.0;
     tool.length_mm = 100.0;
@@ -309,7 +310,8 @@ TEST(CutStudy, MeasuresTheGapBetweenTracksOfDifferentPoints) {
     const auto highest = [&](double largest_step_deg) {
         project.sequencing.largest_step_deg = largest_step_deg;
         const Plan plan = make_plan(project, {{}, project::assets_folder()}, {}, Scope::program);
-        EXPECT_EQ(largest_step_deg > 0.0, plan.uniform->toolpath.points.size() > 220U);
+        EXPECT_EQ(largest_step_deg > 0.0,
+                  plan.grid(GridMethod::uniform).evaluation->toolpath.points.size() > 220U);
         return study_cut(plan, project, {}).scallops.by_formula;
     };
     const double plain = highest(0.0);

@@ -15,6 +15,7 @@
 namespace millwright::plan {
 namespace {
 
+using project::GridMethod;
 using toolpath::SequencingGoal;
 
 struct Made {
@@ -33,7 +34,7 @@ Made tracks_on_two_bells(int nu, int nv, SequencingGoal goal) {
                         input.direction};
     workpiece.sequencing.goal = goal;
     const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
-    return {uniform, improved_evaluation({project::GridMethod::tracks, input, workpiece}, uniform, {})};
+    return {uniform, improved_evaluation({GridMethod::tracks, input, workpiece}, uniform, {})};
 }
 
 void expect_a_third_less(const Made& made) {
@@ -72,7 +73,7 @@ TEST(GridEvaluation, WhatTheChainDidStaysToldWhereAnotherGridIsTaken) {
                               test::machine("bc-table-head"),
                               input.direction};
     const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
-    const Evaluation found = improved_evaluation({project::GridMethod::chain, input, workpiece}, uniform, {});
+    const Evaluation found = improved_evaluation({GridMethod::chain, input, workpiece}, uniform, {});
     EXPECT_THAT(found.outcome.note, testing::HasSubstr("On the finished part no stage of the chain"));
     ASSERT_FALSE(found.outcome.links.empty());
     EXPECT_EQ(found.outcome.links.front().name, "start");
@@ -86,7 +87,7 @@ Made tracks_on_the_dome(double largest_step_deg) {
                         input.direction};
     workpiece.sequencing.largest_step = from_degrees(largest_step_deg);
     const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
-    return {uniform, improved_evaluation({project::GridMethod::tracks, input, workpiece}, uniform, {})};
+    return {uniform, improved_evaluation({GridMethod::tracks, input, workpiece}, uniform, {})};
 }
 
 // With points at every 30 degrees the uniform grid turns the axis less than the tracks do; its tip errs by
@@ -106,7 +107,7 @@ TEST(GridEvaluation, AddedPointsMakeNoTracksWorse) {
 }
 
 /// What was made, or the refusal; a Defect is neither.
-std::string made_or_refused(project::GridMethod method, const project::GridInput& input) {
+std::string made_or_refused(GridMethod method, const project::GridInput& input) {
     const Workpiece workpiece{geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
                               test::machine("rotary-tilt-listing"),
                               input.direction};
@@ -126,14 +127,14 @@ TEST(GridEvaluation, TwoNodesAlongASideAreEnoughOrRefused) {
         input.nv = nv;
         input.elliptic.max_iterations = 20;
         input.elliptic.max_rounds = 1;
-        for (const project::GridMethod method : project::every_grid_method) {
-            if (method != project::GridMethod::uniform) {
+        for (const GridMethod method : project::every_grid_method) {
+            if (method != GridMethod::uniform) {
                 EXPECT_EQ(made_or_refused(method, input), "made") << nu << " x " << nv;
             }
         }
         for (const auto solver : {grid::EllipticMethod::reference, grid::EllipticMethod::multigrid}) {
             input.elliptic.solver = solver;
-            EXPECT_THAT(made_or_refused(project::GridMethod::elliptic, input),
+            EXPECT_THAT(made_or_refused(GridMethod::elliptic, input),
                         testing::EndsWith(
                             fmt::format("needs at least 3 x 3 nodes, but the grid has {} x {}", nu, nv)));
         }

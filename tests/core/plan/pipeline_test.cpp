@@ -17,6 +17,7 @@
 namespace millwright::plan {
 namespace {
 
+using project::GridMethod;
 using test::sample_folders;
 using test::small_sample;
 using testing::HasSubstr;
@@ -49,7 +50,8 @@ TEST_F(PipelineTest, EndsWithTheSameAsThePlanOfTheCommandLine) {
     EXPECT_FALSE(published->failure);
     EXPECT_EQ(published->project, project);
     EXPECT_EQ(published->plan.listing->text, plan.listing->text);
-    EXPECT_EQ(published->plan.elliptic->closest.mean, plan.elliptic->closest.mean);
+    EXPECT_EQ(published->plan.grid(GridMethod::elliptic).evaluation->closest.mean,
+              plan.grid(GridMethod::elliptic).evaluation->closest.mean);
     EXPECT_EQ(published->plan.singular_points.size(), plan.singular_points.size());
     EXPECT_GT(woken, 0);
     EXPECT_FALSE(pipeline.activity().busy);
@@ -63,7 +65,7 @@ TEST_F(PipelineTest, ShowsTheNewSurfaceBeforeTheFiguresAreExact) {
     pipeline.request(project);
     const auto first = wait_for([&](const PublishedPlan& plan) { return plan.project == project; });
     EXPECT_NE(first->plan.surface, nullptr);
-    EXPECT_NE(first->plan.evaluation(project::GridMethod::tracks), nullptr)
+    EXPECT_NE(first->plan.grid(GridMethod::tracks).evaluation, nullptr)
         << "the grid of before follows the drag";
     pipeline.wait_idle();
     EXPECT_TRUE(pipeline.latest()->exact);
@@ -71,21 +73,24 @@ TEST_F(PipelineTest, ShowsTheNewSurfaceBeforeTheFiguresAreExact) {
 
 TEST_F(PipelineTest, KeepsTheWholeChainOfTheSameSettingsOnly) {
     project::Project project = small_sample("dome", 6);
-    project.grid.method = project::GridMethod::chain;
+    project.grid.method = GridMethod::chain;
     project.grid.chain.later_iterations = 10;
     pipeline.request(project);
     pipeline.wait_idle();
     const auto before = pipeline.latest();
-    ASSERT_NE(before->plan.chain, nullptr);
-    project.grid.method = project::GridMethod::tracks;
+    ASSERT_NE(before->plan.grid(GridMethod::chain).evaluation, nullptr);
+    project.grid.method = GridMethod::tracks;
     pipeline.request(project);
     pipeline.wait_idle();
-    EXPECT_EQ(pipeline.latest()->plan.chain, before->plan.chain) << "still there to compare";
-    project.grid.method = project::GridMethod::chain;
+    EXPECT_EQ(pipeline.latest()->plan.grid(GridMethod::chain).evaluation,
+              before->plan.grid(GridMethod::chain).evaluation)
+        << "still there to compare";
+    project.grid.method = GridMethod::chain;
     project.grid.chain.later_iterations = 0;
     pipeline.request(project);
     pipeline.wait_idle();
-    EXPECT_NE(pipeline.latest()->plan.chain, before->plan.chain);
+    EXPECT_NE(pipeline.latest()->plan.grid(GridMethod::chain).evaluation,
+              before->plan.grid(GridMethod::chain).evaluation);
 }
 
 TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
@@ -97,8 +102,10 @@ TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
     pipeline.request(project);
     pipeline.wait_idle();
     const auto feed = pipeline.latest();
-    EXPECT_EQ(feed->plan.optimised, before->plan.optimised);
-    EXPECT_EQ(feed->plan.uniform, before->plan.uniform);
+    EXPECT_EQ(feed->plan.grid(GridMethod::tracks).evaluation,
+              before->plan.grid(GridMethod::tracks).evaluation);
+    EXPECT_EQ(feed->plan.grid(GridMethod::uniform).evaluation,
+              before->plan.grid(GridMethod::uniform).evaluation);
     EXPECT_NE(feed->plan.program, before->plan.program);
     ASSERT_NE(before->plan.weight, nullptr);
     EXPECT_EQ(feed->plan.weight, before->plan.weight);
@@ -106,14 +113,61 @@ TEST_F(PipelineTest, KeepsWhatAChangeLeavesTrue) {
     pipeline.request(project);
     pipeline.wait_idle();
     const auto weight = pipeline.latest();
-    EXPECT_EQ(weight->plan.optimised, before->plan.optimised);
-    EXPECT_NE(weight->plan.elliptic, before->plan.elliptic);
+    EXPECT_EQ(weight->plan.grid(GridMethod::tracks).evaluation,
+              before->plan.grid(GridMethod::tracks).evaluation);
+    EXPECT_NE(weight->plan.grid(GridMethod::elliptic).evaluation,
+              before->plan.grid(GridMethod::elliptic).evaluation);
     EXPECT_EQ(weight->plan.program, feed->plan.program);
     EXPECT_EQ(weight->plan.weight, before->plan.weight) << "LV does not change w";
     project.grid.elliptic.weight = project::WeightSource::w1;
     pipeline.request(project);
     pipeline.wait_idle();
     EXPECT_NE(pipeline.latest()->plan.weight->values, before->plan.weight->values);
+}
+
+TEST_F(PipelineTest, MakesWhatIsWantedOnly) {
+    project::Project project = small_sample("dome", 6);
+    pipeline.want(Scope{.cut = true});
+    pipeline.request(project);
+    pipeline.wait_idle();
+    const auto alone = pipeline.latest();
+    EXPECT_TRUE(alone->exact);
+    EXPECT_NE(alone->plan.program, nullptr);
+    EXPECT_EQ(alone->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+    pipeline.want(Scope::everything);
+    pipeline.wait_idle();
+    const auto all = pipeline.latest();
+    EXPECT_TRUE(all->exact);
+    EXPECT_EQ(all->plan.program, alone->plan.program) << "it was there";
+    EXPECT_NE(all->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+    pipeline.want(Scope{.cut = true});
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->revision, all->revision) << "less is no work";
+    project.surface.patches[0].point(1, 1).z() += 5.0;
+    pipeline.request(project);
+    pipeline.wait_idle();
+    EXPECT_TRUE(pipeline.latest()->exact);
+    EXPECT_EQ(pipeline.latest()->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+}
+
+// What runs is not begun again, and what a person has cancelled does not come back by a look elsewhere.
+TEST_F(PipelineTest, MoreIsMadeAfterWhatRunsAndNotAfterACancel) {
+    const project::Project project = small_sample("two-bell", 40);
+    pipeline.want(Scope{});
+    pipeline.request(project);
+    (void)wait_for([](const PublishedPlan& plan) { return plan.plan.program != nullptr; });
+    pipeline.want(Scope{.times = true});
+    const auto alone = wait_for([](const PublishedPlan& plan) { return plan.program_exact; });
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->plan.program, alone->plan.program);
+    EXPECT_TRUE(pipeline.latest()->plan.grid(GridMethod::uniform).estimated_time);
+    pipeline.request(small_sample("two-bell", 60));
+    pipeline.cancel();
+    pipeline.wait_idle();
+    const auto revision = pipeline.latest()->revision;
+    pipeline.want(Scope::everything);
+    pipeline.wait_idle();
+    EXPECT_EQ(pipeline.latest()->revision, revision);
 }
 
 TEST_F(PipelineTest, TheLastOfManyRequestsWins) {
@@ -156,8 +210,8 @@ TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
     Pipeline pipeline(sample_folders, [&] {
         const std::scoped_lock lock(mutex);
         const auto plan = told->latest();
-        if (plan && plan->plan.uniform) {
-            uniform.push_back(plan->plan.uniform->outcome.status);
+        if (plan && plan->plan.grid(GridMethod::uniform).evaluation) {
+            uniform.push_back(plan->plan.grid(GridMethod::uniform).evaluation->outcome.status);
         }
     });
     told = &pipeline;
@@ -169,8 +223,8 @@ TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
     EXPECT_EQ(uniform.back(), grid::ImproverStatus::converged);
     const auto plan = pipeline.latest();
     ASSERT_TRUE(plan->exact);
-    for (const project::GridMethod method : project::compared_methods) {
-        EXPECT_NE(plan->plan.evaluation(method)->outcome.status, grid::ImproverStatus::running);
+    for (const GridMethod method : project::compared_methods) {
+        EXPECT_NE(plan->plan.grid(method).evaluation->outcome.status, grid::ImproverStatus::running);
     }
 }
 
@@ -193,7 +247,7 @@ TEST_F(PipelineTest, AFaultIsPublishedWithWhatCouldBeMade) {
 
 TEST_F(PipelineTest, AFaultOfAGridThatIsOnlyComparedLeavesTheProgram) {
     project::Project project = small_sample("dome", 5);
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     project.grid.elliptic.weight = project::WeightSource::expression;
     project.grid.elliptic.expression = "1/(u-u)";
     pipeline.request(project);
@@ -202,19 +256,19 @@ TEST_F(PipelineTest, AFaultOfAGridThatIsOnlyComparedLeavesTheProgram) {
     ASSERT_TRUE(published->failure);
     EXPECT_NE(published->plan.program, nullptr);
     EXPECT_EQ(published->plan.weight, nullptr);
-    EXPECT_TRUE(published->plan.failure(project::GridMethod::elliptic));
-    EXPECT_EQ(published->plan.elliptic, nullptr);
-    project.grid.method = project::GridMethod::uniform; // the other compared grid is made all the same
+    EXPECT_TRUE(published->plan.grid(GridMethod::elliptic).failure);
+    EXPECT_EQ(published->plan.grid(GridMethod::elliptic).evaluation, nullptr);
+    project.grid.method = GridMethod::uniform; // the other compared grid is made all the same
     pipeline.request(project);
     pipeline.wait_idle();
-    EXPECT_NE(pipeline.latest()->plan.optimised, nullptr);
-    EXPECT_TRUE(pipeline.latest()->plan.failure(project::GridMethod::elliptic));
+    EXPECT_NE(pipeline.latest()->plan.grid(GridMethod::tracks).evaluation, nullptr);
+    EXPECT_TRUE(pipeline.latest()->plan.grid(GridMethod::elliptic).failure);
 }
 
 // What a comparison marks on another grid is what the cutter would do if that were the program's.
 TEST_F(PipelineTest, TheCutterIsSweptAlongTheGridsBesideTheProgramToo) {
     project::Project project = small_sample("dome", 6);
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     project.tool.cutter = toolpath::CutterKind::ball;
     project.tool.diameter_mm = 40.0;
     pipeline.request(project);
@@ -222,11 +276,11 @@ TEST_F(PipelineTest, TheCutterIsSweptAlongTheGridsBesideTheProgramToo) {
     const auto published = pipeline.latest();
     ASSERT_TRUE(published->exact);
     const Plan& plan = published->plan;
-    EXPECT_EQ(plan.cut_of(project, plan.optimised.get()), plan.cut);
-    const auto beside = plan.cut_of(project, plan.uniform.get());
+    EXPECT_EQ(plan.cut_of(project, plan.grid(GridMethod::tracks).evaluation.get()), plan.cut);
+    const auto beside = plan.cut_of(project, plan.grid(GridMethod::uniform).evaluation.get());
     ASSERT_NE(beside, nullptr);
-    EXPECT_NE(plan.cut_of(project, plan.elliptic.get()), nullptr);
-    project.grid.method = project::GridMethod::uniform;
+    EXPECT_NE(plan.cut_of(project, plan.grid(GridMethod::elliptic).evaluation.get()), nullptr);
+    project.grid.method = GridMethod::uniform;
     Plan uniform = make_plan(project, sample_folders, Progress(), Scope::program);
     add_cut_study(uniform, project, Progress());
     EXPECT_EQ(beside->deepest, uniform.cut->deepest);
@@ -253,7 +307,7 @@ TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
     pipeline.request(small_sample("dome", 8));
     pipeline.wait_idle();
     EXPECT_EQ(pipeline.adaptation(), nullptr);
-    pipeline.start_adaptation(project::GridMethod::tracks);
+    pipeline.start_adaptation(GridMethod::tracks);
     EXPECT_EQ(pipeline.adaptation()->state, nullptr);
     EXPECT_FALSE(pipeline.adaptation()->playing);
     pipeline.step_adaptation();
@@ -269,7 +323,8 @@ TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
     const auto played = pipeline.adaptation();
     EXPECT_FALSE(played->playing);
     EXPECT_NE(played->state->status, grid::ImproverStatus::running);
-    EXPECT_EQ(played->state->best, pipeline.latest()->plan.optimised->outcome.grid) << "the plan's own grid";
+    EXPECT_EQ(played->state->best, pipeline.latest()->plan.grid(GridMethod::tracks).evaluation->outcome.grid)
+        << "the plan's own grid";
     EXPECT_GT(played->revision, stepped->revision);
     pipeline.reset_adaptation();
     EXPECT_EQ(pipeline.adaptation()->state, nullptr);
@@ -278,20 +333,21 @@ TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
 TEST_F(PipelineTest, APausedAdaptationGoesOnWhereItStood) {
     pipeline.request(small_sample("dome", 10));
     pipeline.wait_idle();
-    pipeline.start_adaptation(project::GridMethod::tracks);
+    pipeline.start_adaptation(GridMethod::tracks);
     pipeline.play_adaptation();
     pipeline.pause_adaptation();
     pipeline.wait_idle();
     EXPECT_FALSE(pipeline.adaptation()->playing);
     pipeline.play_adaptation();
     pipeline.wait_idle();
-    EXPECT_EQ(pipeline.adaptation()->state->best, pipeline.latest()->plan.optimised->outcome.grid);
+    EXPECT_EQ(pipeline.adaptation()->state->best,
+              pipeline.latest()->plan.grid(GridMethod::tracks).evaluation->outcome.grid);
 }
 
 TEST_F(PipelineTest, AnAdaptationEndsWhenItsGridIsNoLongerAskedFor) {
     project::Project project = small_sample("dome", 8);
     pipeline.request(project);
-    pipeline.start_adaptation(project::GridMethod::tracks);
+    pipeline.start_adaptation(GridMethod::tracks);
     pipeline.play_adaptation();
     project.program.feed_mm_per_min = 100.0;
     pipeline.request(project);
@@ -308,7 +364,7 @@ TEST_F(PipelineTest, WhatKeepsAnAdaptationFromStartingIsTold) {
     project::Project project = small_sample("dome", 8);
     project.machine.file = "none";
     pipeline.request(project);
-    pipeline.start_adaptation(project::GridMethod::tracks);
+    pipeline.start_adaptation(GridMethod::tracks);
     pipeline.step_adaptation();
     pipeline.wait_idle();
     ASSERT_TRUE(pipeline.adaptation()->failure);
@@ -319,7 +375,7 @@ TEST(PipelineEnd, AWorkingPipelineCanBeDestroyed) {
     for (int n = 0; n < 3; ++n) {
         Pipeline pipeline(sample_folders, [] {});
         pipeline.request(small_sample("two-bell", 40));
-        pipeline.start_adaptation(project::GridMethod::tracks);
+        pipeline.start_adaptation(GridMethod::tracks);
         pipeline.play_adaptation();
         std::this_thread::sleep_for(std::chrono::milliseconds(20 * n));
     }

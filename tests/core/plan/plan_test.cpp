@@ -18,6 +18,7 @@
 namespace millwright::plan {
 namespace {
 
+using project::GridMethod;
 using test::sample_folders;
 using test::small_sample;
 using testing::HasSubstr;
@@ -35,10 +36,15 @@ std::string failure_of(const project::Project& project) {
 TEST(Plan, NoGridIsWorseThanTheUniformOne) {
     for (const char* name : {"dome", "two-bell", "sine"}) {
         const Plan plan = make_plan(small_sample(name, 10), sample_folders, Progress());
-        for (const auto& better : {plan.elliptic, plan.optimised}) {
-            EXPECT_LE(better->closest.mean, plan.uniform->closest.mean) << name;
-            EXPECT_LE(better->closest.axis_max, plan.uniform->closest.axis_max + 1e-12) << name;
-            EXPECT_EQ(better->toolpath.points.size(), plan.uniform->toolpath.points.size()) << name;
+        for (const auto& better :
+             {plan.grid(GridMethod::elliptic).evaluation, plan.grid(GridMethod::tracks).evaluation}) {
+            EXPECT_LE(better->closest.mean, plan.grid(GridMethod::uniform).evaluation->closest.mean) << name;
+            EXPECT_LE(better->closest.axis_max,
+                      plan.grid(GridMethod::uniform).evaluation->closest.axis_max + 1e-12)
+                << name;
+            EXPECT_EQ(better->toolpath.points.size(),
+                      plan.grid(GridMethod::uniform).evaluation->toolpath.points.size())
+                << name;
             EXPECT_GT(better->outcome.grid.min_jacobian(), 0.0) << name;
         }
     }
@@ -49,10 +55,10 @@ TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
     project::Project project = small_sample("dome", 6);
     const Plan by_tracks = make_plan(project, sample_folders, Progress());
     EXPECT_THAT(by_tracks.listing->text, HasSubstr("6 x 6, Track optimiser"));
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     const Plan by_uniform = make_plan(project, sample_folders, Progress());
     EXPECT_NE(by_tracks.listing->text, by_uniform.listing->text);
-    EXPECT_EQ(by_uniform.evaluation(project::GridMethod::uniform), by_uniform.uniform);
+    EXPECT_EQ(by_uniform.program_path(project), by_uniform.grid(GridMethod::uniform).evaluation);
     int points = 0;
     for (const int block : program::blocks_of_points(*by_uniform.program, 36)) {
         points += block >= 0 ? 1 : 0;
@@ -68,24 +74,30 @@ TEST(Plan, TheNoteOfAKeptGridTellsOfNoAddedPoints) {
     project.grid.elliptic.weight = project::WeightSource::expression;
     project.grid.elliptic.expression = "1";
     const Plan plan = make_plan(project, sample_folders, Progress());
-    ASSERT_TRUE(keeps_grid(*plan.elliptic, *plan.uniform));
-    EXPECT_GT(std::ssize(plan.elliptic->toolpath.points), 64);
-    EXPECT_THAT(plan.elliptic->outcome.note, testing::Not(HasSubstr("sequencing added")));
-    EXPECT_THAT(plan.optimised->outcome.note, HasSubstr("sequencing added"));
+    ASSERT_TRUE(
+        keeps_grid(*plan.grid(GridMethod::elliptic).evaluation, *plan.grid(GridMethod::uniform).evaluation));
+    EXPECT_GT(std::ssize(plan.grid(GridMethod::elliptic).evaluation->toolpath.points), 64);
+    EXPECT_THAT(plan.grid(GridMethod::elliptic).evaluation->outcome.note,
+                testing::Not(HasSubstr("sequencing added")));
+    EXPECT_THAT(plan.grid(GridMethod::tracks).evaluation->outcome.note, HasSubstr("sequencing added"));
 }
 
 TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
     project::Project project = small_sample("two-bell", 8);
-    EXPECT_EQ(make_plan(project, sample_folders, Progress()).chain, nullptr);
-    project.grid.method = project::GridMethod::chain;
+    EXPECT_EQ(make_plan(project, sample_folders, Progress()).grid(GridMethod::chain).evaluation, nullptr);
+    project.grid.method = GridMethod::chain;
     project.grid.chain.later_iterations = 30;
     const Plan plan = make_plan(project, sample_folders, Progress());
-    ASSERT_NE(plan.chain, nullptr);
-    EXPECT_LT(plan.chain->closest.mean, plan.optimised->closest.mean);
-    EXPECT_LE(plan.chain->track_gap.value(), 1.15 * plan.uniform->track_gap.value());
+    ASSERT_NE(plan.grid(GridMethod::chain).evaluation, nullptr);
+    EXPECT_LT(plan.grid(GridMethod::chain).evaluation->closest.mean,
+              plan.grid(GridMethod::tracks).evaluation->closest.mean);
+    EXPECT_LE(plan.grid(GridMethod::chain).evaluation->track_gap.value(),
+              1.15 * plan.grid(GridMethod::uniform).evaluation->track_gap.value());
     EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Whole chain"));
     const auto report = nlohmann::json::parse(report_text(project, plan));
-    EXPECT_NEAR(report.at("error").at("chain").at("closest").at("mean"), plan.chain->closest.mean, 1e-6);
+    EXPECT_NEAR(report.at("error").at("chain").at("closest").at("mean"),
+                plan.grid(GridMethod::chain).evaluation->closest.mean,
+                1e-6);
     const auto& links = report.at("error").at("chain").at("links");
     EXPECT_EQ(links.front().at("name"), "start");
     EXPECT_EQ(links.back().at("name"), "all nodes at once, exponent 32");
@@ -95,20 +107,20 @@ TEST(Plan, TheWholeChainIsMadeWhereItWasChosen) {
 // What is wrong with a grid that is only compared is its own.
 TEST(Plan, AComparedGridThatFailsLeavesTheProgram) {
     project::Project project = small_sample("dome", 6);
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     project.grid.elliptic.weight = project::WeightSource::expression;
     project.grid.elliptic.expression = "1/(u-u)";
     const Plan plan = make_plan(project, sample_folders, Progress());
     EXPECT_NE(plan.program, nullptr);
-    EXPECT_EQ(plan.elliptic, nullptr);
+    EXPECT_EQ(plan.grid(GridMethod::elliptic).evaluation, nullptr);
     EXPECT_EQ(plan.weight, nullptr);
-    ASSERT_TRUE(plan.failure(project::GridMethod::elliptic));
-    EXPECT_FALSE(plan.failure(project::GridMethod::tracks));
+    ASSERT_TRUE(plan.grid(GridMethod::elliptic).failure);
+    EXPECT_FALSE(plan.grid(GridMethod::tracks).failure);
     const auto report = nlohmann::json::parse(report_text(project, plan));
     EXPECT_EQ(report.at("error").at("adapted").at("failed"),
-              to_text(*plan.failure(project::GridMethod::elliptic)));
+              to_text(*plan.grid(GridMethod::elliptic).failure));
     EXPECT_GT(report.at("error").at("optimised").at("points"), 0);
-    project.grid.method = project::GridMethod::elliptic; // now the program needs it
+    project.grid.method = GridMethod::elliptic; // now the program needs it
     EXPECT_NE(failure_of(project), "no failure");
 }
 
@@ -119,11 +131,13 @@ TEST(Plan, AWeightThatIsNotPositiveIsToldWithTheGrid) {
         project.grid.elliptic.weight = project::WeightSource::expression;
         project.grid.elliptic.expression = formula;
         const Plan plan = make_plan(project, sample_folders, Progress());
-        ASSERT_NE(plan.elliptic, nullptr) << formula;
-        EXPECT_THAT(plan.elliptic->outcome.warning, HasSubstr("not positive at")) << formula;
-        EXPECT_EQ(plan.optimised->outcome.warning, "");
+        ASSERT_NE(plan.grid(GridMethod::elliptic).evaluation, nullptr) << formula;
+        EXPECT_THAT(plan.grid(GridMethod::elliptic).evaluation->outcome.warning, HasSubstr("not positive at"))
+            << formula;
+        EXPECT_EQ(plan.grid(GridMethod::tracks).evaluation->outcome.warning, "");
         const auto report = nlohmann::json::parse(report_text(project, plan));
-        EXPECT_EQ(report.at("error").at("adapted").at("warning"), plan.elliptic->outcome.warning);
+        EXPECT_EQ(report.at("error").at("adapted").at("warning"),
+                  plan.grid(GridMethod::elliptic).evaluation->outcome.warning);
     }
 }
 
@@ -131,10 +145,10 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
     project::GridInput input = small_sample("dome", 1000).grid;
     constexpr std::size_t plenty = 64'000'000'000;
     constexpr std::size_t little = 100'000'000;
-    EXPECT_FALSE(memory_fault(project::GridMethod::elliptic, input, plenty));
-    EXPECT_FALSE(memory_fault(project::GridMethod::elliptic, input, std::nullopt));
-    EXPECT_FALSE(memory_fault(project::GridMethod::tracks, input, little));
-    for (const project::GridMethod method : {project::GridMethod::elliptic, project::GridMethod::harmonic}) {
+    EXPECT_FALSE(memory_fault(GridMethod::elliptic, input, plenty));
+    EXPECT_FALSE(memory_fault(GridMethod::elliptic, input, std::nullopt));
+    EXPECT_FALSE(memory_fault(GridMethod::tracks, input, little));
+    for (const GridMethod method : {GridMethod::elliptic, GridMethod::harmonic}) {
         const auto fault = memory_fault(method, input, little);
         ASSERT_TRUE(fault);
         EXPECT_THAT(fault->message, HasSubstr("more than half of the 100 MB of free memory"));
@@ -147,8 +161,8 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
 
 TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
     project::Project project = small_sample("dome", 500);
-    project.grid.method = project::GridMethod::uniform;
-    EXPECT_FALSE(is_left_out(project, project::GridMethod::elliptic));
+    project.grid.method = GridMethod::uniform;
+    EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
     EXPECT_EQ(left_out_sentence(project), "");
     project.grid.nu = 501;
     const std::string why = left_out_sentence(project);
@@ -158,24 +172,24 @@ TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
     EXPECT_THAT(memory_sentences(project, Scope::everything),
                 testing::ElementsAre("The path, program and motion of 250500 points need about 1.0 GB."));
     const Plan plan = make_plan(project, sample_folders, Progress());
-    EXPECT_FALSE(plan.elliptic || plan.optimised);
+    EXPECT_FALSE(plan.grid(GridMethod::elliptic).evaluation || plan.grid(GridMethod::tracks).evaluation);
     EXPECT_TRUE(plan.trajectory);
     const auto report = nlohmann::json::parse(report_text(project, plan));
     for (const char* grid : {"adapted", "optimised"}) {
         EXPECT_EQ(report.at("error").at(grid).at("left_out"), why);
     }
-    project.grid.method = project::GridMethod::elliptic;
-    EXPECT_FALSE(is_left_out(project, project::GridMethod::elliptic));
+    project.grid.method = GridMethod::elliptic;
+    EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
 }
 
 TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
     project::Project project = small_sample("dome", 500);
-    project.grid.method = project::GridMethod::harmonic;
+    project.grid.method = GridMethod::harmonic;
     EXPECT_THAT(memory_sentences(project, Scope::program),
-                testing::ElementsAre(
-                    testing::MatchesRegex("The harmonic map of 500 x 500 nodes needs up to [0-9]+ MB\\.")));
+                testing::ElementsAre(testing::MatchesRegex("The harmonic map of 500 x 500 nodes needs up to "
+                                                           "[0-9]+ MB\\.")));
     EXPECT_EQ(memory_sentences(project, Scope::everything).size(), 2U);
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     EXPECT_TRUE(memory_sentences(project, Scope::program).empty());
     EXPECT_TRUE(memory_sentences(small_sample("dome", 99), Scope::everything).empty());
 }
@@ -184,7 +198,7 @@ TEST(Plan, OfTheProgramAloneLeavesOtherGridsOut) {
     const project::Project project = small_sample("dome", 6);
     const Plan whole = make_plan(project, sample_folders, Progress());
     const Plan part = make_plan(project, sample_folders, Progress(), Scope::program);
-    EXPECT_EQ(part.elliptic, nullptr);
+    EXPECT_EQ(part.grid(GridMethod::elliptic).evaluation, nullptr);
     EXPECT_EQ(part.listing->text, whole.listing->text);
 }
 
@@ -264,7 +278,9 @@ TEST(Report, HasTheFieldsThatProgramsReadAndTheirFigures) {
         EXPECT_GT(error.at("estimated_time_s"), 0.0);
         EXPECT_LE(error.at("closest").at("mean"), report.at("error").at("uniform").at("closest").at("mean"));
     }
-    EXPECT_NEAR(report.at("error").at("uniform").at("closest").at("max"), plan.uniform->closest.max, 1e-6);
+    EXPECT_NEAR(report.at("error").at("uniform").at("closest").at("max"),
+                plan.grid(GridMethod::uniform).evaluation->closest.max,
+                1e-6);
     EXPECT_EQ(report.at("error").at("uniform").at("min_jacobian"), 1.0);
     const auto& grid = report.at("grid");
     EXPECT_EQ(grid.at("nu"), 8);
@@ -275,7 +291,7 @@ TEST(Report, HasTheFieldsThatProgramsReadAndTheirFigures) {
     EXPECT_EQ(report.at("surface").at("preset"), "dome");
     EXPECT_EQ(report.at("machine").at("axes"), "XYZAB");
     EXPECT_EQ(report.at("points"), 64);
-    EXPECT_NEAR(report.at("path_length_mm"), plan.optimised->path_length, 1e-6);
+    EXPECT_NEAR(report.at("path_length_mm"), plan.grid(GridMethod::tracks).evaluation->path_length, 1e-6);
     EXPECT_NEAR(report.at("estimated_time_s"), plan.trajectory->duration(), 1e-6);
     EXPECT_EQ(report.at("estimated_time_s"), report.at("error").at("optimised").at("estimated_time_s"));
     EXPECT_EQ(report.at("singular_points").size(), plan.singular_points.size());
@@ -287,7 +303,7 @@ TEST(Plan, OfLeastTimeIsNoSlowerByThePlannerThanTheOtherWays) {
     using toolpath::SequencingGoal;
     project::Project project = small_sample("two-bell", 12);
     project.machine.file = "tilted-c-table";
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     const auto plan_for = [&](SequencingGoal goal) {
         project.sequencing.goal = goal;
         return make_plan(project, sample_folders, Progress(), Scope::program);
@@ -298,7 +314,7 @@ TEST(Plan, OfLeastTimeIsNoSlowerByThePlannerThanTheOtherWays) {
     EXPECT_LE(fastest.trajectory->duration(), plan_for(SequencingGoal::travel).trajectory->duration());
     EXPECT_EQ(nearest.unsequenced, nullptr);
     ASSERT_NE(fastest.unsequenced, nullptr);
-    EXPECT_EQ(fastest.unsequenced->closest.max, nearest.uniform->closest.max);
+    EXPECT_EQ(fastest.unsequenced->closest.max, nearest.grid(GridMethod::uniform).evaluation->closest.max);
     EXPECT_NEAR(fastest.unsequenced_time.value(), nearest.trajectory->duration(), 1e-3);
 }
 

@@ -18,6 +18,7 @@
 namespace millwright::plan {
 namespace {
 
+using project::GridMethod;
 using test::sample_folders;
 using testing::HasSubstr;
 
@@ -104,10 +105,10 @@ INSTANTIATE_TEST_SUITE_P(Each,
 TEST(StrategyPath, IsoParametricIsTheZigzagOverTheUniformGrid) {
     project::Project project = dome_with_strategy(project::StrategyInput::iso_parametric);
     const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
-    EXPECT_EQ(plan.program_path(project), plan.uniform);
-    EXPECT_EQ(plan.optimised, nullptr) << "its nodes are of no use";
+    EXPECT_EQ(plan.program_path(project), plan.grid(GridMethod::uniform).evaluation);
+    EXPECT_EQ(plan.grid(GridMethod::tracks).evaluation, nullptr) << "its nodes are of no use";
     project.toolpath.strategy = project::StrategyInput::zigzag;
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     const Plan uniform = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(plan.program->block_count(), uniform.program->block_count());
     EXPECT_EQ(plan.trajectory->duration(), uniform.trajectory->duration());
@@ -122,7 +123,7 @@ TEST(StrategyPath, ConstantScallopOfAPointIsToldAndTheGridsStay) {
     const auto published = pipeline.latest();
     ASSERT_TRUE(published->failure);
     EXPECT_THAT(published->failure->message, HasSubstr("a point tool leaves no scallops"));
-    EXPECT_NE(published->plan.uniform, nullptr);
+    EXPECT_NE(published->plan.grid(GridMethod::uniform).evaluation, nullptr);
     EXPECT_EQ(published->plan.program, nullptr);
     EXPECT_NO_THROW((void)project::project_text(project)) << "it can be saved all the same";
 }
@@ -134,7 +135,7 @@ TEST(StrategyPath, TheBackgroundKeepsAPathWhoseChoicesStand) {
     pipeline.wait_idle();
     const auto before = pipeline.latest();
     project.program.feed_mm_per_min = 900.0;
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     pipeline.request(project);
     pipeline.wait_idle();
     EXPECT_EQ(pipeline.latest()->plan.path, before->plan.path);
@@ -171,18 +172,23 @@ TEST(StrategyPath, ASpiralFollowsTheGridThatIsMadeAnew) {
 TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
     project::Project project = project::project_from_preset("two-bell");
     project.grid.nu = project.grid.nv = 8;
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     project.toolpath.strategy = project::StrategyInput::spiral;
     const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
-    const Evaluation even =
-        evaluate(*plan.workpiece, plan.uniform->outcome, strategy_settings(project), report_sampling, {});
-    ASSERT_FALSE(keeps_grid(*plan.optimised, *plan.uniform)) << "else there is nothing to refuse";
+    const Evaluation even = evaluate(*plan.workpiece,
+                                     plan.grid(GridMethod::uniform).evaluation->outcome,
+                                     strategy_settings(project),
+                                     report_sampling,
+                                     {});
+    ASSERT_FALSE(
+        keeps_grid(*plan.grid(GridMethod::tracks).evaluation, *plan.grid(GridMethod::uniform).evaluation))
+        << "else there is nothing to refuse";
     EXPECT_FALSE(is_worse(*plan.path, even, plan.workpiece->machine));
     EXPECT_LE(*plan.path->track_gap, 1.1 * *even.track_gap);
     EXPECT_EQ(plan.path->outcome.status, grid::ImproverStatus::no_gain);
     EXPECT_THAT(crossing_remark(project, plan), HasSubstr("than over the uniform grid"));
     EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Uniform"));
-    project.grid.method = project::GridMethod::uniform;
+    project.grid.method = GridMethod::uniform;
     const Plan plain = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(plain.path->closest.max, plan.path->closest.max);
     EXPECT_EQ(crossing_remark(project, plain), "");
@@ -191,12 +197,13 @@ TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
 TEST(StrategyPath, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
     project::Project project = project::project_from_preset("two-bell");
     project.grid.nu = project.grid.nv = 8;
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     const Plan plain = make_plan(project, sample_folders, Progress(), Scope::program);
     EXPECT_EQ(sequencing_remark(project, plain), "");
     project.sequencing.largest_step_deg = 20.0;
     const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
-    ASSERT_GT(plan.optimised->closest.axis_max, plan.uniform->closest.axis_max);
+    ASSERT_GT(plan.grid(GridMethod::tracks).evaluation->closest.axis_max,
+              plan.grid(GridMethod::uniform).evaluation->closest.axis_max);
     EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("axis "));
     EXPECT_THAT(path_remarks(project, plan), testing::ElementsAre(HasSubstr("use the uniform grid.")));
 }
@@ -205,16 +212,18 @@ TEST(StrategyPath, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
 TEST(StrategyPath, ASequencingThatMakesNoFigureOfThePromiseWorseIsNotBlamed) {
     project::Project project = project::project_from_preset("two-bell");
     project.grid.nu = project.grid.nv = 8;
-    project.grid.method = project::GridMethod::tracks;
+    project.grid.method = GridMethod::tracks;
     project.sequencing.goal = toolpath::SequencingGoal::travel;
     Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
-    ASSERT_NEAR(plan.unsequenced->axes.rotary_travel, plan.optimised->axes.rotary_travel, 1e-9);
-    Evaluation longer = *plan.optimised;
-    longer.closest.lmean = 1.1 * plan.uniform->closest.lmean;
-    plan.optimised = std::make_shared<const Evaluation>(longer);
+    ASSERT_NEAR(plan.unsequenced->axes.rotary_travel,
+                plan.grid(GridMethod::tracks).evaluation->axes.rotary_travel,
+                1e-9);
+    Evaluation longer = *plan.grid(GridMethod::tracks).evaluation;
+    longer.closest.lmean = 1.1 * plan.grid(GridMethod::uniform).evaluation->closest.lmean;
+    plan.grid(GridMethod::tracks).evaluation = std::make_shared<const Evaluation>(longer);
     EXPECT_EQ(sequencing_remark(project, plan), "");
-    longer.closest.mean = 1.1 * plan.uniform->closest.mean;
-    plan.optimised = std::make_shared<const Evaluation>(longer);
+    longer.closest.mean = 1.1 * plan.grid(GridMethod::uniform).evaluation->closest.mean;
+    plan.grid(GridMethod::tracks).evaluation = std::make_shared<const Evaluation>(longer);
     EXPECT_THAT(sequencing_remark(project, plan), HasSubstr("length-weighted mean"));
 }
 
@@ -231,7 +240,7 @@ TEST(StrategyPath, CancelStopsItAtOnce) {
     EXPECT_TRUE(!pipeline.latest() || !pipeline.latest()->plan.path);
 }
 
-class GridMethodOfAProject : public testing::TestWithParam<project::GridMethod> {};
+class GridMethodOfAProject : public testing::TestWithParam<GridMethod> {};
 
 TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFile) {
     project::Project project = dome_with_strategy(project::StrategyInput::zigzag);
@@ -244,7 +253,8 @@ TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFi
     const auto improver = make_improver(GetParam(), project.grid, error);
     const GridOutcome outcome = improved_outcome(*improver, Progress());
     EXPECT_EQ(plan.program_path(project)->outcome.grid, outcome.grid);
-    EXPECT_LT(plan.program_path(project)->closest.mean, plan.uniform->closest.mean);
+    EXPECT_LT(plan.program_path(project)->closest.mean,
+              plan.grid(GridMethod::uniform).evaluation->closest.mean);
     const auto report = nlohmann::json::parse(report_text(project, plan));
     EXPECT_TRUE(report.at("error").contains(project::row_of(project::grid_methods(), GetParam()).id));
 
@@ -256,14 +266,14 @@ TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFi
 
 INSTANTIATE_TEST_SUITE_P(Each,
                          GridMethodOfAProject,
-                         testing::Values(project::GridMethod::redistribution, project::GridMethod::harmonic),
+                         testing::Values(GridMethod::redistribution, GridMethod::harmonic),
                          [](const auto& param) {
                              return std::string(project::row_of(project::grid_methods(), param.param).id);
                          });
 
 TEST(GridMethods, TheHarmonicMapIsNotMadeAnewForWhatItDoesNotHave) {
     project::Project project = dome_with_strategy(project::StrategyInput::zigzag);
-    project.grid.method = project::GridMethod::harmonic;
+    project.grid.method = GridMethod::harmonic;
     Pipeline pipeline(sample_folders, [] {});
     pipeline.request(project);
     pipeline.wait_idle();
@@ -271,12 +281,15 @@ TEST(GridMethods, TheHarmonicMapIsNotMadeAnewForWhatItDoesNotHave) {
     project.grid.elliptic.adaptation = 50.0;
     pipeline.request(project);
     pipeline.wait_idle();
-    EXPECT_EQ(pipeline.latest()->plan.harmonic, before->plan.harmonic);
-    EXPECT_NE(pipeline.latest()->plan.elliptic, before->plan.elliptic);
+    EXPECT_EQ(pipeline.latest()->plan.grid(GridMethod::harmonic).evaluation,
+              before->plan.grid(GridMethod::harmonic).evaluation);
+    EXPECT_NE(pipeline.latest()->plan.grid(GridMethod::elliptic).evaluation,
+              before->plan.grid(GridMethod::elliptic).evaluation);
     project.grid.elliptic.sliding_boundary = false;
     pipeline.request(project);
     pipeline.wait_idle();
-    EXPECT_NE(pipeline.latest()->plan.harmonic, before->plan.harmonic);
+    EXPECT_NE(pipeline.latest()->plan.grid(GridMethod::harmonic).evaluation,
+              before->plan.grid(GridMethod::harmonic).evaluation);
 }
 
 TEST(GridMethods, AFileOfTheTimeWhenTheHarmonicMapWasASolverOpensAsOneOfItsMethod) {
@@ -284,7 +297,7 @@ TEST(GridMethods, AFileOfTheTimeWhenTheHarmonicMapWasASolverOpensAsOneOfItsMetho
         "machine": {"file": "ac-table"}, "surface": {"preset": "dome"},
         "grid": {"method": "elliptic", "elliptic": {"solver": "harmonic"}}})";
     const project::Project project = project::project_from_text(text, "old.json");
-    EXPECT_EQ(project.grid.method, project::GridMethod::harmonic);
+    EXPECT_EQ(project.grid.method, GridMethod::harmonic);
     EXPECT_EQ(project.grid.elliptic.solver, project::EllipticInput{}.solver);
     EXPECT_TRUE(project::faults_of(project).empty());
 }

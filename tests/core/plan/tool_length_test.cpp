@@ -50,12 +50,15 @@ TEST(GaugeLength, ReachesTheBlocksOfAHeadThatSwings) {
     EXPECT_NE(shorter.listing->text, longer.listing->text);
     EXPECT_THAT(longer.listing->text, HasSubstr("\nT1 M6\nG43 H1\n"));
     EXPECT_THAT(longer.listing->text, HasSubstr("50 mm longer than the machine file's tool of 40 mm"));
-    ASSERT_EQ(shorter.uniform->toolpath.points.size(), longer.uniform->toolpath.points.size());
+    ASSERT_EQ(shorter.grid(GridMethod::uniform).evaluation->toolpath.points.size(),
+              longer.grid(GridMethod::uniform).evaluation->toolpath.points.size());
     double moved = 0.0;
-    for (std::size_t n = 0; n < longer.uniform->axes.positions.size(); ++n) {
-        moved = std::max(
-            moved,
-            (longer.uniform->axes.positions[n] - shorter.uniform->axes.positions[n]).cwiseAbs().maxCoeff());
+    for (std::size_t n = 0; n < longer.grid(GridMethod::uniform).evaluation->axes.positions.size(); ++n) {
+        moved = std::max(moved,
+                         (longer.grid(GridMethod::uniform).evaluation->axes.positions[n] -
+                          shorter.grid(GridMethod::uniform).evaluation->axes.positions[n])
+                             .cwiseAbs()
+                             .maxCoeff());
     }
     EXPECT_GT(moved, 10.0);
 }

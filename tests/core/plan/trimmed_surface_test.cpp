@@ -140,7 +140,7 @@ TEST(TrimmedSurfaceWaist, NodesThatAreNeverCutNeedNoNormal) {
     const geometry::BezierPatch patch(project.surface.patches.front());
     ASSERT_FALSE(patch.unit_normal(0.5, 0.5));
     const plan::Plan plan = plan::make_plan(project, sample_folders, Progress());
-    for (const toolpath::PathPoint& point : plan.uniform->toolpath.points) {
+    for (const toolpath::PathPoint& point : plan.grid(GridMethod::uniform).evaluation->toolpath.points) {
         EXPECT_NEAR(point.normal.norm(), 1.0, 1e-12);
         EXPECT_TRUE(point.origin.uv.x() < 0.3 + 1e-9 || point.origin.uv.x() > 0.7 - 1e-9);
     }

@@ -51,8 +51,8 @@ TEST_F(GridTold, ACancelledChainLeavesANotice) {
     person_.workshop().run("work.cancel");
     person_.wait_idle();
     EXPECT_TRUE(
-        was_told("Cancelled: Moving all nodes at once. Missing results are computed after the next change"));
-    EXPECT_FALSE(person_.workshop().look().plan->plan.chain);
+        was_told("Cancelled: Moving all nodes at once. What is missing is made with the next change"));
+    EXPECT_FALSE(person_.workshop().look().plan->plan.grid(GridMethod::chain).evaluation);
     person_.keep("grid-chain-cancelled");
 }
 
@@ -66,7 +66,7 @@ TEST_F(GridTold, AWatchedChainThatIsCancelledIsNoProgram) {
     person_.workshop().run("work.cancel");
     person_.wait_idle();
     EXPECT_TRUE(was_told("Cancelled: "));
-    EXPECT_FALSE(was_told("Missing results")) << "nothing of the project is";
+    EXPECT_FALSE(was_told("What is missing")) << "nothing of the project is";
     ASSERT_TRUE(watched() && watched()->state);
     EXPECT_FALSE(watched()->playing);
     EXPECT_EQ(watched()->state->status, grid::ImproverStatus::running);

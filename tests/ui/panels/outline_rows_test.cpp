@@ -40,9 +40,10 @@ TEST_F(Outline, AFigureOfARunningWorkIsMarked) {
     EXPECT_FALSE(row(now, "tracks").so_far);
     EXPECT_NE(row(now, "tracks").detail.front(), '~');
     plan::PublishedPlan plan = *now.plan;
-    plan::Evaluation coarse = *plan.plan.optimised;
+    plan::Evaluation coarse = *plan.plan.grid(GridMethod::tracks).evaluation;
     coarse.outcome.status = grid::ImproverStatus::running;
-    plan.plan.optimised = std::make_shared<const plan::Evaluation>(std::move(coarse));
+    plan.plan.grid(GridMethod::tracks).evaluation =
+        std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_TRUE(row(now, "tracks").so_far);
     EXPECT_EQ(row(now, "tracks").detail.substr(0, 2), "~ ");

@@ -106,9 +106,10 @@ TEST_F(PlottedPaths, OfAGridThatIsOnlyWatchedThereIsNoneAndTheProgramsStands) {
 TEST_F(PlottedPaths, AreMarkedSoFarAndNoneWhereAFileIsOnScreen) {
     actions::Workbench now = person_.workshop().look();
     plan::PublishedPlan plan = *now.plan;
-    plan::Evaluation coarse = *plan.plan.optimised;
+    plan::Evaluation coarse = *plan.plan.grid(GridMethod::tracks).evaluation;
     coarse.outcome.status = grid::ImproverStatus::running;
-    plan.plan.optimised = std::make_shared<const plan::Evaluation>(std::move(coarse));
+    plan.plan.grid(GridMethod::tracks).evaluation =
+        std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_EQ(plotted_paths(now).back().name, "Track optimiser, program path (preliminary)");
     const auto file = person_.folder() / "part.ngc";

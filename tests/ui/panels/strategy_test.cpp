@@ -51,7 +51,7 @@ TEST_F(Strategies, ASpiralIsChosenShownAndUndone) {
     EXPECT_FALSE(person_.sees("inspector/strategy/scallop_mm"));
     person_.keep("strategy-spiral");
     person_.choose("inspector/error/shown", "tracks");
-    EXPECT_EQ(person_.workshop().look().shown(), plan().optimised);
+    EXPECT_EQ(person_.workshop().look().shown(), plan().grid(GridMethod::tracks).evaluation);
     person_.click("lower/tabs/compare");
     person_.keep("strategy-compare");
     person_.choose("inspector/error/shown", "path");
@@ -152,15 +152,16 @@ TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
     person_.frames();
     EXPECT_FALSE(person_.sees("inspector/redistribution/floor"));
     person_.choose("inspector/grid/method", "redistribution");
-    ASSERT_NE(plan().redistributed, nullptr);
+    ASSERT_NE(plan().grid(GridMethod::redistribution).evaluation, nullptr);
     EXPECT_TRUE(person_.sees("inspector/redistribution/floor"));
-    const double even = plan().redistributed->closest.mean;
+    const double even = plan().grid(GridMethod::redistribution).evaluation->closest.mean;
     person_.fill_in("inspector/redistribution/floor", "50");
     person_.wait_idle();
-    EXPECT_GT(plan().redistributed->closest.mean, even) << "nearly equal steps again";
+    EXPECT_GT(plan().grid(GridMethod::redistribution).evaluation->closest.mean, even)
+        << "nearly equal steps again";
     person_.choose("inspector/grid/method", "harmonic");
-    ASSERT_NE(plan().harmonic, nullptr);
-    EXPECT_EQ(person_.workshop().look().shown(), plan().harmonic);
+    ASSERT_NE(plan().grid(GridMethod::harmonic).evaluation, nullptr);
+    EXPECT_EQ(person_.workshop().look().shown(), plan().grid(GridMethod::harmonic).evaluation);
     EXPECT_FALSE(person_.sees("inspector/redistribution/floor"));
     EXPECT_FALSE(person_.sees("inspector/elliptic/adaptation"));
     EXPECT_FALSE(person_.sees("inspector/elliptic/solver"));
@@ -184,12 +185,12 @@ TEST_F(Strategies, OnlyGridsThatAreMadeAreShownAndKept) {
     EXPECT_FALSE(person_.sees("inspector/error/shown/chain"));
     person_.keep("toolpath-shown-grids");
     person_.click("inspector/error/shown/elliptic");
-    EXPECT_EQ(look().shown(), plan().evaluation(GridMethod::elliptic));
+    EXPECT_EQ(look().shown(), plan().grid(GridMethod::elliptic).evaluation);
     person_.workshop().run("view.show_harmonic"); // refused
     EXPECT_EQ(look().shown_name(), "Elliptic");
     person_.workshop().session().shown = GridMethod::harmonic; // as after a machine was changed
     person_.frames();
-    EXPECT_EQ(look().shown(), plan().uniform);
+    EXPECT_EQ(look().shown(), plan().grid(GridMethod::uniform).evaluation);
     EXPECT_EQ(look().shown_name(), "Uniform");
     person_.keep("toolpath-shown-not-made");
     person_.workshop().run("view.keep_result");

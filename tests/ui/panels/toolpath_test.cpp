@@ -12,6 +12,7 @@
 namespace millwright::panels {
 namespace {
 
+using project::GridMethod;
 using test::dome_project;
 using test::Person;
 using toolpath::CutterKind;
@@ -145,12 +146,12 @@ TEST_F(ToolpathWorkspace, GougesAreMarkedAndListedAndAClickGoesThere) {
                             [](project::Project& p) {
                                 p.surface = project::project_from_preset("two-bell").surface;
                                 p.machine.file = "router-xyz";
-                                p.grid.method = project::GridMethod::uniform;
+                                p.grid.method = GridMethod::uniform;
                                 p.tool = {
                                     .cutter = CutterKind::ball, .diameter_mm = 60.0, .length_mm = 100.0};
                             },
                             {});
-    person_.workshop().session().shown = project::GridMethod::uniform;
+    person_.workshop().session().shown = GridMethod::uniform;
     person_.wait_idle();
     ASSERT_TRUE(plan().cut);
     ASSERT_FALSE(plan().cut->bites.empty());
@@ -181,11 +182,11 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
     ASSERT_TRUE(found && found->study);
     EXPECT_TRUE(person_.sees("inspector/set_up_search/map"));
     person_.keep("toolpath-set-up");
-    const double before = person_.workshop().look().evaluation(project::GridMethod::uniform)->closest.mean;
+    const double before = person_.workshop().look().evaluation(GridMethod::uniform)->closest.mean;
     person_.click("inspector/set_up_search/set_up_accept");
     person_.wait_idle();
     EXPECT_EQ(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
-    EXPECT_LT(person_.workshop().look().evaluation(project::GridMethod::uniform)->closest.mean, before);
+    EXPECT_LT(person_.workshop().look().evaluation(GridMethod::uniform)->closest.mean, before);
     const std::string accept = "inspector/set_up_search/set_up_accept";
     EXPECT_EQ(person_.refusal(accept), "The part is already there.");
     person_.keep("toolpath-set-up-accepted");
@@ -243,7 +244,7 @@ TEST_F(ToolpathWorkspace, BothResultsOfAComparisonHaveTheirMarks) {
     person_.choose("inspector/error/beside", "uniform");
     const auto look = [&] { return person_.workshop().look(); };
     const auto right = plan().cut_of(look().project, look().shown().get());
-    const auto left = plan().cut_of(look().project, plan().uniform.get());
+    const auto left = plan().cut_of(look().project, plan().grid(GridMethod::uniform).evaluation.get());
     ASSERT_TRUE(left && right);
     EXPECT_NE(left, right);
     EXPECT_FALSE(left->bites.empty());

@@ -139,7 +139,7 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     const std::vector<ErrorRow> rows = error_rows(now);
     EXPECT_EQ(rows[program].cells.back(), fixed(now.trajectory()->duration(), 1));
     for (std::size_t n = 0; n < rows.size(); ++n) {
-        const auto& time = now.plan->plan.estimated_times[n];
+        const auto& time = now.plan->plan.grids[n].estimated_time;
         EXPECT_EQ(rows[n].cells.back(), time ? fixed(*time, 1) : "-");
     }
 }
@@ -152,9 +152,10 @@ TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic");
 
-    plan::Evaluation carried = *plan.plan.evaluation(GridMethod::elliptic);
+    plan::Evaluation carried = *plan.plan.grid(GridMethod::elliptic).evaluation;
     carried.outcome.status = grid::ImproverStatus::running;
-    plan.plan.evaluation(GridMethod::elliptic) = std::make_shared<const plan::Evaluation>(std::move(carried));
+    plan.plan.grid(GridMethod::elliptic).evaluation =
+        std::make_shared<const plan::Evaluation>(std::move(carried));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (preliminary)");
 }

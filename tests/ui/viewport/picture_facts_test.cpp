@@ -11,11 +11,13 @@
 namespace millwright::viewport {
 namespace {
 
+using project::GridMethod;
+
 TEST(PictureFacts, PutTheErrorsBeforeAndAfterBelowEachOther) {
     const auto dome = test::planned(test::dome);
     const PictureFacts facts = picture_facts(dome.project, dome.plan, ViewKind::error);
     ASSERT_EQ(facts.rows.size(), 2U);
-    const plan::Evaluation& after = *dome.plan.optimised;
+    const plan::Evaluation& after = *dome.plan.grid(GridMethod::tracks).evaluation;
     const std::vector<std::string> expected = {"optimised",
                                                fixed(after.closest.max, 3),
                                                fixed(after.closest.mean, 4),
@@ -25,7 +27,7 @@ TEST(PictureFacts, PutTheErrorsBeforeAndAfterBelowEachOther) {
                                                fixed(after.track_gap.value(), 2)};
     EXPECT_EQ(facts.rows[1], expected);
     EXPECT_EQ(facts.rows[0][0], "uniform");
-    EXPECT_EQ(facts.rows[0][1], fixed(dome.plan.uniform->closest.max, 3));
+    EXPECT_EQ(facts.rows[0][1], fixed(dome.plan.grid(GridMethod::uniform).evaluation->closest.max, 3));
 }
 
 TEST(PictureFacts, HaveACellForEveryColumn) {
@@ -50,9 +52,9 @@ TEST(PictureFacts, NameProjectMachineAndSingularPoints) {
 
 TEST(PictureFacts, SayOutOfReachWhereThereIsNoNumber) {
     auto dome = test::planned(test::dome);
-    auto broken = std::make_shared<plan::Evaluation>(*dome.plan.uniform);
+    auto broken = std::make_shared<plan::Evaluation>(*dome.plan.grid(GridMethod::uniform).evaluation);
     broken->closest.max = std::numeric_limits<double>::infinity();
-    dome.plan.uniform = broken;
+    dome.plan.grid(GridMethod::uniform).evaluation = broken;
     EXPECT_EQ(picture_facts(dome.project, dome.plan, ViewKind::error).rows[0][1], "out of reach");
 }
 

@@ -12,6 +12,7 @@
 namespace millwright::viewport {
 namespace {
 
+using project::GridMethod;
 using render::Picture;
 using render::PixelSize;
 using render::Theme;
@@ -104,7 +105,7 @@ TEST(RenderView, ShowsTheColoursOfErrorsWithTheirLegend) {
 TEST(RenderView, ComparesTheChosenGridWithTheUniformOne) {
     auto dome = test::planned(test::dome);
     const Picture both = render_view(dome.project, dome.plan, ViewKind::grid, small, Theme::dark);
-    dome.project.grid.method = project::GridMethod::uniform;
+    dome.project.grid.method = GridMethod::uniform;
     const Picture one = render_view(dome.project, dome.plan, ViewKind::grid, small, Theme::dark);
     EXPECT_GT(render::difference(both, one, 8).fraction, 0.05);
 }
@@ -147,11 +148,14 @@ TEST(RenderView, LeavesTheCallersContextAsItWas) {
 
 TEST(SceneOf, ShowsTheGridThatTheProjectChose) {
     auto dome = test::planned(test::dome);
-    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown, dome.plan.optimised);
-    dome.project.grid.method = project::GridMethod::uniform;
-    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown, dome.plan.uniform);
-    dome.project.grid.method = project::GridMethod::elliptic; // not made
-    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown, dome.plan.uniform);
+    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown,
+              dome.plan.grid(GridMethod::tracks).evaluation);
+    dome.project.grid.method = GridMethod::uniform;
+    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown,
+              dome.plan.grid(GridMethod::uniform).evaluation);
+    dome.project.grid.method = GridMethod::elliptic; // not made
+    EXPECT_EQ(scene_of(dome.project, dome.plan, ViewKind::error).shown,
+              dome.plan.grid(GridMethod::uniform).evaluation);
 }
 
 } // namespace

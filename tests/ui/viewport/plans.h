@@ -23,8 +23,9 @@ inline Planned planned(const Part& part, std::string name = "Dome") {
     made.plan.surface = scene.surface;
     made.plan.workpiece = scene.workpiece;
     made.plan.singular_points = scene.singular_points;
-    made.plan.uniform = scene.shown;
-    made.plan.optimised = evaluation(*scene.workpiece, bent_grid(part.nodes));
+    made.plan.grid(project::GridMethod::uniform).evaluation = scene.shown;
+    made.plan.grid(project::GridMethod::tracks).evaluation =
+        evaluation(*scene.workpiece, bent_grid(part.nodes));
     return made;
 }
 

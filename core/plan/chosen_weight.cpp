@@ -1,0 +1,120 @@
+#include "core/base/error.h"
+#include "core/grid/expression_weight.h"
+#include "core/plan/grids.h"
+
+#include <utility>
+
+namespace millwright::plan {
+
+namespace {
+
+using PatchPtr = std::shared_ptr<const geometry::BezierPatch>;
+
+grid::WeightPtr
+weight_of_formula(const project::GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
+    try {
+        return grid::expression_weight(input.elliptic.expression, input.nu, input.nv, {patch, error});
+    } catch (const Error& fault) {
+        Diagnostic found = fault.diagnostic();
+        found.message = "grid/elliptic/expression, character " + std::to_string(found.place.column) + ": " +
+                        found.message;
+        found.place = {}; // it counts in the formula, not in a file
+        throw Error(std::move(found));
+    }
+}
+
+grid::WeightPtr
+mixed_weight_of(const project::GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
+    const grid::MixSettings& mix = input.elliptic.mix;
+    grid::MixedReasons reasons;
+    reasons.error = error;
+    if (mix.curvature > 0.0) {
+        reasons.curvature = grid::curvature_weight(*patch, input.nu, input.nv);
+    }
+    if (mix.painted > 0.0) {
+        reasons.painted = input.elliptic.painted
+                              ? grid::field_weight(*input.elliptic.painted, input.nu, input.nv)
+                              : grid::constant_weight(0.0);
+    }
+    if (mix.expression > 0.0) {
+        reasons.expression = weight_of_formula(input, patch, error);
+    }
+    return grid::mixed_weight(reasons, mix, input.nu, input.nv);
+}
+
+} // namespace
+
+bool needs_error(const project::EllipticInput& input) {
+    const auto formula_needs_it = [&] { return grid::speaks_of_error(input.expression); };
+    switch (input.weight) {
+    case project::WeightSource::error:
+        return true;
+    case project::WeightSource::expression:
+        return formula_needs_it();
+    case project::WeightSource::mixed:
+        return input.mix.error > 0.0 || (input.mix.expression > 0.0 && formula_needs_it());
+    case project::WeightSource::w1:
+    case project::WeightSource::w2:
+    case project::WeightSource::w3:
+    case project::WeightSource::w4:
+        break;
+    }
+    return false;
+}
+
+grid::WeightPtr chosen_weight(const project::GridInput& input,
+                              const geometry::BezierPatch& patch,
+                              const grid::WeightPtr& error) {
+    if (needs_error(input.elliptic) && error == nullptr) {
+        return nullptr;
+    }
+    const auto shared = [&] { return std::make_shared<const geometry::BezierPatch>(patch); };
+    switch (input.elliptic.weight) {
+    case project::WeightSource::error:
+        return error;
+    case project::WeightSource::expression:
+        return weight_of_formula(input, shared(), error);
+    case project::WeightSource::mixed:
+        return mixed_weight_of(input, shared(), error);
+    case project::WeightSource::w1:
+        return grid::weight_w1();
+    case project::WeightSource::w2:
+        return grid::weight_w2(input.nu);
+    case project::WeightSource::w3:
+        return grid::weight_w3(input.nu, input.nv);
+    case project::WeightSource::w4:
+        return grid::weight_w4();
+    }
+    return nullptr;
+}
+
+grid::WeightPtr region_weight(const project::GridInput& input, const geometry::BezierPatch& patch) {
+    return input.elliptic.region.everywhere()
+               ? nullptr
+               : grid::field_weight(grid::share_of(input.elliptic.region, patch), input.nu, input.nv);
+}
+
+bool paint_weight(project::EllipticInput& input,
+                  const geometry::BezierPatch& patch,
+                  const Vec2& from,
+                  const Vec2& to,
+                  const grid::Brush& brush) {
+    if (!input.painted) {
+        input.painted = grid::Field::constant(project::fresh_painted, project::fresh_painted, 0.0);
+    }
+    return from == to ? grid::dab(*input.painted, patch, from, brush)
+                      : grid::stroke(*input.painted, patch, from, to, brush);
+}
+
+void let_paint_count(project::EllipticInput& input) {
+    if (input.weight == project::WeightSource::expression) {
+        input.mix.error = 0.0;
+        input.mix.expression = std::max(input.mix.expression, 1.0);
+    }
+    input.weight = project::WeightSource::mixed;
+    if (!(input.mix.painted > 0.0)) {
+        input.mix.painted = 1.0;
+    }
+}
+
+} // namespace millwright::plan

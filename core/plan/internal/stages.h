@@ -1,0 +1,13 @@
+// The stages of a plan in the order in which they depend on each other: the one place where it is written.
+#pragma once
+
+#include "core/plan/internal/stage.h"
+
+#include <vector>
+
+namespace millwright::plan {
+
+/// Each reads results of stages before it alone. `scope` says which are asked for beside the program.
+[[nodiscard]] std::vector<Stage> stages_of(const project::Project& project, const Scope& scope);
+
+} // namespace millwright::plan

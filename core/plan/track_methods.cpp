@@ -1,0 +1,80 @@
+// The track optimiser, and the whole chain that begins with it.
+#include "core/grid/chain_optimiser.h"
+#include "core/grid/track_optimiser.h"
+#include "core/plan/internal/grid_method_rows.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace millwright::plan {
+
+namespace {
+
+int nodes_per_track(const project::GridInput& input) {
+    return input.direction == grid::TrackDirection::along_v ? input.nv : input.nu;
+}
+
+grid::TrackSettings track_settings(const project::GridInput& input, Effort effort) {
+    grid::TrackSettings settings =
+        effort == Effort::live ? grid::quick_track_settings() : grid::TrackSettings{};
+    settings.error_exponent = input.tracks.error_exponent;
+    settings.axis_weight_mm_per_deg = input.tracks.axis_weight;
+    if (effort == Effort::full) {
+        settings.lattice = input.tracks.lattice;
+        settings.polish_sweeps = input.tracks.polish_sweeps;
+    }
+    if (settings.lattice > 0) {
+        settings.lattice = std::max(settings.lattice, nodes_per_track(input));
+    }
+    return settings;
+}
+
+grid::ChainSettings chain_settings(const project::GridInput& input) {
+    grid::ChainSettings settings;
+    settings.tracks.error_exponent = input.tracks.error_exponent;
+    settings.tracks.axis_weight_mm_per_deg = input.tracks.axis_weight;
+    settings.tracks.polish_sweeps = input.tracks.polish_sweeps;
+    settings.tracks.gap_allowance = input.chain.gap_percent / 100.0;
+    settings.tracks.lattice =
+        input.tracks.lattice > 0 ? std::max(input.tracks.lattice, nodes_per_track(input)) : 0;
+    settings.first_descent = input.chain.first_iterations;
+    settings.later_descents = input.chain.later_iterations;
+    return settings;
+}
+
+std::unique_ptr<grid::GridImprover> track_optimiser(GridStart from) {
+    expect_straight_tracks(from.input.direction, from.start);
+    return std::make_unique<grid::TrackOptimiser>(
+        from.error, std::move(from.start), from.input.direction, track_settings(from.input, from.effort));
+}
+
+std::unique_ptr<grid::GridImprover> chain_optimiser(GridStart from) {
+    expect_straight_tracks(from.input.direction, from.start);
+    return std::make_unique<grid::ChainOptimiser>(
+        from.error, std::move(from.start), from.input.direction, chain_settings(from.input));
+}
+
+} // namespace
+
+const GridMethodRow tracks_row{
+    .method = project::GridMethod::tracks,
+    .report_key = "optimised",
+    .short_name = "Tracks",
+    .title = "Optimising the tracks",
+    .share = 0.4,
+    .follows_drag = true,
+    .same_settings = [](const project::GridInput& a,
+                        const project::GridInput& b) { return a.tracks == b.tracks; },
+    .improver = track_optimiser};
+
+const GridMethodRow chain_row{
+    .method = project::GridMethod::chain,
+    .report_key = "chain",
+    .short_name = "Chain",
+    .title = "Moving all nodes at once",
+    .share = 3.0,
+    .same_settings = [](const project::GridInput& a,
+                        const project::GridInput& b) { return a.tracks == b.tracks && a.chain == b.chain; },
+    .improver = chain_optimiser};
+
+} // namespace millwright::plan

@@ -1,0 +1,117 @@
+// The worked example of docs/dev/recipes.md, "Add a grid method": all that a new method is but its
+// enumerator.
+#include "core/base/units.h"
+#include "core/plan/grid_method.h"
+#include "core/plan/plan.h"
+#include "tests/core/plan/sample_projects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace millwright::plan {
+namespace {
+
+/// Nodes closer together at the ends of each track along v, in one step: v - 0.5 sin(2 pi v) / (2 pi).
+class EndSpacing : public grid::GridImprover {
+public:
+    EndSpacing(const grid::ErrorModel& model, const grid::Grid& start, grid::TrackDirection direction)
+        : model_(model), direction_(direction),
+          state_{.current = start.array(), .best = start, .start = {}, .now = {}, .of_best = {}, .note = {}} {
+    }
+
+    bool advance(const Progress& progress) override {
+        if (state_.status != grid::ImproverStatus::running) {
+            return false;
+        }
+        for (Vec2& node : state_.current.nodes) {
+            node.y() = std::clamp(node.y() - 0.5 * std::sin(2.0 * pi * node.y()) / (2.0 * pi), 0.0, 1.0);
+        }
+        const grid::Grid found(state_.current);
+        state_.reached = state_.current;
+        state_.start = model_.on_path(state_.best, direction_, progress);
+        state_.now = model_.on_path(found, direction_, progress);
+        const bool better = state_.now.mean < state_.start.mean;
+        state_.best = better ? found : state_.best;
+        state_.of_best = better ? state_.now : state_.start;
+        state_.status = better ? grid::ImproverStatus::converged : grid::ImproverStatus::no_gain;
+        state_.note = better ? "Nodes closer together at the ends" : "Even steps have less error";
+        state_.done = 1.0;
+        return false;
+    }
+    [[nodiscard]] const grid::ImproverState& state() const override { return state_; }
+
+private:
+    const grid::ErrorModel& model_;
+    grid::TrackDirection direction_;
+    grid::ImproverState state_;
+};
+
+const GridMethodRow end_spacing_row{
+    .method = project::GridMethod::redistribution, // a new method has its own
+    .report_key = "end_spacing",
+    .short_name = "Ends",
+    .title = "Moving the nodes to the ends",
+    .share = 0.02,
+    .same_settings = [](const project::GridInput&, const project::GridInput&) { return true; },
+    .improver = [](GridStart from) -> std::unique_ptr<grid::GridImprover> {
+        expect_straight_tracks(from.input.direction, from.start);
+        return std::make_unique<EndSpacing>(from.error, from.start, from.input.direction);
+    }};
+
+TEST(GridRecipe, ARowMakesAGridThatIsMeasuredLikeTheOthers) {
+    const project::Project project = test::small_sample("dome", 9);
+    const Workpiece workpiece = workpiece_of(project, test::sample_folders);
+    const toolpath::KinematicError error = workpiece.error_model();
+    const auto improver =
+        end_spacing_row.improver({project.grid, error, uniform_outcome(project.grid).grid, Effort::full});
+    const Evaluation found =
+        evaluate(workpiece, improved_outcome(*improver, {}), report_sampling, Progress());
+    EXPECT_EQ(found.outcome.grid.nu(), 9);
+    const grid::ImproverState& state = improver->state();
+    EXPECT_LT(state.reached.at(3, 1).y(), 1.0 / 8.0) << "nearer to the end than an even step";
+    EXPECT_EQ(state.best.array() == state.reached, state.now.mean < state.start.mean);
+}
+
+TEST(GridMethodRows, StandInTheOrderOfTheirEnumeratorsAndAreComplete) {
+    ASSERT_EQ(grid_method_rows().size(), project::every_grid_method.size());
+    for (const project::GridMethod method : project::every_grid_method) {
+        const GridMethodRow& row = row_of(method);
+        EXPECT_EQ(row.method, method);
+        EXPECT_FALSE(row.report_key.empty() || row.short_name.empty() || row.title.empty());
+        EXPECT_GT(row.share, 0.0);
+        EXPECT_TRUE(row.same_settings({}, {}));
+        EXPECT_EQ(row.improver == nullptr, method == project::GridMethod::uniform);
+        EXPECT_EQ(row.memory == nullptr, row.grid_name.empty());
+    }
+}
+
+// A setting that a row forgets would leave a stale grid on the screen.
+TEST(GridMethodRows, ComparedSettingsAreTheMethodsOwn) {
+    const project::GridInput before;
+    project::GridInput tracks = before, elliptic = before, solver = before, chain = before, floor = before;
+    tracks.tracks.polish_sweeps += 1;
+    elliptic.elliptic.tolerance *= 2.0;
+    solver.elliptic.adaptation *= 2.0;
+    chain.chain.first_iterations += 1;
+    floor.redistribution.floor *= 2.0;
+    const auto same = [&](project::GridMethod method, const project::GridInput& after) {
+        return row_of(method).same_settings(before, after);
+    };
+    using project::GridMethod;
+    EXPECT_FALSE(same(GridMethod::tracks, tracks));
+    EXPECT_FALSE(same(GridMethod::chain, tracks)) << "it begins with them";
+    EXPECT_TRUE(same(GridMethod::tracks, chain));
+    EXPECT_FALSE(same(GridMethod::chain, chain));
+    EXPECT_FALSE(same(GridMethod::elliptic, elliptic));
+    EXPECT_FALSE(same(GridMethod::harmonic, elliptic));
+    EXPECT_FALSE(same(GridMethod::elliptic, solver));
+    EXPECT_TRUE(same(GridMethod::harmonic, solver)) << "it has no LV";
+    EXPECT_FALSE(same(GridMethod::redistribution, floor));
+    EXPECT_TRUE(same(GridMethod::uniform, elliptic));
+}
+
+} // namespace
+} // namespace millwright::plan

@@ -1,0 +1,106 @@
+// What is not looked at is not made: the window asks for more when a workspace comes up that shows it.
+#include "tests/ui/panels/person.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace millwright::panels {
+namespace {
+
+using project::GridMethod;
+using render::Key;
+using test::Person;
+
+class WantedPlan : public testing::Test {
+protected:
+    [[nodiscard]] const plan::PublishedPlan& published() { return *person_.workshop().look().plan; }
+    [[nodiscard]] std::shared_ptr<const plan::Evaluation> grid(GridMethod method) {
+        return person_.workshop().look().evaluation(method);
+    }
+    /// After F2, F3, ...
+    void go_to(Key workspace) {
+        person_.press_key(workspace);
+        person_.wait_idle();
+    }
+    void move_a_point() {
+        person_.workshop().edit(
+            "Move a point", [](project::Project& p) { p.surface.patches[0].point(1, 1).z() += 2.0; }, {});
+        person_.wait_idle();
+    }
+
+    Person person_{{1600, 1000}};
+};
+
+TEST_F(WantedPlan, TheProgramWorkspaceMakesNoGridToCompare) {
+    go_to(Key::f5);
+    move_a_point();
+    EXPECT_TRUE(published().exact);
+    EXPECT_NE(published().plan.program, nullptr);
+    EXPECT_NE(grid(GridMethod::tracks), nullptr) << "the program's";
+    EXPECT_EQ(grid(GridMethod::elliptic), nullptr);
+    EXPECT_EQ(published().plan.weight, nullptr);
+}
+
+TEST_F(WantedPlan, TheGridWorkspaceMakesThemAndAnEditKeepsThoseThatHold) {
+    go_to(Key::f5);
+    EXPECT_FALSE(person_.sees("outline/stages/elliptic"));
+    const auto program = published().plan.program;
+    person_.press_key(Key::f3);
+    person_.frames(1); // it asks
+    EXPECT_TRUE(person_.workshop().look().activity.busy || grid(GridMethod::elliptic));
+    EXPECT_TRUE(person_.sees("outline/stages/elliptic"));
+    person_.wait_idle();
+    EXPECT_TRUE(published().exact);
+    EXPECT_EQ(published().plan.program, program) << "it was there";
+    const auto elliptic = grid(GridMethod::elliptic);
+    ASSERT_NE(elliptic, nullptr);
+    EXPECT_NE(published().plan.weight, nullptr);
+    go_to(Key::f5);
+    person_.workshop().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
+    person_.wait_idle();
+    EXPECT_NE(published().plan.program, program);
+    EXPECT_EQ(grid(GridMethod::elliptic), elliptic) << "the feed does not change it";
+    move_a_point();
+    EXPECT_EQ(grid(GridMethod::elliptic), nullptr) << "of the old surface, and not looked at";
+    go_to(Key::f3);
+    EXPECT_NE(grid(GridMethod::elliptic), nullptr);
+}
+
+TEST_F(WantedPlan, AGridIsMadeWhereItIsShownFromAnotherWorkspace) {
+    go_to(Key::f2);
+    ASSERT_EQ(grid(GridMethod::elliptic), nullptr);
+    person_.workshop().run("view.show_elliptic");
+    person_.wait_idle();
+    ASSERT_NE(grid(GridMethod::elliptic), nullptr);
+    EXPECT_EQ(person_.workshop().look().shown(), grid(GridMethod::elliptic));
+}
+
+TEST_F(WantedPlan, TheTableSideBySideMakesWhatItCompares) {
+    go_to(Key::f5);
+    actions::ActionQueue ask;
+    ask.show([](actions::Session& session) { session.lower_tab_now() = actions::LowerTab::compare; });
+    person_.workshop().perform(ask);
+    person_.wait_idle();
+    EXPECT_NE(grid(GridMethod::elliptic), nullptr);
+    EXPECT_TRUE(published().plan.grid(GridMethod::elliptic).estimated_time);
+}
+
+// A job may begin while grids are made that the program does not use.
+TEST_F(WantedPlan, TheProgramStaysReadyWhileMoreIsMade) {
+    go_to(Key::f5);
+    person_.workshop().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
+    person_.wait_idle();
+    person_.press_key(Key::f3);
+    bool ready = true;
+    do {
+        person_.frames(1);
+        ready = ready && published().program_exact;
+    } while (person_.workshop().look().activity.busy);
+    EXPECT_TRUE(ready);
+    EXPECT_NE(grid(GridMethod::elliptic), nullptr);
+}
+
+} // namespace
+} // namespace millwright::panels
