@@ -101,8 +101,8 @@ void roll_fields(Ui& ui, const ArmBench& bench, ActionQueue& ask) {
             "roll",
             "Roll",
             "\u00b0",
-            "Of the tool about its axis. At 0 the tool's x lies in the upright plane "
-            "through the axis and points up",
+            "Of the tool about its axis. At 0 the x of an upright tool is the base's x, that of a "
+            "level one points down",
             -360.0,
             360.0,
             {},
@@ -174,7 +174,7 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
                                now.controller.status.velocity.size() == 0 // as last told
                                    ? "Position not known: these are the degrees that the card told last, and "
                                      "the arm may have gone on. Look at it."
-                                   : "Position not known: these are degrees from where the arm stood when "
+                                   : "Position not known: these are degrees from where the arm was when "
                                      "the card was switched on. Home it.",
                                {}});
     }
@@ -338,8 +338,8 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
     }
     const drivers::DriverStatus& status = now.controller.status;
     const bool alarm = status.state == drivers::DriverState::alarm; // which stands above the drawing
-    if (real && !status.message.empty() && !alarm) {                // always in sight, and it moves no button
-        ui.words(as_sentence(status.message), widgets::Tone::warning);
+    if (real && !status.message.empty() && !alarm) { // below all buttons, so that it moves none
+        ui.text(as_sentence(status.message), widgets::Tone::warning);
     } else if (const auto& place = now.arm.card_run().place(); real && place) {
         ui.note(place_text(*place));
     } else if (const auto& ended = now.arm.card_run().broken_off(); real && ended) {
