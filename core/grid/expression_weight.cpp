@@ -145,7 +145,7 @@ public:
             fail_at(1, "it speaks of a surface, and there is none");
         }
         if (formula.uses_error() && ground_.error == nullptr) {
-            fail_at(1, "it speaks of the error, which nobody has measured");
+            fail_at(1, "it uses the error, which has not been measured");
         }
     }
 

@@ -104,7 +104,7 @@ void TrackOptimiser::measure_lattices(const Progress& progress) {
     state_.now = state_.of_best = state_.start;
     state_.round = 1;
     state_.note =
-        "Moves of the lattices measured, " + std::to_string(settings_.lattice) + " intervals a track";
+        "Moves of the lattices measured, " + std::to_string(settings_.lattice) + " intervals per track";
     state_.done = lattices_measured;
     stage_ = Stage::paths;
 }
