@@ -48,7 +48,7 @@ TEST_F(Pmac, AnswersCommands) {
     const Ended powered = run({"pmac", "#1J/", "--port", port});
     EXPECT_EQ(powered.exit_code, 1);
     EXPECT_THAT(powered.err, HasSubstr("would give power to joint 1"));
-    EXPECT_THAT(powered.err, HasSubstr("--power"));
+    EXPECT_THAT(powered.err, HasSubstr("(look at the machine, then give the motors power: --power)"));
     const Ended stopped = run({"pmac", "A", "--port", port});
     EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
     EXPECT_THAT(stopped.out, HasSubstr("nothing moves"));

@@ -3,6 +3,7 @@
 #include "core/pmac/driver/guard_rules.h"
 #include "core/pmac/driver/internal/command_kind.h"
 #include "core/pmac/driver/internal/pmac_session.h"
+#include "core/pmac/driver/pmac_driver.h"
 
 #include <fmt/format.h>
 
@@ -156,10 +157,10 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
         return true;
     }
     if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
-        throw Error(
+        throw PowerRefused(
             fmt::format("'{}' would give power to {}, which has none", fmt::join(lines, " "), name_of(*to)),
             {},
-            "look at the machine, then give its motors power: --power on the command line");
+            "look at the machine, then give the motors power");
     }
     command_lines_.clear();
     finish(Stage::stopping);
