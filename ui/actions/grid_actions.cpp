@@ -25,6 +25,14 @@ Permission is_watched(const Workbench& now) {
     return now.watched ? Permission{} : Permission::refused("No adaptation has been started.");
 }
 
+Permission can_adapt_further(const Workbench& now) {
+    if (now.watched && now.watched->ended()) {
+        return Permission::refused(now.watched->failed() ? "The adaptation has failed: Reset begins it anew."
+                                                         : "The adaptation has ended: Reset begins it anew.");
+    }
+    return is_watched(now);
+}
+
 Permission is_adaptation_playing(const Workbench& now) {
     return now.watched && now.watched->playing ? Permission{}
                                                : Permission::refused("No adaptation is playing.");
@@ -180,8 +188,13 @@ void add_grid_actions(Actions& actions) {
         has_surface,
         start_adaptation<GridMethod::redistribution>);
     add(actions,
-        {"grid.play", "Grid", "Play the adaptation", "Goes on by itself.", "", icons::play},
-        is_watched,
+        {"grid.play",
+         "Grid",
+         "Play the adaptation",
+         "Goes on step by step, until it ends or is paused.",
+         "",
+         icons::play},
+        can_adapt_further,
         [](Hands& hands) { hands.pipeline.play_adaptation(); });
     add(actions,
         {"grid.pause", "Grid", "Pause the adaptation", "Stops after the present step.", "", icons::pause},
@@ -194,7 +207,7 @@ void add_grid_actions(Actions& actions) {
          "Does one step and pauses.",
          "",
          icons::step_forward},
-        is_watched,
+        can_adapt_further,
         [](Hands& hands) { hands.pipeline.step_adaptation(); });
     add(actions,
         {"grid.reset", "Grid", "Back to the start grid", "Begins the adaptation anew.", "", icons::reset},

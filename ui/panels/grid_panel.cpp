@@ -250,8 +250,8 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
             ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
             ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
         }
-        ui.value("before", "To curve, start", length_text(state->start.mean), "mm");
-        ui.value("now", "To curve, now", length_text(state->now.mean), "mm");
+        ui.value("before", "Mean error, start", length_text(state->start.mean), "mm");
+        ui.value("now", "Mean error, now", length_text(state->now.mean), "mm");
         const WatchedLabels labels = watched_labels(state->status);
         ui.value("best", labels.best, length_text(state->of_best.mean), "mm");
         ui.value("gain", labels.change, change_text(state->start.mean, state->of_best.mean));
@@ -275,7 +275,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         draw_links(ui, state->links, turns_the_tool(now));
     }
     const GridMethod watched = now.watched->method;
-    const bool is_of_use = plan::follows_nodes(now.project.toolpath.strategy);
+    const bool is_of_use = plan::follows_nodes(now.project.toolpath.strategy) && !now.watched->failed();
     if (is_of_use && watched != now.project.grid.method) {
         const auto& row = project::row_of(project::grid_methods(), watched);
         action_button(ui,
