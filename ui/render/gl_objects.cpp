@@ -75,7 +75,7 @@ Texture::Texture(const PixelSize& size, std::span<const std::byte> rgba, Filter 
     : handle_(made(glGenTextures)) {
     expects(size.width > 0 && size.height > 0, "a texture has an area");
     expects(rgba.empty() || std::ssize(rgba) == std::ptrdiff_t{4} * size.width * size.height,
-            "a texture gets four bytes a pixel");
+            "a texture gets four bytes per pixel");
     const GLint sampling = filter == Filter::linear ? GL_LINEAR : GL_NEAREST;
     glBindTexture(GL_TEXTURE_2D, id());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, sampling);

@@ -5,12 +5,14 @@
 #include "core/base/units.h"
 #include "tests/ui/panels/person.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/panels/text_editor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -64,6 +66,24 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
     person_.frames(2);
     ASSERT_EQ(arm().motion_file().faults().size(), 1U);
     EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the center"));
+}
+
+// Its end, with what to do, was behind the pane's border.
+TEST_F(ArmMotionFileS7, AFaultIsShownWhole) {
+    write("G1 X300 ;\nG2 X0 Y0 Z10 I0 J0 K5 ;");
+    const auto& faults = arm().motion_file().faults();
+    ASSERT_EQ(faults.size(), 1U);
+    ASSERT_GT(fault_text(faults).size(), 100U) << "wider than what is left beside the field";
+    person_.keep("arm-motion-file-long-fault");
+    for (const std::string& cut : person_.desktop().ui().cut_texts()) {
+        EXPECT_THAT(cut, testing::Not(HasSubstr("Line 2"))) << cut;
+    }
+}
+
+TEST(FaultText, HasTheLineWhatToDoAndHowManyMoreThereAre) {
+    const std::vector<Diagnostic> faults{{{.file = {}, .line = 4}, "motor 5's loop is open", "enable it"},
+                                         {}};
+    EXPECT_EQ(fault_text(faults), "Line 4: motor 5's loop is open (enable it) (and 1 more).");
 }
 
 TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {
