@@ -79,7 +79,7 @@ void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
         ->type_name("SPEC");
     constexpr double slowest = 0.01;
     constexpr double fastest = 1000.0;
-    command.add_option("--speed", choice.speed, "Machine seconds a second")
+    command.add_option("--speed", choice.speed, "Machine seconds per second")
         ->check(CLI::Range(slowest, fastest))
         ->capture_default_str();
     command

@@ -49,7 +49,7 @@ viewport::Chart chart_of(std::span<const StudyRow> rows, const Figure& figure) {
 /// A curve a method over the numbers of points.
 viewport::Chart curves_of(std::span<const StudyRow> rows, const Figure& figure) {
     viewport::Chart chart = chart_of(rows, figure);
-    chart.x_label = "points a track";
+    chart.x_label = "points per track";
     chart.y_is_log = true;
     chart.shows_values = true;
     for (const studies::StudyMethod method : studies::every_study_method) {
@@ -74,7 +74,7 @@ viewport::Chart curves_of(std::span<const StudyRow> rows, const Figure& figure) 
 viewport::Chart bars_of(std::span<const StudyRow> rows, const Figure& figure) {
     constexpr double half_width = 0.4;
     viewport::Chart chart = chart_of(rows, figure);
-    chart.title += fmt::format(", {} a track", counted(rows.front().of.points, "point"));
+    chart.title += fmt::format(", {} per track", counted(rows.front().of.points, "point"));
     chart.has_key = false;
     for (std::size_t n = 0; n < rows.size(); ++n) {
         const double x = static_cast<double>(n) + 1.0;

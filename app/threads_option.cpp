@@ -39,7 +39,7 @@ void add_to(CLI::App& command) {
         .add_option_function<std::string>(
             "--threads",
             [](const std::string& text) { set_thread_count(number_in(text).value_or(0)); },
-            "Compute in so many threads; by default one a core")
+            "Number of threads; by default one per core")
         ->check(number_of_threads())
         ->type_name("N");
 }

@@ -51,7 +51,7 @@ int calibrate(const ArmServiceOptions& options) {
                             {"readings", fit.readings}});
             continue;
         }
-        fmt::print("motor {}: {:.4f} counts a degree (+- {:.4f}), {:.1f} counts at 0 deg; {}, "
+        fmt::print("motor {}: {:.4f} counts per degree (+- {:.4f}), {:.1f} counts at 0 deg; {}, "
                    "{:.3f} deg rms, at most {:+.3f} deg in line {}\n",
                    fit.motor,
                    fit.counts_per_degree,

@@ -88,7 +88,7 @@ void add_cordic_sew(CLI::App& group, Command& chosen) {
     const auto positive = CLI::Range(1e-3, 1e7);
     command
         .add_option(
-            "--needle-rpm", options->sewing.needle_rpm, "Turns per minute of the needle, a stitch each")
+            "--needle-rpm", options->sewing.needle_rpm, "Turns of the needle per minute, one stitch per turn")
         ->check(positive)
         ->capture_default_str();
     command

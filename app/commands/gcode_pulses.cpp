@@ -39,7 +39,7 @@ struct AxisSteps {
 [[noreturn]] void refuse_steps(std::string_view word) {
     throw Error(fmt::format("--steps {} is no axis of the machine with its steps", word),
                 {},
-                "as --steps X=250: steps a mm, of a rotary axis a degree");
+                "as --steps X=250: steps per mm, of a rotary axis per degree");
 }
 
 void take_steps(std::string_view word, std::vector<AxisSteps>& axes) {
@@ -141,7 +141,7 @@ void print_sentences(const std::vector<AxisSteps>& axes,
                 "millwright: {}\n",
                 to_text(Diagnostic{{file, source_line(program, found[n].overrun_block), 0, -1},
                                    fmt::format("from here on the timer does not keep up with {}: {:.6g} "
-                                               "pulses a second are due, it gives {:.6g}",
+                                               "pulses per second are due, it gives {:.6g}",
                                                letter,
                                                found[n].max_frequency,
                                                options.timer_hz / static_cast<double>(options.min_interval)),

@@ -76,7 +76,7 @@ plot::PointFile points_to_play(const std::string& text, const std::filesystem::p
 void print_jitter(const Jitter& jitter) {
     constexpr double us = 1e6;
     fmt::print(
-        "late by us: least {:.1f}, mean {:.1f}, median {:.1f}, 95 % {:.1f}, 99 % {:.1f}, most {:.1f}\n",
+        "delay in us: minimum {:.1f}, mean {:.1f}, median {:.1f}, 95 % {:.1f}, 99 % {:.1f}, maximum {:.1f}\n",
         jitter.least * us,
         jitter.mean * us,
         jitter.median * us,
@@ -189,8 +189,8 @@ int play(const PlotPlayOptions& options) {
     }
     if (!options.port.empty() && format.answer.empty()) {
         fmt::print(stderr,
-                   "millwright: no answer was asked for (--answer), so nobody knows whether the table takes "
-                   "records as \"{}\"\n",
+                   "millwright: no answer was asked for (--answer), so it is not known whether the table "
+                   "takes records as \"{}\"\n",
                    format.pattern);
     }
     if (outcome.end != jobs::JobEnd::done) {

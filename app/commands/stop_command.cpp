@@ -99,7 +99,7 @@ int stop_machine(const StopOptions& options) {
 
 void add_stop_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<StopOptions>();
-    CLI::App& command = *app.add_subcommand("stop", "Stop a machine that moves for nobody here");
+    CLI::App& command = *app.add_subcommand("stop", "Stop a machine that no running Millwright controls");
     command.add_option("--driver", options->driver, "Kind of controller")
         ->required()
         ->check(CLI::IsMember({"grbl", "linuxcnc"}));

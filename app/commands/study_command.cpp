@@ -294,7 +294,7 @@ void add_study_command(CLI::App& app, Command& chosen) {
     command.add_flag("--quick", options->quick, "12 points on 8 tracks instead of 15 to 60 on 20");
     command.add_option("--surface", options->surfaces, "Only these: dome, sine, two-bell, saddle");
     command.add_option("--machine", options->machines, "Only these");
-    command.add_option("--points", options->points, "Only these numbers of points a track");
+    command.add_option("--points", options->points, "Only these numbers of points per track");
     command.callback([&chosen, options] { chosen = [options] { return kinematic_error(*options); }; });
 }
 

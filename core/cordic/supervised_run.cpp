@@ -304,7 +304,7 @@ std::string_view to_text(SupervisedEnd end) {
     case SupervisedEnd::stopped:
         return "stopped by the logic";
     case SupervisedEnd::fault:
-        return "the processor stands";
+        return "the processor is halted";
     case SupervisedEnd::out_of_time:
         return "out of time";
     }

@@ -85,7 +85,7 @@ public:
             break;
         case CommandKind::set_feed_mode:
             if (command.index == 1) {
-                refuse(command.source, "feeds a revolution are not written");
+                refuse(command.source, "feeds per revolution are not written");
             }
             break;
         case CommandKind::control_tip:

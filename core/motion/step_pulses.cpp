@@ -23,13 +23,13 @@ constexpr double farthest = 1e15;                         // steps: as integers 
 
 void check(const Trajectory& trajectory, const StepSettings& settings) {
     if (std::ssize(settings.steps_per_unit) != trajectory.axis_count()) {
-        throw Error(fmt::format("steps a unit are given for {} axes, the motion has {}",
+        throw Error(fmt::format("steps per unit are given for {} axes, the motion has {}",
                                 settings.steps_per_unit.size(),
                                 trajectory.axis_count()));
     }
     for (const double steps : settings.steps_per_unit) {
         if (!(steps > 0.0 && std::isfinite(steps))) {
-            throw Error(fmt::format("{} steps a unit is not a positive number", steps));
+            throw Error(fmt::format("{} steps per unit is not a positive number", steps));
         }
     }
     if (!(settings.timer_frequency > 0.0 && std::isfinite(settings.timer_frequency))) {
@@ -126,7 +126,7 @@ private:
             throw Error(
                 fmt::format("block {} needs {:.0f} pulses of an axis, more than {:.0f}", block, pulses, most),
                 {},
-                "fewer steps a unit, or shorter blocks");
+                "fewer steps per unit, or shorter blocks");
         }
     }
 

@@ -31,10 +31,10 @@ std::string way_out(int points, double off, double height) {
     const double most = project::most_nodes_a_side - 1;
     const double moves = std::ceil((points - 1) * std::sqrt(off / (little * height)));
     if (moves <= most) {
-        return fmt::format("{} points a track are too few, about {} would do", points, moves + 1.0);
+        return fmt::format("{} points per track are too few, about {} would do", points, moves + 1.0);
     }
     return fmt::format(
-        "with {} points a track, the most there can be, it would be about {} mm; choose another "
+        "with {} points per track, the most there can be, it would be about {} mm; choose another "
         "place of the part on the table, or another machine",
         project::most_nodes_a_side,
         fixed(off * square((points - 1) / most), 4));

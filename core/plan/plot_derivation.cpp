@@ -141,17 +141,17 @@ void PlotDerivation::cut_program() {
     result_.notices = read.notices;
     result_.program_rpm = read.spindle_rpm;
     if (read.spindle_rpm > 0.0 && std::abs(read.spindle_rpm - result_.spindle_rpm()) > 0.5) {
-        note(
-            Diagnostic{{},
-                       fmt::format("the program turns the spindle {:.0f} times a minute, here it does {:.0f}",
-                                   read.spindle_rpm,
-                                   result_.spindle_rpm()),
-                       "the field Spindle under Work says so; its arrow takes that of the program"});
+        note(Diagnostic{
+            {},
+            fmt::format("the program turns the spindle {:.0f} times per minute, here it does {:.0f}",
+                        read.spindle_rpm,
+                        result_.spindle_rpm()),
+            "the field Spindle under Work says so; its arrow takes that of the program"});
     }
     if (!(read.spindle_rpm > 0.0) && !settings_.spindle_rpm) {
         note(Diagnostic{
             {},
-            fmt::format("the program says nothing of its spindle: here it turns {:.0f} times a minute",
+            fmt::format("the program says nothing of its spindle: here it turns {:.0f} times per minute",
                         result_.spindle_rpm()),
             "another speed is set under Work"});
     }

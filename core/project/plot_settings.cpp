@@ -87,7 +87,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 52> of_plot{{
     {"width_mm",
      "Width",
      "mm",
-     "Of the picture or its region; 0: as its density says, else 0.26 mm a pixel",
+     "Of the picture or its region; 0: as its density says, else 0.26 mm per pixel",
      0.0,
      2000.0,
      1,

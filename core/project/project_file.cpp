@@ -83,7 +83,7 @@ geometry::ControlNet net(const JsonValue& value) {
     const auto weight_rows = weights ? rows_of_table(*weights) : std::vector<std::vector<JsonValue>>{};
     if (weights &&
         (weight_rows.size() != points.size() || weight_rows.front().size() != points.front().size())) {
-        weights->fail(fmt::format("expected {} x {} weights, one a point", rows, columns));
+        weights->fail(fmt::format("expected {} x {} weights, one per point", rows, columns));
     }
     constexpr double largest_weight = 1e6;
     for (int i = 0; i < rows; ++i) {

@@ -128,13 +128,13 @@ constexpr std::array<Choice<SequencingGoal>, 4> of_sequencing_goal{{
     {SequencingGoal::nearest, "nearest", "Nearest", "Each point takes the rotary angles nearest to the last"},
     {SequencingGoal::travel,
      "travel",
-     "Least rotation",
+     "Minimum rotation",
      "Of all ways through the branches and turns the one with the least travel of the rotary axes"},
     {SequencingGoal::error,
      "error",
-     "Least error",
+     "Minimum error",
      "Of all ways the one whose moves stay nearest to the surface"},
-    {SequencingGoal::time, "time", "Least time", "Of all ways the fastest at the axes' largest velocities"},
+    {SequencingGoal::time, "time", "Minimum time", "Of all ways the fastest at the axes' largest velocities"},
 }};
 
 constexpr std::array<Choice<LinkInput>, 2> of_link{{

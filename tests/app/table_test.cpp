@@ -263,7 +263,7 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
                 HasSubstr("36 records obeyed, 0 lines that were none, at X 10.0000 Y 10.0000"));
 
     EXPECT_THAT(played.err,
-                HasSubstr("nobody knows whether the table takes records as \"t {X} {Y} {Z} {a} {s}\""));
+                HasSubstr("it is not known whether the table takes records as \"t {X} {Y} {Z} {a} {s}\""));
 
     Emulator other((folder / "other").string(), {"--record", "{X};{Y};{Z}"}, "table");
     const Ended unknown = run({"plot",

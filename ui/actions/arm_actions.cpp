@@ -115,7 +115,7 @@ void add_arm_actions(Actions& actions) {
         {"arm.enable",
          menu,
          "Give the motors power",
-         "Closes the loops of the motors where they stand. Look at the arm first.",
+         "Closes the loops of the motors where they are. Look at the arm first.",
          "",
          icons::plug},
         can_enable,

@@ -109,7 +109,7 @@ void ArmBench::set_joints(const JointPositions& joints) {
     stop();
     refusal_.clear();
     if (const int outside = arm().joint_outside(joints); outside >= 0) {
-        refusal_ = "Joint " + arm().joint(outside).name + " stands at its limit.";
+        refusal_ = "Joint " + arm().joint(outside).name + " is at its limit.";
     }
     const JointPositions wanted = inside(arm(), joints);
     if (std::string why = arm::leaves_zone(arm(), joints_, wanted); !why.empty()) {

@@ -209,7 +209,7 @@ template <FileQuestion question> void ask_for_arm_file(Hands& hands) {
 void add_arm_teach_actions(Actions& actions) {
     constexpr std::string_view menu = "Arm";
     add(actions,
-        {"arm.teach", menu, "Teach this point", "Keeps where the arm stands now.", "Ctrl+T", icons::add},
+        {"arm.teach", menu, "Teach this point", "Keeps where the arm is now.", "Ctrl+T", icons::add},
         can_teach,
         record);
     add(actions,
@@ -235,7 +235,7 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.simulate",
          menu,
          "Simulate the program",
-         "The text as it stands, on an emulated card; the drawn arm does it, unless one is connected.",
+         "The text as it is, on an emulated card; the drawn arm does it, unless one is connected.",
          "",
          icons::play},
         can_simulate,
@@ -265,7 +265,7 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.play_file",
          menu,
          "Play a motion file",
-         "Lines and arcs of the tool from where it stands: the drawn arm, or the connected one.",
+         "Lines and arcs of the tool from where it is: the drawn arm, or the connected one.",
          "",
          icons::file},
         can_play_arm,
@@ -327,7 +327,7 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.send_path",
          menu,
          "Go the path",
-         "The project's program where its part stands: the drawn arm, or the connected one. It goes to the "
+         "The project's program where its part is: the drawn arm, or the connected one. It goes to the "
          "beginning joint by "
          "joint, at a quarter of its speed.",
          "",

@@ -33,7 +33,7 @@ constexpr double fastest_mm_per_s = 150.0;
 constexpr double whole_percent = 100.0;
 
 constexpr std::array<widgets::Option, 3> frames{
-    {{"joints", "Joints", {}, "Each joint by itself"},
+    {{"joints", "Joints", {}, "Each joint alone"},
      {"base", "Base", {}, "The tip along X, Y and Z of the arm's base"},
      {"tool", "Tool", {}, "The tip along x, y and z of the tool"}}};
 constexpr std::array<double, 4> arm_jog_steps{0.0, 0.1, 1.0, 10.0};

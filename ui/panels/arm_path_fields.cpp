@@ -24,7 +24,7 @@ constexpr std::array<widgets::Option, 2> sources{
 void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const project::PathPlace& place = now.project.arm.path;
     const widgets::FieldInfo at{
-        "at", "At", "mm", "Where the program's zero stands in the arm's base", -1e5, 1e5, {}, 1};
+        "at", "At", "mm", "Where the program's zero is in the arm's base", -1e5, 1e5, {}, 1};
     if (const auto v = ui.vec3("at", "At", {place.at_mm.x(), place.at_mm.y(), place.at_mm.z()}, at)) {
         ask.edit(
             "Place the path on the arm",

@@ -142,7 +142,7 @@ void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask)
     ui.beside();
     const auto width = ui.width(0.16F * whole);
     const Permission teaches = catalogue_.find("arm.teach").permission(now);
-    if (ui.button("again", "Teach again", teaches, {{}, Rank::normal, -1.0F, "Where the arm stands now"})) {
+    if (ui.button("again", "Teach again", teaches, {{}, Rank::normal, -1.0F, "Where the arm is now"})) {
         ask.edit("Teach a point again", [n, taught = now.arm.taught(point.name)](project::Project& draft) {
             draft.arm.points.at(n).joints_deg = taught.joints_deg;
         });

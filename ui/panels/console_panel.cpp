@@ -161,7 +161,7 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
     }
     ui.beside();
     if (const auto on = ui.checkbox(
-            "reports", "Status reports", now.session.hand.show_reports, "They come ten times a second")) {
+            "reports", "Status reports", now.session.hand.show_reports, "They come ten times per second")) {
         ask.show([on = *on](actions::Session& session) { session.hand.show_reports = on; });
     }
     if (refused) {

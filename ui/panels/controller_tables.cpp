@@ -103,7 +103,7 @@ void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                                       {"Setting", "", 2.6F, false},
                                                       {"Value", "", 1.2F, true},
                                                       {"Unit", "", 0.9F, false},
-                                                      {"What it does", "", 5.0F, false}}};
+                                                      {"Meaning", "", 5.0F, false}}};
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(settings);

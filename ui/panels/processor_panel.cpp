@@ -66,8 +66,8 @@ std::string halt_text(const ProcessorBench& bench) {
     }
     return state.clocks.total == 0                    ? "Reset"
            : bench.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
-           : bench.halt() == cordic::Halt::limit      ? "Not come to yet: once more goes on"
-                                                      : "Stands between two clocks";
+           : bench.halt() == cordic::Halt::limit      ? "Not reached yet: the same again goes on"
+                                                      : "Halted between two clocks";
 }
 
 /// Of a run that is not at the end of its program.
@@ -130,8 +130,8 @@ constexpr widgets::FieldInfo needle_field{
     "Needle",
     "rpm",
     "Of a sewing machine that takes each set-point as a stitch. It is computed during the stitch before, and "
-    "moved to in the 2/3 of a turn in which the needle is up, by a screw of 20 mm a turn that turns 3000 "
-    "times a minute at most",
+    "moved to in the 2/3 of a turn in which the needle is up, by a screw of 20 mm per turn at up to "
+    "3000 turns per minute",
     1.0,
     1e6,
     3000.0,
@@ -430,7 +430,7 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
 }
 
 void ProcessorPanel::draw_clocks(Ui& ui, const Workbench& now) const {
-    const auto section = ui.section("spent", "Clocks by what they were spent on");
+    const auto section = ui.section("spent", "Clocks by use");
     if (!section) {
         return;
     }

@@ -220,7 +220,7 @@ void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
         }
     }
     widgets::LegendView legend;
-    legend.title = "Apart";
+    legend.title = "Deviation";
     legend.unit = "\u00b5m";
     legend.high = high / unit;
     legend.map = [](double t) { return to_widget_colour(render::sample(render::ColorMap::viridis, t)); };

@@ -140,7 +140,7 @@ void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place
 }
 
 void ProcessorPlots::draw_errors(Ui& ui, const Workbench& now, const Rect& place) const {
-    const Rect inside = below_title(ui, place, "What is left to turn");
+    const Rect inside = below_title(ui, place, "Remaining angle");
     const cordic::IterationTrace trace = now.processor.debugger().iterations();
     std::vector<double> steps;
     std::vector<double> errors;

@@ -103,7 +103,7 @@ void error_values(Ui& ui,
         "The largest distance of the tip from the surface anywhere on the tracks; in brackets the change "
         "against the uniform grid");
     ui.value("mean",
-             "Mean a move",
+             "Mean per move",
              changed(before.mean, error.mean),
              "mm",
              "The mean of the moves' largest distances, each move counting once");

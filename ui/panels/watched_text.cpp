@@ -4,9 +4,9 @@ namespace millwright::panels {
 
 WatchedLabels watched_labels(grid::ImproverStatus status) {
     if (status == grid::ImproverStatus::running) {
-        return {"Best so far", "Change so far", "Axis so far"};
+        return {"Best so far", "Change so far", "Axis deviation so far"};
     }
-    return {"To curve, kept", "Change", "Axis, kept"};
+    return {"Mean error, kept", "Change", "Axis deviation, kept"};
 }
 
 std::string watched_note(const grid::ImproverState& state) {

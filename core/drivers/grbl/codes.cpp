@@ -23,7 +23,7 @@ constexpr std::array known_errors = {
     GrblCode{10, "soft limits need homing", "switch homing on first, $22=1"},
     GrblCode{11, "the line is too long", "Grbl takes 79 characters; leave out blanks and comments"},
     GrblCode{12,
-             "the setting asks for more steps a second than Grbl can give",
+             "the setting asks for more steps per second than Grbl can give",
              "lower the rate or the steps per mm"},
     GrblCode{13, "the safety door is open", "close it, then resume"},
     GrblCode{14, "the startup line or build text is too long to be stored", "shorten it"},

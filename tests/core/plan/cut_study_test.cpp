@@ -183,7 +183,7 @@ TEST(CutStudy, TellsWhyTracksOfConstantScallopLeaveMore) {
 
     project.surface = project::project_from_preset("two-bell").surface;
     const Plan bent = studied_cut(project, tool); // moves of 20 mm over the bells
-    EXPECT_THAT(why_higher(project, bent), testing::HasSubstr("5 points a track are too few, about "));
+    EXPECT_THAT(why_higher(project, bent), testing::HasSubstr("5 points per track are too few, about "));
     const auto report = nlohmann::json::parse(cut_report_text(project, bent));
     EXPECT_EQ(report.at("scallop_mm").at("wanted"), 0.1);
     EXPECT_EQ(report.at("scallop_mm").at("why_higher"), why_higher(project, bent));
@@ -228,7 +228,7 @@ TEST(CutStudy, AsksForNoMorePointsThanAGridMayHave) {
     tool.scallop_mm = project.tool.scallop_mm = 1e-3; // the tracks for it would take minutes
     project.tool = tool;
     EXPECT_THAT(why_higher(project, plan),
-                testing::HasSubstr("with 1000 points a track, the most there can be"));
+                testing::HasSubstr("with 1000 points per track, the most there can be"));
 }
 
 /// Where a part of a track was done before the rest, the next track has nothing beside it.

@@ -160,7 +160,7 @@ TEST_F(ArmBenchTest, AHeldLineEndsAtTheBorderOfTheReachAndLeavesItNot) {
 TEST_F(ArmBenchTest, StaysInsideTheLimitsAndSaysSo) {
     bench_.set_joint(0, 10.0);
     EXPECT_DOUBLE_EQ(bench_.joints()[0], bench_.arm().joint(0).max);
-    EXPECT_EQ(bench_.refusal(), "Joint 1 stands at its limit.");
+    EXPECT_EQ(bench_.refusal(), "Joint 1 is at its limit.");
     bench_.set_joint(0, 0.0);
     EXPECT_TRUE(bench_.refusal().empty());
 }

@@ -50,7 +50,7 @@ TEST(PlotFiles, TheProgramsOwnSpindleCountsUntilAPersonTypesAnother) {
     bench.settle();
     EXPECT_THAT(read_file(bench.made().program), HasSubstr("S10000"));
     ASSERT_EQ(bench.made().notices.size(), 1U);
-    EXPECT_THAT(bench.made().notices[0].message, HasSubstr("8000 times a minute, here it does 10000"));
+    EXPECT_THAT(bench.made().notices[0].message, HasSubstr("8000 times per minute, here it does 10000"));
     bench.person.fill_in("inspector/work/spindle_rpm", "8000");
     bench.settle();
     EXPECT_FALSE(bench.plot().settings().spindle_rpm);

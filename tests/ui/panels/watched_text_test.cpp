@@ -21,7 +21,7 @@ TEST(WatchedText, CallsNothingKeptWhileItRuns) {
     EXPECT_EQ(watched_labels(ImproverStatus::running).best, "Best so far");
     EXPECT_EQ(watched_labels(ImproverStatus::running).change, "Change so far");
     EXPECT_THAT(watched_note(state(ImproverStatus::running, 0.7, 0.67)), HasSubstr("not the last"));
-    EXPECT_EQ(watched_labels(ImproverStatus::converged).best, "To curve, kept");
+    EXPECT_EQ(watched_labels(ImproverStatus::converged).best, "Mean error, kept");
 }
 
 TEST(WatchedText, SaysAtTheEndWhyAGridWithLessErrorIsNotKept) {
