@@ -75,7 +75,7 @@ void refuse_overrun(const std::vector<motion::StepJitter>& axes,
         const int line = program.blocks[static_cast<std::size_t>(axis.overrun_block)].source_line;
         throw Error(
             Diagnostic{{file, line, 0, -1},
-                       fmt::format("the timer cannot give the pulses of {}: {:.6g} a second are due, it "
+                       fmt::format("the timer cannot give the pulses of {}: {:.6g} per second are due, it "
                                    "gives {:.6g}, and the last ones would be {:.3g} s late",
                                    gcode::axis_letters[n],
                                    axis.max_frequency,

@@ -156,7 +156,7 @@ void add_pulse_options(CLI::App& command, PulseOptions& options) {
     command.add_option(
         "--steps",
         options.steps,
-        "Steps of an axis, as X=250: a mm (by default 250) or, of a rotary axis, a degree (100)");
+        "Steps of an axis, as X=250: per mm (by default 250) or, of a rotary axis, per degree (100)");
     command.add_option("--timer", options.timer_hz, "Frequency of the timer that gives the pulses, Hz")
         ->check(CLI::Range(1.0, 1e10))
         ->capture_default_str();

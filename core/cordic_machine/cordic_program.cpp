@@ -156,7 +156,7 @@ private:
         const auto speed = feed_.speed();
         if (!speed) {
             code_.fault({source, 'G'},
-                        "a feed a revolution (G95) of a spindle that follows the diameter (G96)",
+                        "a feed per revolution (G95) of a spindle that follows the diameter (G96)",
                         "G97: turns per minute");
         }
         return speed;

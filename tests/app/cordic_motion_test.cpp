@@ -90,7 +90,7 @@ TEST_F(CordicMotion, OfPulsesThatTheTimerCannotGiveIsRefusedWithTheLine) {
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_EQ(late.out, "");
     EXPECT_THAT(late.err,
-                HasSubstr("fast.asm:7: the timer cannot give the pulses of X: 100000 a second are due, "
+                HasSubstr("fast.asm:7: the timer cannot give the pulses of X: 100000 per second are due, "
                           "it gives 50000"));
     EXPECT_FALSE(std::filesystem::exists(pulses));
     const Ended given = with("900"); // 45,000: every 2.22 ticks, so that some come after 2

@@ -30,7 +30,7 @@ Refused refused(gcode::CommandKind kind) {
     case gcode::CommandKind::change_tool_number:
         return {"tool number that is set", 'M'};
     case gcode::CommandKind::start_speed_feed_synch:
-        return {"feed a revolution", 'G'};
+        return {"feed per revolution", 'G'};
     case gcode::CommandKind::wait_input:
         return {"input", 'M'};
     case gcode::CommandKind::set_motion_output_bit:

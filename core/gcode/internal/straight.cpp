@@ -44,7 +44,7 @@ void expect_feed(const Run& run, const Block& block, int motion) {
         refuse(column, fmt::format("{} with a feed of zero", g_name(motion)), "give F");
     }
     if (s.feed_mode == FeedMode::per_revolution && exactly_equal(s.spindle_speed, 0.0)) {
-        refuse(column, "feed a revolution (G95) with a spindle speed of zero");
+        refuse(column, "feed per revolution (G95) with a spindle speed of zero");
     }
 }
 
@@ -130,7 +130,7 @@ void make_probe(Run& run, const Block& block, int motion) {
         refuse(column, "probing with a feed of zero", "give F");
     }
     if (s.feed_mode == FeedMode::per_revolution) {
-        refuse(column, "probing with feed a revolution (G95)");
+        refuse(column, "probing with feed per revolution (G95)");
     }
     Move move = run.out.new_move(MoveKind::probe);
     move.probe = static_cast<std::uint8_t>(motion - 380);

@@ -150,9 +150,9 @@ TEST(CordicCompiler, SaysWithLineAndColumnWhatTheProcessorCannotDo) {
     for (const Case& c :
          {Case{"G21\nG0 X1 A5\nM2\n", 7, "no axis A"},
           Case{"G21\n(B) g0 x[1+1] b 5\nM2\n", 15, "no axis B"},
-          Case{"G21\nS100 M3 G96 D500 G95 G1 X1 F0.1\nM2\n", 9, "a feed a revolution"},
-          Case{"G21\nS100 M3 G96 D500 G95 G2 X2 I1 F0.1\nM2\n", 9, "a feed a revolution"},
-          Case{"G21\nS100 M3 G96 D500 G95 G18 G2 X2 I1 F0.1\nM2\n", 9, "a feed a revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G1 X1 F0.1\nM2\n", 9, "a feed per revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G2 X2 I1 F0.1\nM2\n", 9, "a feed per revolution"},
+          Case{"G21\nS100 M3 G96 D500 G95 G18 G2 X2 I1 F0.1\nM2\n", 9, "a feed per revolution"},
           Case{"G21\nG0 X200\nM2\n", 4, "X 200 does not fit into q8.24"},
           Case{"G21\nG0 Y1 Z-200\nM2\n", 7, "Z -200 does not fit into q8.24"},
           Case{"G21\nG1 X1 F12000\nM2\n", 7, "the speed in mm/s 200 does not fit"},
