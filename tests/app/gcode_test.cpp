@@ -299,9 +299,10 @@ TEST(Gcode, PulsesSayWhereTheTimerDoesNotKeepUp) {
     EXPECT_THAT(kept.out, HasSubstr("250/mm        25000"));
     const Ended slow = pulses({"--timer", "10000"});
     EXPECT_EQ(slow.exit_code, 1);
-    EXPECT_THAT(slow.err,
-                HasSubstr("fast.ngc:3: from here on the timer does not keep up with X: 12500 pulses per second "
-                          "are due, it gives 5000"));
+    EXPECT_THAT(
+        slow.err,
+        HasSubstr("fast.ngc:3: from here on the timer does not keep up with X: 12500 pulses per second "
+                  "are due, it gives 5000"));
     for (const char* steps : {"A=100", "X=0", "X=", "X", "XY=1", "X=1e9", "X=nan", "X=5mm"}) {
         const Ended ended = pulses({"--steps", steps});
         EXPECT_EQ(ended.exit_code, 1) << steps;

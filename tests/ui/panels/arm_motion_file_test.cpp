@@ -68,15 +68,25 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
     EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the center"));
 }
 
-// Its end, with what to do, was behind the pane's border.
-TEST_F(ArmMotionFileS7, AFaultIsShownWhole) {
-    write("G1 X300 ;\nG2 X0 Y0 Z10 I0 J0 K5 ;");
-    const auto& faults = arm().motion_file().faults();
+// Its end was behind the pane's border.
+TEST(ArmMotionFileFault, IsShownWhole) {
+    test::Person person({1100, 700});
+    person.workshop().run("view.arm");
+    person.frames(4);
+    person.click("lower/tabs/motion_file");
+    person.frames(2);
+    person.click("lower/text");
+    person.type("G1 X300 ;\nG2 X0 Y0 Z10 I0 J0 K5 ;");
+    person.frames(2);
+    const auto& faults = person.workshop().arm().motion_file().faults();
     ASSERT_EQ(faults.size(), 1U);
-    ASSERT_GT(fault_text(faults).size(), 100U) << "wider than what is left beside the field";
-    person_.keep("arm-motion-file-long-fault");
-    for (const std::string& cut : person_.desktop().ui().cut_texts()) {
-        EXPECT_THAT(cut, testing::Not(HasSubstr("Line 2"))) << cut;
+    const widgets::Ui& ui = person.desktop().ui();
+    ASSERT_GT(ui.words_width(fault_text(faults)),
+              person.place("lower/text").right() - person.place("lower/step").right())
+        << "longer than the line";
+    person.keep("arm-motion-file-long-fault");
+    for (const std::string& cut : ui.cut_texts()) {
+        EXPECT_THAT(cut, testing::Not(HasSubstr("Line 2")));
     }
 }
 
