@@ -35,6 +35,8 @@ constexpr int starting_points = 200; ///< for arms without a closed form
 /// A tool axis so little out of the plane of an arm with five joints was meant to be in it.
 constexpr double rounding_deg = 0.01;
 
+constexpr int no_solution = 1; ///< exit code where no joints bring the tool to its goal
+
 struct ArmPoseOptions {
     std::string arm = "motoman-l3";
     std::vector<double> numbers;
@@ -237,6 +239,25 @@ ToolGoal goal_of(const ArmPoseOptions& options) {
     return goal;
 }
 
+/// A table, and by how much the goal was turned.
+void print_solutions(const ToolGoal& goal, const Solutions& found, const nlohmann::ordered_json& list) {
+    if (found.projected_deg >= rounding_deg) {
+        fmt::print("The {} was turned by {:.4f} deg into the plane of the arm.\n",
+                   goal.rotation ? "frame" : "tool axis",
+                   found.projected_deg);
+        if (goal.rotation) {
+            print_rotation(*found.rotation);
+        }
+    }
+    for (const auto& solution : list) {
+        std::string line;
+        for (const auto& value : solution) {
+            line += fmt::format("{:>14.6f}", value.get<double>());
+        }
+        fmt::print("{}\n", line);
+    }
+}
+
 int inverse(const ArmPoseOptions& options) {
     const ArmModel arm = arm_of(options.arm);
     const ToolGoal goal = goal_of(options);
@@ -260,25 +281,12 @@ int inverse(const ArmPoseOptions& options) {
             answer["reason"] = found.reason;
         }
         fmt::print("{}\n", answer.dump(2));
-        return 0;
-    }
-    if (found.projected_deg >= rounding_deg) {
-        fmt::print("The {} was turned by {:.4f} deg into the plane of the arm.\n",
-                   goal.rotation ? "frame" : "tool axis",
-                   found.projected_deg);
-        if (goal.rotation) {
-            print_rotation(*found.rotation);
-        }
-    }
-    for (const auto& solution : list) {
-        std::string line;
-        for (const auto& value : solution) {
-            line += fmt::format("{:>14.6f}", value.get<double>());
-        }
-        fmt::print("{}\n", line);
+    } else {
+        print_solutions(goal, found, list);
     }
     if (list.empty()) {
-        fmt::print("No solution: {}.\n", found.reason);
+        fmt::print(stderr, "millwright: no solution: {}\n", found.reason);
+        return no_solution;
     }
     return 0;
 }

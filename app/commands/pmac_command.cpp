@@ -117,7 +117,7 @@ public:
     }
 
     bool say(const std::string& command) {
-        const drivers::CommandAnswer answer = answer_to(driver_->command(command));
+        const drivers::CommandAnswer answer = answer_to(sent(command));
         const bool is_kept = is_done(answer) && !driver_->kept_lines().empty();
         if (!is_kept && answer.text != driver_->status().message) { // which is told as the error
             print(answer, answer.text);
@@ -127,6 +127,15 @@ public:
     }
 
 private:
+    /// What the window has a button for is an option here.
+    int sent(const std::string& command) {
+        try {
+            return driver_->command(command);
+        } catch (const pmac::PowerRefused& error) {
+            throw Error(error.diagnostic().message, {}, error.diagnostic().hint + ": --power");
+        }
+    }
+
     static bool is_done(const drivers::CommandAnswer& answer) {
         return answer.state == drivers::CommandAnswer::State::done;
     }

@@ -104,7 +104,14 @@ private:
         const Frame is = base_T_tool(arm_, 0.5 * (here.hold.joints + there.hold.joints));
         const Frame should = base_T_tool(arm_, wanted.hold.joints);
         return (is.translation() - should.translation()).norm() <= settings_.tip_tolerance &&
-               angle_between(is.linear().col(2), should.linear().col(2)) <= settings_.axis_tolerance;
+               turn_between(is.linear(), should.linear()) <= settings_.axis_tolerance;
+    }
+
+    /// Of the tool axis; of the whole direction where the roll is asked for, too.
+    [[nodiscard]] double turn_between(const Mat3& is, const Mat3& should) const {
+        return settings_.aim.demand == ArmDemand::frame
+                   ? Eigen::AngleAxisd(Mat3(is.transpose() * should)).angle()
+                   : angle_between(is.col(2), should.col(2));
     }
 
     [[nodiscard]] ArmPlace place(const ArmWay& way, double share, const JointPositions& previous) const {

@@ -23,9 +23,10 @@ struct ArmWay {
 
 struct ArmPathSettings {
     ArmAim aim{};
-    double tip_tolerance = 0.01;          ///< between joints and path, mm, > 0
-    double axis_tolerance = 0.001;        ///< the same of the tool axis, rad, > 0
-    double longest_step = 10.0;           ///< of the tip, mm, > 0
+    double tip_tolerance = 0.01; ///< between joints and path, mm, > 0
+    double axis_tolerance =
+        0.001;                  ///< the same of the tool axis, or of the whole direction asked for, rad, > 0
+    double longest_step = 10.0; ///< of the tip, mm, > 0
     std::size_t most_points = 10'000'000; ///< more are an Error
 };
 

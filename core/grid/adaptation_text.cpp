@@ -1,6 +1,5 @@
 #include "core/grid/internal/adaptation_text.h"
 
-#include "core/base/counted.h"
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 
@@ -38,18 +37,19 @@ std::string mean_sentence(const ErrorSummary& error) {
                                      : "some moves are out of reach";
 }
 
-std::string iteration_sentence(const ImproverState& state, int iteration) {
-    return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(iteration) + ": " +
-           mean_sentence(state.now);
+std::string iteration_sentence(const ImproverState& state) {
+    return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(state.iteration) +
+           ": " + mean_sentence(state.now);
 }
 
-std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance) {
-    return fmt::format("The solver did not converge: round {} ended after {} with a residual of {:.3g}; the "
-                       "tolerance is {}.",
-                       state.round,
-                       counted(iterations, "iteration"),
-                       state.norm,
-                       shortest(tolerance));
+std::string unsolved_sentence(const ImproverState& state, double tolerance) {
+    return fmt::format(
+        "The solver did not converge: round {} ended at iteration {} with a residual of {:.3g}; "
+        "the tolerance is {}.",
+        state.round,
+        state.iteration,
+        state.norm,
+        shortest(tolerance));
 }
 
 std::string refusals(const std::vector<double>& too_wide,

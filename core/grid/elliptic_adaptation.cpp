@@ -294,26 +294,25 @@ void EllipticAdaptation::step(Position& at, const Progress& progress) const {
     for (int n = 0; more && n < settings_.iterations_per_step; ++n) {
         progress.check();
         more = solver->iterate();
+        at.state.iteration = at.iterations_before + solver->iterations();
         at.state.norms.push_back(
             {at.state.round + 1,
              has_adaptation() ? at.functional.adaptation : std::numeric_limits<double>::quiet_NaN(),
              norm_after(*solver)});
         if (has_failed(solver->status())) {
-            at.state.iteration = at.iterations_before + solver->iterations();
             fall(at, solver->status());
             return;
         }
         if (!more || solver->iterations() % measured_every(settings_.method) == 0) {
             take(at, solver->nodes(), progress);
-            at.state.note = iteration_sentence(at.state, solver->iterations());
+            at.state.note = iteration_sentence(at.state);
             progress.report(at.state.done, at.state.note);
         }
     }
     at.state.current = parameters_of(solver->nodes());
-    at.state.iteration = at.iterations_before + solver->iterations();
     at.state.norm = solver->norm();
     at.solver = solver->clone();
-    at.state.note = iteration_sentence(at.state, solver->iterations());
+    at.state.note = iteration_sentence(at.state);
     if (!more) {
         end_round(at, solver->status());
     }
@@ -398,9 +397,7 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
     const double now = at.state.now.mean;
     ++at.state.round;
     at.unsolved =
-        solved == SolverStatus::converged
-            ? std::string()
-            : unsolved_sentence(at.state, at.state.iteration - at.iterations_before, settings_.tolerance);
+        solved == SolverStatus::converged ? std::string() : unsolved_sentence(at.state, settings_.tolerance);
     at.iterations_before = at.state.iteration;
     at.solver = nullptr;
     at.round_weight = nullptr;

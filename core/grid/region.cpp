@@ -87,7 +87,7 @@ public:
         std::vector<double> share(at.size());
         share_->values(at, share);
         for (std::size_t k = 0; k < at.size(); ++k) {
-            w[k] = outside_ + share[k] * (w[k] - outside_);
+            w[k] = counts_whole(share[k]) ? w[k] : outside_ + share[k] * (w[k] - outside_);
         }
     }
     void gradients(std::span<const Vec2> at, std::span<Vec2> gradient) const override {
@@ -99,11 +99,20 @@ public:
         share_->gradients(at, slope);
         weight_->gradients(at, gradient);
         for (std::size_t k = 0; k < at.size(); ++k) {
-            gradient[k] = Vec2(share[k] * gradient[k] + (w[k] - outside_) * slope[k]);
+            if (!counts_whole(share[k])) {
+                gradient[k] = Vec2(share[k] * gradient[k] + (w[k] - outside_) * slope[k]);
+            }
         }
     }
 
 private:
+    /// Then the weight is itself to the last bit, and a region of the whole surface adapts as none does.
+    /// Where every place of the field is 1, the share between them is 1 but for rounding.
+    static bool counts_whole(double share) {
+        constexpr double rounding = 1e-12;
+        return std::abs(share - 1.0) <= rounding;
+    }
+
     WeightPtr weight_;
     WeightPtr share_;
     double outside_;

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/links/internal/open_files.h"
 #include "core/links/internal/pump_link.h"
+#include "core/links/serial_ports.h"
 
 #include <boost/asio/serial_port.hpp>
 #include <fmt/format.h>
@@ -68,6 +69,9 @@ void set_line(boost::asio::serial_port& port, const SerialAddress& address) {
         port.set_option(Base::stop_bits(line.stop_bits == 2 ? Base::stop_bits::two : Base::stop_bits::one));
         port.set_option(Base::flow_control(Base::flow_control::none));
     } catch (const boost::system::system_error& failure) {
+        if (failure.code() == boost::system::errc::inappropriate_io_control_operation) {
+            throw;
+        }
         throw Error(fmt::format("the serial port does not support {}", to_text(line)),
                     address.path,
                     failure.code().message());
@@ -89,6 +93,41 @@ std::string held_sentence(const std::string& path) {
                        fmt::join(others, ", "));
 }
 
+std::string ports_there() {
+    std::vector<std::string> paths;
+    for (const SerialPort& port : serial_ports()) {
+        paths.push_back(port.path.string());
+    }
+    return paths.empty() ? "the computer has none now"
+                         : fmt::format("the computer has {}", fmt::join(paths, ", "));
+}
+
+/// Why the port could not be opened, and what helps.
+Error not_opened(const std::string& path, const boost::system::error_code& code) {
+    namespace errc = boost::system::errc;
+    if (code == errc::device_or_resource_busy) {
+        return Error(held_sentence(path), path, "end that program first");
+    }
+    if (code == errc::no_such_file_or_directory) {
+        return Error("there is no such serial port",
+                     path,
+                     "plug the controller in and switch it on, or choose another port: " + ports_there());
+    }
+    if (code == errc::permission_denied) {
+        return Error(
+            "no permission to use this serial port",
+            path,
+            "become a member of its group, usually with 'sudo usermod -aG dialout $USER', and log in "
+            "again");
+    }
+    if (code == errc::inappropriate_io_control_operation) {
+        return Error("this is not a serial port", path, "choose another one: " + ports_there());
+    }
+    return Error("the serial port cannot be opened: " + code.message(),
+                 path,
+                 "unplug the controller, plug it in again, and try once more");
+}
+
 } // namespace
 
 SerialLink::SerialLink(SerialAddress address)
@@ -107,12 +146,7 @@ void SerialLink::open() {
             (void)::tcflush(port.native_handle(), TCIFLUSH);
         });
     } catch (const boost::system::system_error& failure) {
-        const bool held = failure.code() == boost::system::errc::device_or_resource_busy;
-        throw Error(held ? held_sentence(address_.path)
-                         : "cannot open the serial port: " + failure.code().message(),
-                    address_.path,
-                    held ? "end that program first"
-                         : "check that it is plugged in and that you may use it (group dialout)");
+        throw not_opened(address_.path, failure.code());
     }
 }
 

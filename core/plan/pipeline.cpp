@@ -188,6 +188,17 @@ private:
     Background background_; // last: its thread uses all of the above
 };
 
+bool WatchedAdaptation::failed() const {
+    using grid::ImproverStatus;
+    return failure ||
+           (state && (state->status == ImproverStatus::folded || state->status == ImproverStatus::singular ||
+                      state->status == ImproverStatus::not_finite));
+}
+
+bool WatchedAdaptation::ended() const {
+    return failure || (state && state->status != grid::ImproverStatus::running);
+}
+
 Pipeline::Pipeline(Folders folders, std::function<void()> wake)
     : folders_(std::move(folders)), planner_(std::make_unique<Planner>(wake)),
       adapter_(std::make_unique<Adapter>(wake)) {}

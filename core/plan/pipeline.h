@@ -40,6 +40,11 @@ struct WatchedAdaptation {
     std::shared_ptr<const grid::ImproverState> state; ///< null before the first step
     std::uint64_t revision = 0;
     std::optional<Diagnostic> failure;
+
+    /// It could not begin or go on, or its solver gave up: there is no grid of it to use.
+    [[nodiscard]] bool failed() const;
+    /// Another step would do nothing.
+    [[nodiscard]] bool ended() const;
 };
 
 class Pipeline {

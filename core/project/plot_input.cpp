@@ -5,11 +5,14 @@
 #include "core/project/gcode_file.h"
 #include "core/project/level_settings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -26,20 +29,54 @@ std::string ending_of(const fs::path& file) {
     return ending;
 }
 
-} // namespace
+constexpr std::array<std::string_view, 3> drawing_endings{".plt", ".hpgl", ".hpg"};
+constexpr std::array<std::string_view, 6> picture_endings{".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm"};
+constexpr std::array<std::string_view, 1> path_endings{".path"};
+constexpr std::array<std::string_view, 2> point_endings{".csv", ".pts"};
+constexpr std::string_view perhaps_points = ".txt"; // looked into: most are G-code
+constexpr std::array<std::string_view, 8> gcode_endings{
+    ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", perhaps_points};
 
-bool is_picture_file(const fs::path& file) {
-    constexpr std::array<std::string_view, 6> endings{".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm"};
+constexpr std::array<PlotFileKind, 5> file_kinds{{{"HPGL", drawing_endings},
+                                                  {"a picture", picture_endings},
+                                                  {"a path", path_endings},
+                                                  {"points of a table", point_endings},
+                                                  {"G-code", gcode_endings}}};
+
+bool ends_with_one_of(const fs::path& file, std::span<const std::string_view> endings) {
     return std::ranges::find(endings, ending_of(file)) != endings.end();
 }
 
+} // namespace
+
+std::span<const PlotFileKind> plot_file_kinds() {
+    return file_kinds;
+}
+
+std::string plot_file_kinds_text() {
+    std::string text;
+    for (const PlotFileKind& kind : file_kinds) {
+        const bool last = &kind == &file_kinds.back();
+        text += fmt::format("{}{} ({})",
+                            text.empty() ? ""
+                            : last       ? " or "
+                                         : ", ",
+                            kind.name,
+                            fmt::join(kind.endings, ", "));
+    }
+    return text;
+}
+
+bool is_picture_file(const fs::path& file) {
+    return ends_with_one_of(file, picture_endings);
+}
+
 bool is_path_file(const fs::path& file) {
-    return ending_of(file) == ".path";
+    return ends_with_one_of(file, path_endings);
 }
 
 bool is_point_file(const fs::path& file) {
-    const std::string ending = ending_of(file);
-    return ending == ".csv" || ending == ".pts";
+    return ends_with_one_of(file, point_endings);
 }
 
 bool holds_points(const fs::path& file) {
@@ -47,7 +84,7 @@ bool holds_points(const fs::path& file) {
         return true;
     }
     std::error_code none;
-    if (ending_of(file) != ".txt" || !fs::is_regular_file(file, none)) {
+    if (ending_of(file) != perhaps_points || !fs::is_regular_file(file, none)) {
         return false;
     }
     std::string head(256, ' ');
@@ -56,15 +93,12 @@ bool holds_points(const fs::path& file) {
 }
 
 bool is_gcode_file(const fs::path& file) {
-    constexpr std::array<std::string_view, 8> endings{
-        ".ngc", ".nc", ".gcode", ".gc", ".tap", ".cnc", ".g", ".txt"};
-    return std::ranges::find(endings, ending_of(file)) != endings.end();
+    return ends_with_one_of(file, gcode_endings);
 }
 
 bool is_plot_file(const fs::path& file) {
-    constexpr std::array<std::string_view, 3> endings{".plt", ".hpgl", ".hpg"};
     return is_picture_file(file) || is_path_file(file) || is_point_file(file) ||
-           std::ranges::find(endings, ending_of(file)) != endings.end();
+           ends_with_one_of(file, drawing_endings);
 }
 
 bool is_drawing_file(const fs::path& file) {

@@ -17,7 +17,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::project {
@@ -82,6 +84,15 @@ struct PlotInput {
 
     friend bool operator==(const PlotInput&, const PlotInput&) = default;
 };
+
+/// Files of one kind that the Plot workspace opens.
+struct PlotFileKind {
+    std::string_view name;
+    std::span<const std::string_view> endings; ///< with their dot, in small letters
+};
+[[nodiscard]] std::span<const PlotFileKind> plot_file_kinds();
+/// All of them: "HPGL (.plt, .hpgl, .hpg), ... or G-code (.ngc, ...)".
+[[nodiscard]] std::string plot_file_kinds_text();
 
 /// By the name: .png, .jpg, .jpeg, .bmp, .pgm, .ppm.
 [[nodiscard]] bool is_picture_file(const std::filesystem::path& file);

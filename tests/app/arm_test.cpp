@@ -18,8 +18,10 @@ using testing::HasSubstr;
 
 nlohmann::json answer_to(const std::vector<std::string>& words) {
     const Ended ended = run(words);
-    EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    return nlohmann::json::parse(ended.out);
+    nlohmann::json answer = nlohmann::json::parse(ended.out);
+    const bool nothing_found = answer.contains("reason");
+    EXPECT_EQ(ended.exit_code, nothing_found ? 1 : 0) << ended.err;
+    return answer;
 }
 
 TEST(Arm, TellsWhereTheJointsBringTheTool) {
@@ -46,6 +48,10 @@ TEST(Arm, FindsTheJointsThatReachAPoint) {
 }
 
 TEST(Arm, SaysWhyNothingReachesAPoint) {
+    const Ended none = run({"arm", "ik", "1500", "0", "0", "0", "0", "1"});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_EQ(none.out, "");
+    EXPECT_THAT(none.err, HasSubstr("millwright: no solution: the wrist would be 1500.000 mm"));
     const auto far = answer_to({"arm", "ik", "1500", "0", "0", "0", "0", "1", "--json"});
     EXPECT_TRUE(far.at("solutions").empty());
     EXPECT_THAT(far.at("reason").get<std::string>(), HasSubstr("291.924 to 1450.000"));

@@ -281,7 +281,7 @@ TEST_F(Send, TellsWhatIsWrongBeforeAnythingIsSent) {
     write_content(file, "G0 X1\n");
     ended = run(words());
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("cannot open the serial port"));
+    EXPECT_THAT(ended.err, HasSubstr("there is no such serial port (plug the controller in"));
     ended = run({"send", (scratch / "nothing.ngc").string(), "--driver", "grbl", "--port", port});
     EXPECT_EQ(ended.exit_code, 1);
     ended = run({"send", file, "--driver", "none", "--port", port});

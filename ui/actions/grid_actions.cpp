@@ -25,6 +25,14 @@ Permission is_watched(const Workbench& now) {
     return now.watched ? Permission{} : Permission::refused("No adaptation has been started.");
 }
 
+Permission can_adapt_further(const Workbench& now) {
+    if (now.watched && now.watched->ended()) {
+        return Permission::refused(now.watched->failed() ? "The adaptation has failed: Reset begins it anew."
+                                                         : "The adaptation has ended: Reset begins it anew.");
+    }
+    return is_watched(now);
+}
+
 Permission is_adaptation_playing(const Workbench& now) {
     return now.watched && now.watched->playing ? Permission{}
                                                : Permission::refused("No adaptation is playing.");
@@ -181,7 +189,7 @@ void add_grid_actions(Actions& actions) {
         start_adaptation<GridMethod::redistribution>);
     add(actions,
         {"grid.play", "Grid", "Play the adaptation", "Runs the adaptation continuously.", "", icons::play},
-        is_watched,
+        can_adapt_further,
         [](Hands& hands) { hands.pipeline.play_adaptation(); });
     add(actions,
         {"grid.pause", "Grid", "Pause the adaptation", "Stops after the present step.", "", icons::pause},
@@ -194,7 +202,7 @@ void add_grid_actions(Actions& actions) {
          "Performs one step and pauses.",
          "",
          icons::step_forward},
-        is_watched,
+        can_adapt_further,
         [](Hands& hands) { hands.pipeline.step_adaptation(); });
     add(actions,
         {"grid.reset",

@@ -23,7 +23,7 @@ Permission can_execute(const Workbench& now) {
 Permission can_go_on(const Workbench& now) {
     const Permission able = can_execute(now);
     if (able.allowed && now.processor.debugger().state().stop != cordic::Stop::none) {
-        return Permission::refused("The processor stands. Reset it to begin again.");
+        return Permission::refused("The processor is halted. Reset it to begin again.");
     }
     return able;
 }

@@ -58,8 +58,8 @@ void arm_drives(Ui& ui, const Workbench& now) {
     constexpr std::array<widgets::Column, 6> columns{{{"Drive", {}, 0.7F},
                                                       {"Counts", {}, 1.2F, true},
                                                       {"Length", "mm", 1.2F, true},
-                                                      {"Least", "counts", 1.2F, true},
-                                                      {"Most", "counts", 1.2F, true},
+                                                      {"Minimum", "counts", 1.2F, true},
+                                                      {"Maximum", "counts", 1.2F, true},
                                                       {"Turns", {}, 0.8F, true}}};
     const bool known = !now.arm_connected() || now.controller.status.position_known;
     const arm::ArmDriveReadings found = arm::drive_readings(*drives, now.arm.joints());

@@ -338,8 +338,8 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
     }
     const drivers::DriverStatus& status = now.controller.status;
     const bool alarm = status.state == drivers::DriverState::alarm; // which stands above the drawing
-    if (real && !status.message.empty() && !alarm) {                // always in sight, and it moves no button
-        ui.words(as_sentence(status.message), widgets::Tone::warning);
+    if (real && !status.message.empty() && !alarm) { // below all buttons, so that it moves none
+        ui.text(as_sentence(status.message), widgets::Tone::warning);
     } else if (const auto& place = now.arm.card_run().place(); real && place) {
         ui.note(place_text(*place));
     } else if (const auto& ended = now.arm.card_run().broken_off(); real && ended) {

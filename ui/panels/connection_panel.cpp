@@ -307,7 +307,7 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
     if (!has_messages(machine)) {
         return;
     }
-    const auto section = ui.section("messages", "What it says");
+    const auto section = ui.section("messages", "Controller messages");
     if (!section) {
         return;
     }

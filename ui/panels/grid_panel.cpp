@@ -275,7 +275,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
         draw_links(ui, state->links, turns_the_tool(now));
     }
     const GridMethod watched = now.watched->method;
-    const bool is_of_use = plan::follows_nodes(now.project.toolpath.strategy);
+    const bool is_of_use = plan::follows_nodes(now.project.toolpath.strategy) && !now.watched->failed();
     if (is_of_use && watched != now.project.grid.method) {
         const auto& row = project::row_of(project::grid_methods(), watched);
         action_button(ui,

@@ -44,12 +44,18 @@ void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         editor_.draw_find_button(ui);
     }
     const auto& faults = now.arm.motion_file().faults();
-    constexpr float step_width = 190.0F;
+    constexpr float step_width = 230.0F;
     {
         const auto width = ui.width(ui.px(step_width));
         const auto labels = ui.label_share(0.5F);
-        const widgets::FieldInfo step{
-            "step", "Result each", "mm", "Distance of two points in the result file", 0.001, 1000.0, 5.0, 3};
+        const widgets::FieldInfo step{"step",
+                                      "One result per",
+                                      "mm",
+                                      "Distance of two points in the result file",
+                                      0.001,
+                                      1000.0,
+                                      5.0,
+                                      3};
         if (const auto value = ui.number(now.session.hand.arm_result_step, step)) {
             ask.show([to = *value](actions::Session& session) { session.hand.arm_result_step = to; });
         }

@@ -15,7 +15,8 @@ namespace millwright::panels {
 namespace {
 
 // Of the map, px at scale 1: a lower pane scrolls.
-constexpr float least_height = 170.0F;
+constexpr float least_height = 90.0F;
+constexpr float readable_height = 170.0F;
 constexpr float most_height = 2000.0F;
 constexpr float around_map = 70.0F; // title, axis and their numbers, across and down
 
@@ -34,6 +35,23 @@ region_between(int row, int column, int other_row, int other_column, const plot:
             .top = top * side,
             .width = right + 1 == shown.width ? 0 : (right - left + 1) * side,
             .height = bottom + 1 == shown.height ? 0 : (bottom - top + 1) * side};
+}
+
+/// Around the cells of a region, on the map.
+widgets::MapFrame frame_of(const plot::PixelRegion& region, const plan::ShownPicture& shown) {
+    const plot::Picture& picture = shown.picture;
+    const auto cells = [&](int pixels, int most) {
+        return std::clamp(static_cast<double>(pixels) / picture.file_pixels, 0.0, static_cast<double>(most));
+    };
+    const double left = cells(region.left, picture.width), top = cells(region.top, picture.height);
+    const double right = region.width > 0 ? cells(region.left + region.width, picture.width) : picture.width;
+    const double bottom =
+        region.height > 0 ? cells(region.top + region.height, picture.height) : picture.height;
+    const auto x = [&](double column) { return shown.corner.x() + (column - 0.5) * shown.cell.x(); };
+    const auto y = [&](double row) {
+        return shown.corner.y() + (picture.height - row - 0.5) * shown.cell.y();
+    };
+    return {{x(left), y(top)}, {x(right), y(bottom)}};
 }
 
 void change_region(ActionQueue& ask,
@@ -86,8 +104,9 @@ void PicturePane::mark(const Cell& corner, ActionQueue& ask) {
 }
 
 float PicturePane::map_height(const Ui& ui) const {
-    const float fitting = std::max(ui.rest().h, ui.px(least_height));
-    if (!fills_width_) {
+    const float fitting =
+        std::max(ui.rest().h, ui.px(size_ == MapSize::pane ? least_height : readable_height));
+    if (size_ != MapSize::width) {
         return fitting;
     }
     const double ratio =
@@ -115,15 +134,15 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
             first_.reset();
             change_region(ask, "Cut the whole picture", std::nullopt);
         }
-        if (ui.button("size",
-                      fills_width_ ? "Fit to pane" : "Fit to width",
-                      {},
-                      {{},
-                       widgets::Rank::normal,
-                       -1.0F,
-                       fills_width_ ? "Show the whole map" : "Larger map with scrolling"})) {
-            fills_width_ = !fills_width_;
-        }
+        const auto size_button =
+            [&](std::string_view id, std::string_view label, MapSize size, std::string_view tip) {
+                const auto rank = size_ == size ? widgets::Rank::primary : widgets::Rank::normal;
+                if (ui.button(id, label, {}, {{}, rank, -1.0F, tip})) {
+                    size_ = size_ == size ? MapSize::readable : size;
+                }
+            };
+        size_button("fit", "Fit to pane", MapSize::pane, "Show the whole map");
+        size_button("fill", "Fit to width", MapSize::width, "Larger map with scrolling");
         ui.note(first_     ? "Click the opposite corner of the region."
                 : side > 1 ? fmt::format("Each cell is the mean of {0} x {0} pixels. Click two opposite "
                                          "corners to select a region.",
@@ -149,6 +168,9 @@ void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return fmt::format(
             "G({}, {}) = {}\nx {:.2f} mm, y {:.2f} mm", i, j, shown_->gray(i, j), x_[column], y_[row]);
     };
+    if (const auto& region = now.plot.settings().picture.region) {
+        view.frame = frame_of(*region, *shown_);
+    }
     if (first_) {
         const auto up = static_cast<std::size_t>(shown_->picture.height - 1 - first_->row);
         view.chosen = widgets::MapPlace{x_[static_cast<std::size_t>(first_->column)], y_[up]};

@@ -30,7 +30,9 @@ private:
     std::shared_ptr<const plan::ShownPicture> shown_; ///< of which the rest is
     std::vector<double> x_, y_, gray_;                ///< as heat_map() takes them
     std::optional<Cell> first_;                       ///< corner of a region
-    bool fills_width_ = false;
+    /// Readable: as high as the pane, or so high that cells can be clicked; then it scrolls.
+    enum class MapSize { readable, pane, width };
+    MapSize size_ = MapSize::readable;
 };
 
 } // namespace millwright::panels

@@ -164,7 +164,7 @@ void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
 void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_source(ui, now, ask);
     if (now.plot.file().empty()) {
-        ui.note("Or drop a file on the window: HPGL (.plt, .hpgl), PNG, JPEG, BMP, a path file or G-code.");
+        ui.note("Or drop a file on the window: " + project::plot_file_kinds_text() + ".");
         return;
     }
     say_what_is_wrong(ui, now);

@@ -52,7 +52,8 @@ void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (bench.failure()) {
         clicks[1].permission = widgets::Permission::refused("The processor cannot execute this program.");
     } else if (bench.debugger().state().stop != cordic::Stop::none) {
-        clicks[1].permission = widgets::Permission::refused("The processor stands. Reset it to begin again.");
+        clicks[1].permission =
+            widgets::Permission::refused("The processor is halted. Reset it to begin again.");
     }
     if (!clicks[1].permission.allowed) {
         click_ = Click::breakpoint;

@@ -73,7 +73,7 @@ void set_up_number(Ui& ui,
 void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const SetUpStudySettings& set = now.session.set_up.settings;
     choose_set_up<SetUpGoal>(
-        ui, ask, "goal", "Least", set.goal, goals, [](SetUpStudySettings& s, SetUpGoal g) { s.goal = g; });
+        ui, ask, "goal", "Minimise", set.goal, goals, [](SetUpStudySettings& s, SetUpGoal g) { s.goal = g; });
     choose_set_up<SetUpParameter>(
         ui, ask, "across", "Map X axis", set.across, parameters, [](SetUpStudySettings& s, SetUpParameter p) {
             s.across = p;

@@ -26,15 +26,25 @@ std::string fault_of(const std::vector<Diagnostic>& faults, int line) {
 
 } // namespace
 
+std::string fault_text(const std::vector<Diagnostic>& faults) {
+    const Diagnostic& first = faults.front();
+    const std::string more = faults.size() > 1 ? fmt::format(" (and {} more)", faults.size() - 1) : "";
+    const std::string place = first.place.line > 0 ? fmt::format("Line {}: ", first.place.line) : "";
+    const std::string hint = first.hint.empty() ? "" : " (" + first.hint + ")";
+    return with_full_stop(place + first.message + hint + more);
+}
+
 void fault_line(Ui& ui, const std::vector<Diagnostic>& faults, std::string_view help) {
     if (faults.empty()) {
         ui.words(help, widgets::Tone::muted);
         return;
     }
-    const Diagnostic& first = faults.front();
-    const std::string more = faults.size() > 1 ? fmt::format(" (and {} more)", faults.size() - 1) : "";
-    const std::string place = first.place.line > 0 ? fmt::format("Line {}: ", first.place.line) : "";
-    ui.words(with_full_stop(place + first.message + more), widgets::Tone::danger);
+    const std::string whole = fault_text(faults);
+    if (ui.words_width(whole) <= ui.rest().w) {
+        ui.words(whole, widgets::Tone::danger);
+    } else {
+        ui.text(whole, widgets::Tone::danger);
+    }
 }
 
 void TextEditor::draw_find_button(Ui& ui) {

@@ -64,7 +64,10 @@ private:
     std::string news_;                 ///< how many places were replaced
 };
 
-/// The first fault as a line of words, else `help`.
+/// The first fault with its line and what to do, and how many more there are.
+[[nodiscard]] std::string fault_text(const std::vector<Diagnostic>& faults);
+
+/// The first fault, in as many lines as it needs, else `help`.
 void fault_line(Ui& ui, const std::vector<Diagnostic>& faults, std::string_view help);
 
 } // namespace millwright::panels

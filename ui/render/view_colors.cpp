@@ -161,6 +161,38 @@ std::string color_text(const glm::vec3& color) {
     return text;
 }
 
+std::optional<glm::vec3> color_of(const ViewColors& colors, LayerColor which) {
+    if (const auto& chosen = colors.chosen.of(which)) {
+        return chosen;
+    }
+    switch (which) {
+    case LayerColor::background:
+        return colors.background_top;
+    case LayerColor::surface:
+        return colors.surface;
+    case LayerColor::produced:
+        return glm::mix(colors.surface, colors.warning, 0.55F);
+    case LayerColor::toolpath:
+        return colors.path;
+    case LayerColor::axis_x:
+        return colors.axis_x;
+    case LayerColor::axis_y:
+        return colors.axis_y;
+    case LayerColor::axis_z:
+        return colors.axis_z;
+    case LayerColor::axis_names:
+        return std::nullopt;
+    case LayerColor::surface_u:
+    case LayerColor::surface_v:
+    case LayerColor::produced_u:
+    case LayerColor::produced_v:
+    case LayerColor::grid_u:
+    case LayerColor::grid_v:
+        break;
+    }
+    return colors.wire;
+}
+
 ViewColors view_colors(Theme theme) {
     return theme == Theme::dark ? dark() : light();
 }

@@ -99,4 +99,8 @@ struct ViewColors {
 /// With the chosen ones. What is not seen on a chosen background is of the other theme.
 [[nodiscard]] ViewColors view_colors(Theme theme, const LayerColors& chosen);
 
+/// The one that a layer is drawn in, lines without their transparency: chosen or the theme's; nothing where
+/// the theme has several, as for the names of the axes.
+[[nodiscard]] std::optional<glm::vec3> color_of(const ViewColors& colors, LayerColor which);
+
 } // namespace millwright::render

@@ -243,6 +243,17 @@ void draw_second_line(Ui& ui, Rect line, const Mapping& mapping, const HeatMapVi
     }
 }
 
+void draw_frame(Ui& ui, const std::string& own, const Mapping& mapping, const MapFrame& frame) {
+    const auto [left, right] = std::minmax({mapping.pixel_x(frame.a.x), mapping.pixel_x(frame.b.x)});
+    const auto [top, bottom] = std::minmax({mapping.pixel_y(frame.a.y), mapping.pixel_y(frame.b.y)});
+    const Rect box{left, top, right - left, bottom - top};
+    constexpr Colour white = 0xFFFFFFFF;
+    constexpr Colour black = 0xFF000000;
+    outline(box, black, 0.0F, ui.px(4.0F));
+    outline(box, white, 0.0F, ui.px(1.8F));
+    record_at(ui, own + "/frame", box);
+}
+
 void draw_marks(Ui& ui, const Mapping& mapping, const HeatMapView& view) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float size = ui.px(6.0F);
@@ -296,6 +307,9 @@ std::optional<MapPlace> heat_map(Ui& ui, std::string_view id, const HeatMapView&
         draw_hatch(ui, box);
     }
     draw_map_cells(mapping, view, range);
+    if (view.frame) {
+        draw_frame(ui, own, mapping, *view.frame);
+    }
     draw_marks(ui, mapping, view);
     ImGui::PopClipRect();
     draw_map_ticks(ui, mapping, view, all.x);

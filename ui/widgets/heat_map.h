@@ -17,6 +17,12 @@ struct MapPlace {
     double y = 0.0;
 };
 
+/// Two opposite corners.
+struct MapFrame {
+    MapPlace a{};
+    MapPlace b{};
+};
+
 struct HeatMapView {
     std::string_view title = {};
     std::string_view x_label = {};
@@ -30,6 +36,7 @@ struct HeatMapView {
     ColourMap colours = {};              ///< of the least value at 0, of the greatest at 1
     std::optional<MapPlace> chosen = {}; ///< a ring
     std::optional<MapPlace> best = {};   ///< a cross
+    std::optional<MapFrame> frame = {};  ///< a rectangle, recorded as `frame` under the map's id
     /// What stands at the mouse, of the nearest value; empty: its place and itself.
     std::function<std::string(std::size_t column, std::size_t row)> readout = {};
     bool same_scale = false; ///< x and y have one unit and are as long: the map is as wide as that makes it

@@ -166,9 +166,9 @@ public:
 
     // ---- words and read-only values (values.cpp)
     void heading(std::string_view text);
-    void text(std::string_view text); ///< wraps
-    /// One line as wide as its text, for bars: put several side by side with beside(). `most`: pixels, 0: any
-    /// number; what does not fit ends in an ellipsis, and its tip is the whole of it.
+    void text(std::string_view text, Tone tone = Tone::normal); ///< wraps
+    /// One line as wide as its text, for bars: put several side by side with beside(). `most`: pixels, 0: up
+    /// to the pane's border; what does not fit ends in an ellipsis, and its tip is the whole of it.
     void words(std::string_view text, Tone tone = Tone::normal, float most = 0.0F);
     /// Pixels that words() of it take.
     [[nodiscard]] float words_width(std::string_view text) const;

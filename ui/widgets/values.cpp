@@ -63,13 +63,14 @@ void Ui::heading(std::string_view text) {
     draw_text(*this, look_.fonts.strong, slot.rect(), colours().text, text);
 }
 
-void Ui::text(std::string_view text) {
-    wrapped(*this, text, colours().text);
+void Ui::text(std::string_view text, Tone tone) {
+    wrapped(*this, text, tone_colour(colours(), tone));
 }
 
 void Ui::words(std::string_view text, Tone tone, float most) {
-    const float width = words_width(text);
-    const Slot slot(*this, most > 0.0F ? std::min(width, most) : width, px(gaps::row));
+    const float border = state_->scrolls_sideways ? words_width(text) : std::max(rest().w, 1.0F);
+    const float width = std::min({words_width(text), border, most > 0.0F ? most : border});
+    const Slot slot(*this, width, px(gaps::row));
     if (draw_text(*this, look_.fonts.text, slot.rect(), tone_colour(colours(), tone), text)) {
         offer_tip(*this, path(text), slot.rect(), text);
     }

@@ -14,10 +14,10 @@ namespace millwright::grid {
 
 [[nodiscard]] std::string mean_sentence(const ErrorSummary& error);
 
-[[nodiscard]] std::string iteration_sentence(const ImproverState& state, int iteration);
+[[nodiscard]] std::string iteration_sentence(const ImproverState& state);
 
-/// That the solver did not converge in the round that has just ended, after so many iterations of it.
-[[nodiscard]] std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance);
+/// That the solver did not converge in the round that has just ended.
+[[nodiscard]] std::string unsolved_sentence(const ImproverState& state, double tolerance);
 
 /// Of the refused grids those with a lower mean than the one that was taken: how good they were, and why not.
 /// `too_wide` and `worse_elsewhere` are their means, mm.

@@ -2,6 +2,7 @@
 // ends motion when, and what is claimed: docs/reference/pmac.md.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/drivers/session_driver.h"
 #include "core/pmac/driver/pmac_settings.h"
 
@@ -15,6 +16,13 @@ namespace millwright::pmac {
 namespace internal {
 class PmacSession;
 }
+
+/// Of a line that would give power to motors without, before a person has let lines do that. Nothing was
+/// sent.
+class PowerRefused final : public Error {
+public:
+    using Error::Error;
+};
 
 class PmacDriver final : public drivers::SessionDriver {
 public:
@@ -36,7 +44,7 @@ public:
     void start(drivers::Work work) override;
     /// On-line commands, and buffers from OPEN to CLOSE, which may come in several calls: their lines are
     /// sent with CLOSE. Throws Error for jogs without an end (J+), and while motors move for lines that need
-    /// rest.
+    /// rest; PowerRefused.
     int command(const std::string& lines) override;
     /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
     [[nodiscard]] std::vector<std::string> kept_lines() const;

@@ -3,6 +3,7 @@
 #include "core/arm/arm_forward.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/kinematics/tool_roll.h"
 #include "tests/support/arm_ways.h"
 #include "tests/support/arms.h"
 
@@ -192,6 +193,47 @@ TEST(ArmPath, IsTheSameWhereTheToolTurnsOnTheSpot) {
     const ArmPath path = followed({turn});
     ASSERT_TRUE(path.whole()) << path.findings.front().why;
     EXPECT_GE(path.points.size(), 16U);
+}
+
+/// The tip stays, and the tool is tilted from 20 degrees on the side of `azimuth` over the upright to 20
+/// degrees on the other, with the same roll all the way; it passes `beside` the upright, rad.
+ArmWay tilted_past_the_upright(const Vec3& tip, double azimuth, double beside) {
+    ArmWay way;
+    way.at = [=](double share) {
+        const double tilt = from_degrees(20.0 - 40.0 * share);
+        const Vec3 outwards(std::cos(azimuth), std::sin(azimuth), 0.0);
+        const Vec3 across(-std::sin(azimuth), std::cos(azimuth), 0.0);
+        const Vec3 level = std::sin(tilt) * outwards + std::sin(beside) * across;
+        const Vec3 axis = (level + std::cos(tilt) * Vec3::UnitZ()).normalized();
+        Frame tool = Frame::Identity();
+        tool.translation() = tip;
+        tool.linear() = kinematics::frame_with_roll(axis, 0.4);
+        return tool;
+    };
+    return way;
+}
+
+TEST(ArmPath, KeepsARollPastTheUprightToolOnEachOfFourSides) {
+    const ArmPathSettings keeping_roll{.aim = {.demand = ArmDemand::frame}};
+    for (const double azimuth : {0.0, 0.5 * pi, pi, -0.5 * pi}) {
+        const bool to_the_side = std::abs(std::sin(azimuth)) > 0.5;
+        const Vec3 in_plane = to_the_side ? Vec3(0.0, 800.0, 300.0) : Vec3(800.0, 0.0, 300.0);
+        const ArmPath of_five = follow_path_well(test::arm("motoman-l3"),
+                                                 {tilted_past_the_upright(in_plane, azimuth, 0.0)},
+                                                 rest(),
+                                                 keeping_roll,
+                                                 {});
+        EXPECT_TRUE(of_five.whole()) << azimuth << ": " << of_five.findings.front().why;
+        for (const double beside : {0.0, 1e-6, 0.01}) {
+            const ArmPath of_six =
+                follow_path_well(test::arm("six-axis"),
+                                 {tilted_past_the_upright(Vec3(550.0, 0.0, 900.0), azimuth, beside)},
+                                 rest(6),
+                                 keeping_roll,
+                                 {});
+            EXPECT_TRUE(of_six.whole()) << azimuth << ", " << beside << ": " << of_six.findings.front().why;
+        }
+    }
 }
 
 } // namespace

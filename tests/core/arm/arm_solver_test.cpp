@@ -152,24 +152,6 @@ TEST(ArmSolverInFull, MissesNoBranchOfThreeThousandPoses) {
     EXPECT_EQ(poses_with_a_branch_missing(3000), 0);
 }
 
-TEST(ToolRoll, IsThatOfTheFrameWithThatRoll) {
-    std::mt19937 random(2);
-    std::normal_distribution<double> any;
-    for (int n = 0; n < 100; ++n) {
-        const Vec3 axis = n < 2 ? Vec3(0.0, 0.0, n == 0 ? 1.0 : -1.0)
-                                : Vec3(any(random), any(random), any(random)).normalized();
-        const double roll = std::uniform_real_distribution<double>(-3.1, 3.1)(random);
-        const Mat3 frame = kinematics::frame_with_roll(axis, roll);
-        EXPECT_TRUE(frame.isUnitary(1e-12));
-        EXPECT_NEAR(frame.determinant(), 1.0, 1e-12);
-        EXPECT_LT((frame.col(2) - axis).norm(), 1e-12);
-        EXPECT_NEAR(kinematics::roll_of(frame), roll, 1e-9);
-    }
-    EXPECT_LT((kinematics::frame_with_roll(Vec3::UnitX(), 0.0).col(0) - Vec3::UnitZ()).norm(), 1e-12);
-    EXPECT_LT((kinematics::frame_with_roll(Vec3::UnitZ(), 0.0).col(0) - Vec3::UnitX()).norm(), 1e-12);
-    EXPECT_LT((kinematics::frame_with_roll(Vec3::UnitZ(), 0.5 * pi).col(0) - Vec3::UnitY()).norm(), 1e-12);
-}
-
 TEST(ArmSolverOfTheL3, SaysThatItFoundNothing) {
     const ArmModel arm = test::arm("motoman-l3");
     Frame far = Frame::Identity();

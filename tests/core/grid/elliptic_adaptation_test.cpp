@@ -185,6 +185,26 @@ TEST(EllipticAdaptation, LessensTheAdaptationWhenTheReferenceSolverFolds) {
                 testing::StartsWith("LV = 10 was used instead of 100: a cell folded at LV = 100."));
 }
 
+// The thesis's test at LV = 100: 221 iterations were reported in one place, 220 in another.
+TEST(EllipticAdaptation, CountsTheIterationsBeforeANewStartEverywhere) {
+    const PoleErrorModel model({});
+    EllipticAdaptationSettings settings = quick();
+    settings.method = EllipticMethod::reference;
+    settings.boundary = Boundary::fixed;
+    settings.max_rounds = 1;
+    settings.max_iterations = 20;
+    settings.iterations_per_step = 20;
+    EllipticAdaptation adaptation(model, Grid::uniform(25, 25), settings, weight_w1()); // folds at LV = 100
+    (void)adaptation.advance(Progress());
+    (void)adaptation.advance(Progress());
+    EXPECT_EQ(adaptation.state().iteration, 21);
+    EXPECT_THAT(adaptation.state().note, testing::StartsWith("Round 1, iteration 21: "));
+    const ImproverState state = run(adaptation, Progress());
+    EXPECT_EQ(state.iteration, 21);
+    EXPECT_EQ(std::ssize(state.norms), 21);
+    EXPECT_THAT(state.warning, testing::HasSubstr("round 1 ended at iteration 21 with the norm"));
+}
+
 TEST(EllipticAdaptation, SaysWhereTheSolverOfTheLastRoundDidNotConverge) {
     const PoleErrorModel model({});
     for (const EllipticMethod method :

@@ -2,10 +2,15 @@
 
 #include "core/base/error.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <string>
 
 namespace millwright::links {
 namespace {
+
+using ::testing::HasSubstr;
 
 TEST(Link, IsATcpConnectionOrASerialPortByItsAddress) {
     EXPECT_EQ(make_link("tcp:localhost:2300")->name(), "tcp:localhost:2300");
@@ -17,6 +22,24 @@ TEST(Link, RefusesWhatIsNoAddress) {
          {"", "tcp:", "tcp:host", "tcp::12", "tcp:host:0", "tcp:host:65536", "tcp:host:1x"}) {
         EXPECT_THROW((void)make_link(address), Error) << address;
     }
+}
+
+/// Why the port at `path` cannot be opened.
+std::string port_refusal(const std::string& path) {
+    try {
+        make_link(path)->open();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "opened";
+}
+
+TEST(Link, SaysWhatToDoAboutASerialPortThatCannotBeOpened) {
+    EXPECT_THAT(port_refusal("/dev/does-not-exist"),
+                HasSubstr("there is no such serial port (plug the controller in and switch it on, or choose "
+                          "another port: the computer has "));
+    EXPECT_THAT(port_refusal("/dev/null"),
+                HasSubstr("/dev/null: this is no serial port (choose another one: the computer has "));
 }
 
 TEST(Link, TellsWhyNothingCanBeOpened) {

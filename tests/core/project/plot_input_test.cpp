@@ -1,6 +1,11 @@
 #include "core/project/plot_input.h"
 
+#include "core/project/gcode_file.h"
+
 #include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
 
 namespace millwright::project {
 namespace {
@@ -18,6 +23,21 @@ TEST(PlotInput, FilesAreToldByTheirNames) {
     EXPECT_TRUE(is_point_file("points.CSV"));
     EXPECT_FALSE(is_plot_file("sign.ngc"));
     EXPECT_FALSE(is_plot_file("plt"));
+}
+
+TEST(PlotInput, TheKindsThatAreNamedAreThoseThatAreOpened) {
+    const std::string text = plot_file_kinds_text();
+    for (const PlotFileKind& kind : plot_file_kinds()) {
+        EXPECT_NE(text.find(kind.name), std::string::npos);
+        for (const std::string_view ending : kind.endings) {
+            const std::string file = "file" + std::string(ending);
+            EXPECT_TRUE(is_plot_file(file) || is_gcode_file(file)) << file;
+            EXPECT_NE(text.find(ending), std::string::npos) << ending;
+        }
+    }
+    for (const char* ending : {".hpg", ".ppm", ".path", ".csv", ".pts", ".txt", ".tap"}) {
+        EXPECT_NE(text.find(ending), std::string::npos) << ending;
+    }
 }
 
 TEST(PlotInput, APensOnlyLevelIsSwitchedOffAndASecondOneGoes) {

@@ -5,12 +5,14 @@
 #include "core/base/units.h"
 #include "tests/ui/panels/person.h"
 #include "ui/actions/arm_bench.h"
+#include "ui/panels/text_editor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace millwright::panels {
 namespace {
@@ -64,6 +66,34 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
     person_.frames(2);
     ASSERT_EQ(arm().motion_file().faults().size(), 1U);
     EXPECT_THAT(arm().motion_file().faults().front().message, HasSubstr("mm from the centre"));
+}
+
+// Its end was behind the pane's border.
+TEST(ArmMotionFileFault, IsShownWhole) {
+    test::Person person({1100, 700});
+    person.workshop().run("view.arm");
+    person.frames(4);
+    person.click("lower/tabs/motion_file");
+    person.frames(2);
+    person.click("lower/text");
+    person.type("G1 X300 ;\nG2 X0 Y0 Z10 I0 J0 K5 ;");
+    person.frames(2);
+    const auto& faults = person.workshop().arm().motion_file().faults();
+    ASSERT_EQ(faults.size(), 1U);
+    const widgets::Ui& ui = person.desktop().ui();
+    ASSERT_GT(ui.words_width(fault_text(faults)),
+              person.place("lower/text").right() - person.place("lower/step").right())
+        << "longer than the line";
+    person.keep("arm-motion-file-long-fault");
+    for (const std::string& cut : ui.cut_texts()) {
+        EXPECT_THAT(cut, testing::Not(HasSubstr("Line 2")));
+    }
+}
+
+TEST(FaultText, HasTheLineWhatToDoAndHowManyMoreThereAre) {
+    const std::vector<Diagnostic> faults{{{.file = {}, .line = 4}, "motor 5's loop is open", "enable it"},
+                                         {}};
+    EXPECT_EQ(fault_text(faults), "Line 4: motor 5's loop is open (enable it) (and 1 more).");
 }
 
 TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {

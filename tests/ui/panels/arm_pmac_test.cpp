@@ -242,6 +242,10 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     }));
     EXPECT_EQ(bench.person.workshop().arm().program().faults().front().place.line, 3);
     bench.person.frames(3); // from elsewhere it may be sound: it can be asked again, and is refused again
+    bench.person.keep("arm-beyond-limits-simulated");
+    for (const std::string& cut : bench.person.desktop().ui().cut_texts()) {
+        EXPECT_THAT(cut, testing::Not(testing::HasSubstr("limits")));
+    }
     EXPECT_EQ(bench.person.refusal("lower/arm_simulate"), "");
     bench.person.click("lower/arm_run_program");
     bench.person.live_until([] { return false; }, 0.5);

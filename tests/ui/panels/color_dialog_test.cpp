@@ -27,6 +27,15 @@ TEST(ColorDialog, GivesTheViewOtherColoursAndKeepsThem) {
     person.fill_in("dialogs/colors/surface_u", "#ff0000");
     person.fill_in("dialogs/colors/grid_u", "red"); // refused
     person.keep("color-dialog");
+    const auto swatch = [&](const std::string& name) {
+        const render::Picture picture = person.picture_of("dialogs/colors/" + name + "_swatch");
+        return picture.at(picture.size.width / 2, picture.size.height / 2);
+    };
+    EXPECT_EQ(swatch("background"), (render::Pixel{0x20, 0xff, 0x40, 255}));
+    EXPECT_EQ(swatch("surface_u"), (render::Pixel{255, 0, 0, 255}));
+    const glm::vec3 plain = 255.0F * render::view_colors(render::Theme::dark).surface;
+    EXPECT_NEAR(swatch("surface")[0], plain.r, 1.0F) << "the theme's, where none is chosen";
+    EXPECT_NEAR(swatch("surface")[2], plain.b, 1.0F);
     person.press_key(render::Key::escape);
     person.frames(3);
     person.press_key(render::Key::escape);
@@ -83,8 +92,13 @@ TEST(ProducedSurfaceLayer, StandsBesideTheDesignedSurface) {
     person.press_key(render::Key::f4);
     person.wait_idle();
     person.workshop().run("view.layer_produced");
+    person.frames(3);
+    const render::Picture over_the_designed = person.picture_of("view/iso");
+    person.keep("produced-over-designed");
     person.workshop().run("view.layer_surface");
     person.frames(3);
+    // The designed surface, within a hundredth of a millimetre of it, hid about half of it.
+    EXPECT_LT(render::difference(over_the_designed, person.picture_of("view/iso"), 8).fraction, 0.02);
     person.keep("produced-surface");
     person.choose("inspector/error/beside", "design");
     person.frames(3);

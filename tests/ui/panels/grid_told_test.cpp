@@ -118,6 +118,26 @@ TEST_F(GridTold, AComparedGridThatFailsIsMarkedAndTheProgramStays) {
     person_.keep("grid-compared-failed");
 }
 
+TEST_F(GridTold, AWatchedGridThatFailsIsNeitherPlayedNorUsed) {
+    change(8, GridMethod::tracks, "1/(u-u)");
+    person_.wait_idle();
+    person_.workshop().run("view.grid");
+    person_.frames();
+    person_.click("inspector/watch/grid_adapt");
+    person_.wait_idle();
+    ASSERT_TRUE(person_.workshop().look().watched->failed());
+    EXPECT_FALSE(person_.sees("inspector/watch/grid_use_elliptic"));
+    const auto reason = [&](const char* button) {
+        const auto* const seen = person_.desktop().ui().places().find(button);
+        return seen == nullptr ? "missing" : seen->reason;
+    };
+    const std::string failed = "The adaptation has failed: Reset begins it anew.";
+    EXPECT_EQ(reason("inspector/watch/grid_play"), failed);
+    EXPECT_EQ(reason("inspector/watch/grid_step"), failed);
+    EXPECT_EQ(reason("inspector/watch/grid_reset"), "");
+    person_.keep("grid-watched-failed");
+}
+
 /// The thesis's test folds at once at LV = 100, and is solved at another LV than the field says.
 TEST_F(GridTold, TheLvThatWasReallyUsedIsSaid) {
     person_.workshop().edit("Take the test of the thesis",

@@ -49,6 +49,13 @@ TEST(PlotPicture, ARegionIsMarkedOnTheGrayMapByTwoClicks) {
     EXPECT_NEAR(region->top / height, 0.1, 0.1);
     EXPECT_NEAR(region->height / height, 0.3, 0.1);
     ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    bench.person.frames(3);
+    bench.person.keep("plot-gray-map-region");
+    const widgets::Rect framed = bench.person.place("lower/gray_map/frame");
+    EXPECT_NEAR((framed.x - map.x) / map.w, region->left / width, 0.01);
+    EXPECT_NEAR(framed.w / map.w, region->width / width, 0.01);
+    EXPECT_NEAR((framed.y - map.y) / map.h, region->top / height, 0.01);
+    EXPECT_NEAR(framed.h / map.h, region->height / height, 0.01);
     // The region is cut at the origin, and the whole picture lies around it.
     EXPECT_NEAR(bench.made().picture_size.x() / (shown->cell.x() * shown->picture.width),
                 region->width / width,
@@ -87,13 +94,19 @@ TEST(PlotPicture, ARegionOfPixelsThatAreNotSquareIsMarked) {
                 2.0 * region->height / (right - region->left),
                 0.02);
     const float before = map.w;
-    bench.person.click("lower/size");
+    bench.person.click("lower/fill");
     bench.person.frames(3);
     EXPECT_GT(bench.person.place("lower/gray_map").w, 1.5F * before);
     bench.person.keep("plot-gray-map-wide");
-    bench.person.click("lower/size");
+    bench.person.click("lower/fill");
     bench.person.frames(3);
     EXPECT_NEAR(bench.person.place("lower/gray_map").w, before, 1.0F);
+    constexpr float end_of_pane = 1400.0F - 38.0F; // the status bar
+    EXPECT_GT(bench.person.place("lower/gray_map").bottom(), end_of_pane - 20.0F) << "it scrolls";
+    bench.person.click("lower/fit");
+    bench.person.frames(3);
+    EXPECT_LT(bench.person.place("lower/gray_map").bottom(), end_of_pane - 20.0F) << "with its numbers";
+    bench.person.keep("plot-gray-map-fit");
 }
 
 } // namespace

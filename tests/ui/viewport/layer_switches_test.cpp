@@ -29,6 +29,9 @@ TEST(LayerSwitches, OfWhatColoursTheSurfaceOnlyOneIsOn) {
     layers = switched(layers, find("error_surface"));
     EXPECT_FALSE(layers.weight);
     EXPECT_TRUE(layers.error_surface);
+    layers = switched(layers, find("produced")); // which lies in nearly the same place
+    EXPECT_TRUE(layers.produced);
+    EXPECT_FALSE(layers.error_surface);
 }
 
 } // namespace

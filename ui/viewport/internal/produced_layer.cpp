@@ -126,8 +126,8 @@ public:
             return;
         }
         const render::ViewColors& colors = canvas.colors;
-        const glm::vec3 plain = colors.chosen.of(render::LayerColor::produced)
-                                    .value_or(glm::mix(colors.surface, colors.warning, 0.55F));
+        const glm::vec3 plain =
+            render::color_of(colors, render::LayerColor::produced).value_or(colors.surface);
         canvas.painter.mesh(mesh_,
                             {.coloring = {.color = with_opacity(plain, 1.0F)},
                              .model = canvas.s_T_w,

@@ -58,9 +58,13 @@ public:
             return;
         }
         const render::ViewColors& colors = canvas.colors;
-        const render::MeshStyle style = {.coloring = {.color = with_opacity(colors.surface, 1.0F)},
-                                         .model = canvas.s_T_w,
-                                         .back_color = colors.surface_back};
+        render::MeshStyle style = {.coloring = {.color = with_opacity(colors.surface, 1.0F)},
+                                   .model = canvas.s_T_w,
+                                   .back_color = colors.surface_back};
+        if (scene.layers.produced) { // which lies now before it, now behind it, by little: it is drawn whole
+            style.coloring.opacity = 0.3F;
+            style.depth = render::Depth::ghost;
+        }
         const SurfaceColors shown = surface_colors(scene);
         const bool measured_points =
             shown == SurfaceColors::deviation && scene.reference->fitted.triangles.empty();

@@ -3,6 +3,7 @@
 #include "core/pmac/driver/guard_rules.h"
 #include "core/pmac/driver/internal/command_kind.h"
 #include "core/pmac/driver/internal/pmac_session.h"
+#include "core/pmac/driver/pmac_driver.h"
 
 #include <fmt/format.h>
 
@@ -160,7 +161,7 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
         return true;
     }
     if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
-        throw Error(
+        throw PowerRefused(
             fmt::format("'{}' would enable {}, which is disabled", fmt::join(lines, " "), name_of(*to)),
             {},
             "inspect the machine, then enable its motors: --power on the command line");

@@ -167,6 +167,9 @@ TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
              {"#2J/"}, {"#1J:12"}, {"#3", "J=5"}, {"#1HM"}, {"#4J^0"}, {"OPEN PROG 2", "X1", "CLOSE", "a"}}) {
         EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }), HasSubstr("would enable"))
             << lines.front();
+        // The window has a button of that name; options are the command line's business.
+        EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
+                    ::testing::EndsWith("(look at the machine, then give the motors power)"));
     }
     (void)wire.session.command({"#4->150A", "OPEN PROG 2", "ABS X10A", "HOME1", "CLOSE", "#1HMZ"}, false);
     ASSERT_TRUE(line_is_answered(wire));
