@@ -39,7 +39,7 @@ TEST(Link, SaysWhatToDoAboutASerialPortThatCannotBeOpened) {
                 HasSubstr("there is no such serial port (plug the controller in and switch it on, or choose "
                           "another port: the computer has "));
     EXPECT_THAT(port_refusal("/dev/null"),
-                HasSubstr("/dev/null: this is no serial port (choose another one: the computer has "));
+                HasSubstr("/dev/null: this is not a serial port (choose another one: the computer has "));
 }
 
 TEST(Link, TellsWhyNothingCanBeOpened) {
