@@ -142,7 +142,8 @@ TEST(PlotProgram, OfMorePointsThanMemoryIsKeptForIsRefused) {
         static_cast<void>(plot_program(path));
         FAIL() << "nothing was refused";
     } catch (const Error& error) {
-        EXPECT_NE(error.diagnostic().message.find("more than 4 million would need too much memory"), std::string::npos);
+        EXPECT_NE(error.diagnostic().message.find("more than 4 million would need too much memory"),
+                  std::string::npos);
     }
 }
 
