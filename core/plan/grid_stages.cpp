@@ -40,8 +40,9 @@ bool measure_uniform(const StageWork& work) {
     return true;
 }
 
-bool improve(GridMethod method, const StageWork& work) {
-    if (work.quality == Quality::carried) {
+/// `live`: it is made anew for a person who drags, too.
+bool improve(GridMethod method, bool live, const StageWork& work) {
+    if (work.quality == Quality::carried || (work.quality == Quality::coarse && !live)) {
         return carry_over(method, work);
     }
     const Effort effort = work.quality == Quality::exact ? Effort::full : Effort::live;
@@ -100,9 +101,14 @@ Stage grid_stage(GridMethod method, const project::Project& project, const Scope
     } else {
         const bool live = of_program && row_of(method).follows_drag && is_quick(project.grid);
         stage.reads.push_back(grid_key(GridMethod::uniform));
-        stage.make = [method](const StageWork& work) { return improve(method, work); };
-        stage.qualities = live ? std::vector{Quality::carried, Quality::coarse, Quality::exact}
-                               : std::vector{Quality::carried, Quality::exact};
+        stage.make = [method, live](const StageWork& work) { return improve(method, live, work); };
+        if (!of_program) { // after the uniform grid: the program's comes first
+            stage.qualities = {Quality::coarse, Quality::exact};
+        } else if (live) {
+            stage.qualities = {Quality::carried, Quality::coarse, Quality::exact};
+        } else {
+            stage.qualities = {Quality::carried, Quality::exact};
+        }
         stage.shown_early = of_program ? std::optional(Quality::carried) : std::nullopt;
         stage.fault_of = of_program ? std::nullopt : std::optional(method);
     }

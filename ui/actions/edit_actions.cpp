@@ -1,6 +1,7 @@
 #include "core/base/units.h"
 #include "core/project/joined_surface.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/actions/workshop.h"
 #include "ui/viewport/symmetric_points.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ Permission has_selection(const Workbench& now) {
 
 void select_all(Hands& hands) {
     hands.session.selected.clear();
-    const auto& patches = hands.history.current().surface.patches;
+    const auto& patches = hands.now.project.surface.patches;
     for (std::size_t p = 0; p < patches.size(); ++p) {
         for (int i = 0; i < patches[p].rows; ++i) {
             for (int j = 0; j < patches[p].columns; ++j) {
@@ -50,17 +51,19 @@ double mean_of_neighbours(const geometry::ControlNet& net, int i, int j) {
 }
 
 void smooth(Hands& hands) {
-    project::Project draft = hands.history.current();
-    const auto& before = hands.history.current().surface.patches;
+    const auto before = hands.now.project.surface.patches;
     const auto net = [&](geometry::PatchId patch) -> const geometry::ControlNet& {
         return before[static_cast<std::size_t>(patch)];
     };
     const std::vector<ControlPointId>& selected = hands.session.selected;
-    for (const auto& [id, share] : with_images(net, hands.session.symmetry, selected, selected.front())) {
-        const auto patch = static_cast<std::size_t>(id.patch);
-        draft.surface.patches[patch].point(id.i, id.j).z() = mean_of_neighbours(before[patch], id.i, id.j);
-    }
-    hands.history.commit(std::move(draft), "Smooth control points");
+    const auto change = [&](project::Project& draft) {
+        for (const auto& [id, share] : with_images(net, hands.session.symmetry, selected, selected.front())) {
+            const auto patch = static_cast<std::size_t>(id.patch);
+            draft.surface.patches[patch].point(id.i, id.j).z() =
+                mean_of_neighbours(before[patch], id.i, id.j);
+        }
+    };
+    hands.workshop.edit("Smooth control points", change, {});
 }
 
 Permission has_patches(const Workbench& now) {
@@ -97,11 +100,11 @@ std::string open_text(const project::JoinedSurface& joined, double gap_mm) {
 }
 
 void join(Hands& hands, geometry::Continuity continuity) {
-    project::Project draft = hands.history.current();
-    const double gap_mm = project::usual_gap_mm(draft.surface);
-    const project::JoinedSurface joined = project::joined_surface(draft.surface, continuity, gap_mm);
-    draft.surface = joined.surface;
-    hands.history.commit(std::move(draft), "Join the patches");
+    const project::SurfaceInput& surface = hands.now.project.surface;
+    const double gap_mm = project::usual_gap_mm(surface);
+    const project::JoinedSurface joined = project::joined_surface(surface, continuity, gap_mm);
+    hands.workshop.edit(
+        "Join the patches", [&](project::Project& draft) { draft.surface = joined.surface; }, {});
     tell(hands.session,
          joined.open.empty() ? widgets::Severity::good : widgets::Severity::warning,
          fmt::format("{} {} joined: {}. Control points moved by at most {:.4f} mm.{}",

@@ -54,10 +54,9 @@ template <GridMethod method> bool is_chosen(const Workbench& now) {
 }
 
 template <GridMethod method> void choose(Hands& hands) {
-    project::Project draft = hands.history.current();
-    draft.grid.method = method;
-    show_program_path(hands.session, draft);
-    hands.history.commit(std::move(draft), "Choose the grid of the program");
+    hands.workshop.edit(
+        "Choose the grid of the program", [](project::Project& draft) { draft.grid.method = method; }, {});
+    show_program_path(hands.session, hands.history.current());
 }
 
 using viewport::SurfaceToolKind;
@@ -120,10 +119,9 @@ template <StrategyInput strategy> bool is_strategy(const Workbench& now) {
 }
 
 template <StrategyInput strategy> void use(Hands& hands) {
-    project::Project draft = hands.history.current();
-    draft.toolpath.strategy = strategy;
-    show_program_path(hands.session, draft);
-    hands.history.commit(std::move(draft), "Choose the strategy");
+    hands.workshop.edit(
+        "Choose the strategy", [](project::Project& draft) { draft.toolpath.strategy = strategy; }, {});
+    show_program_path(hands.session, hands.history.current());
 }
 
 template <StrategyInput strategy> void add_use(Actions& actions, std::string_view id) {

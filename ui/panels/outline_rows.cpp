@@ -2,6 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/text.h"
+#include "core/plan/grid_method.h"
 #include "core/plan/left_out.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -69,12 +69,10 @@ std::vector<OutlineRow> outline_rows(const Workbench& now) {
         {"surface", "Surface", fmt::format("degree {},{}", net.rows - 1, net.columns - 1), Workspace::design},
         {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},
     };
-    constexpr std::array<std::string_view, project::every_grid_method.size()> names{
-        "  Uniform", "  1-D", "  Elliptic", "  Harmonic", "  Tracks", "  Chain"};
     for (const GridMethod method : project::every_grid_method) {
         if (is_listed(now, method)) {
             rows.push_back({std::string(project::row_of(project::grid_methods(), method).id),
-                            std::string(names[static_cast<std::size_t>(method)]),
+                            fmt::format("  {}", plan::row_of(method).short_name),
                             error_of(now, method),
                             Workspace::toolpath,
                             is_so_far(now.evaluation(method).get())});

@@ -71,6 +71,8 @@ TEST_F(WantedPlan, TheGridWorkspaceMakesThemAndAnEditKeepsThoseThatHold) {
 TEST_F(WantedPlan, AGridIsMadeWhereItIsShownFromAnotherWorkspace) {
     go_to(Key::f2);
     ASSERT_EQ(grid(GridMethod::elliptic), nullptr);
+    EXPECT_TRUE(person_.sees("outline/stages/tracks"));
+    EXPECT_FALSE(person_.sees("outline/stages/elliptic")) << "it would never get a figure";
     person_.workshop().run("view.show_elliptic");
     person_.wait_idle();
     ASSERT_NE(grid(GridMethod::elliptic), nullptr);

@@ -133,6 +133,8 @@ TEST(Workbench, TheTableSideBySideScrollsBelowTheTabs) {
 TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     Person person;
     person.open(dome_project);
+    person.press_key(render::Key::f4);
+    person.wait_idle();
     const auto now = person.workshop().look();
     ASSERT_TRUE(now.trajectory());
     const auto program = static_cast<std::size_t>(plan::program_grid(now.project));
@@ -147,6 +149,8 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
 TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     Person person;
     person.open(dome_project);
+    person.press_key(render::Key::f4);
+    person.wait_idle();
     auto now = person.workshop().look();
     plan::PublishedPlan plan = *now.plan;
     const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
@@ -224,6 +228,7 @@ TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
 TEST(Workbench, AWatchedAdaptationStepsAndGoesBack) {
     Person person;
     person.click("menu/workspaces/grid");
+    person.wait_idle(); // the grids to compare with
     person.click("inspector/watch/grid_adapt");
     person.click("inspector/watch/grid_pause");
     person.wait_idle();
