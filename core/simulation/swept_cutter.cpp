@@ -24,6 +24,18 @@ struct SweptCutter::Instant {
     double f = 0.0;
     std::array<double, 2> value = {}; ///< enter, -leave
     std::array<double, 2> rate = {};  ///< of these, per f
+    /// Whether the value rises so fast from here that no bend of the motion brings it down again: towards
+    /// f = 1, and towards f = 0.
+    std::array<bool, 2> settles_forward = {}, settles_backward = {};
+};
+
+/// A line whose ends need a search, with the instants at f = 0 and 1.
+struct SweptCutter::Search {
+    const std::optional<Instant>& first;
+    const std::optional<Instant>& last;
+    const Vec3& at;
+    int k;
+    const std::array<double, 2>& enough; ///< values that need not be lower
 };
 
 /// Between `left`, whose value falls, and `right`, whose value rises or where the line misses.
@@ -50,6 +62,9 @@ SweptCutter::SweptCutter(const BodyRay& body, const geometry::ToolPose& from, co
         turn_ = 0.0;
     }
     moves_ = turn_ > 0.0 || way_.squaredNorm() > 0.0;
+    // Of points of the body: what turning adds to their acceleration, and to that of the place of contact.
+    const double far = std::max(std::abs(body.shape().top), std::abs(body.shape().bottom)) + body.shape().radius;
+    bend_ = turn_ * (turn_ * far + 2.0 * way_.norm());
 }
 
 MovingPose SweptCutter::moving(double f) const {
@@ -92,24 +107,38 @@ Box3 SweptCutter::bounds() const {
     return {Vec3(box.min().array() - bulge), Vec3(box.max().array() + bulge)};
 }
 
-std::optional<SweptCutter::Instant> SweptCutter::instant(double f, const Vec3& at, int k) const {
+/// Ends that are below `enough` have no rate: they need not be lower.
+std::optional<SweptCutter::Instant>
+SweptCutter::instant(double f, const Vec3& at, int k, const std::array<double, 2>& enough) const {
     const MovingPose pose = moving(f);
     const auto crossing = body_.crossing(pose.tip, pose.axis, at, k);
     if (!crossing) {
         return std::nullopt;
     }
     Instant found{.f = f, .value = {crossing->enter, -crossing->leave}};
-    Vec3 place = at;
-    place[k] = crossing->enter;
-    found.rate[0] = body_.rate_of(pose, place, crossing->enter_part, k);
-    place[k] = crossing->leave;
-    found.rate[1] = -body_.rate_of(pose, place, crossing->leave_part, k);
+    for (std::size_t end = 0; end < 2; ++end) {
+        if (found.value[end] <= enough[end]) {
+            found.settles_forward[end] = found.settles_backward[end] = true;
+            continue;
+        }
+        Vec3 place = at;
+        place[k] = end == 0 ? crossing->enter : crossing->leave;
+        const auto part = end == 0 ? crossing->enter_part : crossing->leave_part;
+        const EndRate of = body_.rate_of(pose, place, part, k);
+        found.rate[end] = end == 0 ? of.rate : -of.rate;
+        // The second derivative of the value is not below -bend / slope.
+        const double bound = 0.5 * bend_;
+        found.settles_forward[end] = found.rate[end] * of.slope >= bound;
+        found.settles_backward[end] = -found.rate[end] * of.slope >= bound;
+    }
     return found;
 }
 
 /// Of a line that misses the body at both ends of the step: tries where it passes the axis, and where it is
 /// nearest to the ways of the tip and of the corner's middle.
-std::optional<SweptCutter::Instant> SweptCutter::any_hit(const Vec3& at, int k) const {
+std::optional<SweptCutter::Instant> SweptCutter::any_hit(const Search& search) const {
+    const Vec3& at = search.at;
+    const int k = search.k;
     const Vec3 along = Vec3::Unit(k);
     const auto side = [&](double f) {
         const MovingPose pose = moving(f);
@@ -134,7 +163,7 @@ std::optional<SweptCutter::Instant> SweptCutter::any_hit(const Vec3& at, int k) 
     }
     for (const double f : tried) {
         if (f > 0.0 && f < 1.0) {
-            if (auto found = instant(f, at, k)) {
+            if (auto found = instant(f, at, k, search.enough)) {
                 return found;
             }
         }
@@ -142,34 +171,62 @@ std::optional<SweptCutter::Instant> SweptCutter::any_hit(const Vec3& at, int k) 
     return std::nullopt;
 }
 
-std::optional<Interval> SweptCutter::swept(const Vec3& at, int k) const {
+std::optional<Interval> SweptCutter::swept(const Vec3& at, int k, const Interval& material) const {
+    const std::array<double, 2> enough{material.from, -material.to};
+    const std::optional<Instant> first = instant(0.0, at, k, enough);
+    if (!moves_) {
+        return first ? std::optional(Interval{first->value[0], -first->value[1]}) : std::nullopt;
+    }
+    if (first && first->settles_forward[0] && first->settles_forward[1]) {
+        return Interval{first->value[0], -first->value[1]};
+    }
+    const std::optional<Instant> last = instant(1.0, at, k, enough);
+    std::array<double, 2> found{};
+    std::array<bool, 2> done{};
+    for (std::size_t end = 0; end < 2; ++end) {
+        if (first && first->settles_forward[end]) {
+            found[end] = first->value[end];
+            done[end] = true;
+        } else if (last && last->settles_backward[end]) {
+            found[end] = last->value[end];
+            done[end] = true;
+        }
+    }
+    if (done[0] && done[1]) {
+        return Interval{found[0], -found[1]};
+    }
+    return searched({first, last, at, k, enough});
+}
+
+std::optional<Interval> SweptCutter::searched(const Search& search) const {
+    const auto& [first, last, at, k, enough] = search;
     // What turns is convex only nearly, and in each part more nearly; least so along a line that the axis
     // becomes parallel to.
     constexpr double nearly_parallel = 0.999; // cosine of 2.6 degrees
     const int parts = turn_ <= 0.0 ? 1 : std::abs(middle_[k]) < nearly_parallel ? 2 : 6;
-    std::array<std::optional<Instant>, 7> tried;
-    const auto used = std::span(tried).first(moves_ ? static_cast<std::size_t>(parts) + 1 : 1);
-    for (std::size_t n = 0; n < used.size(); ++n) {
-        used[n] = instant(static_cast<double>(n) / parts, at, k);
+    std::array<std::optional<Instant>, 7> tried{first};
+    const auto used = std::span(tried).first(static_cast<std::size_t>(parts) + 1);
+    for (std::size_t n = 1; n + 1 < used.size(); ++n) {
+        used[n] = instant(static_cast<double>(n) / parts, at, k, enough);
     }
-    if (std::ranges::none_of(used, [](const auto& one) { return one.has_value(); })) {
-        const std::optional<Instant> between = moves_ ? any_hit(at, k) : std::nullopt;
-        if (!between) {
-            return std::nullopt;
-        }
-        const auto least = [&](std::size_t end) {
-            const bool falls = between->rate[end] < 0.0;
-            return lowest({*between, falls ? 1.0 : 0.0, std::nullopt, !falls}, at, k, end);
-        };
-        return Interval{least(0), -least(1)};
+    used.back() = last;
+    if (std::ranges::any_of(used, [](const auto& one) { return one.has_value(); })) {
+        return Interval{least_of(used, search, 0), -least_of(used, search, 1)};
     }
-    return Interval{least_of(used, at, k, 0), -least_of(used, at, k, 1)};
+    const std::optional<Instant> between = any_hit(search);
+    if (!between) {
+        return std::nullopt;
+    }
+    const auto least = [&](std::size_t end) {
+        const bool falls = between->rate[end] < 0.0;
+        return lowest({*between, falls ? 1.0 : 0.0, std::nullopt, !falls}, search, end);
+    };
+    return Interval{least(0), -least(1)};
 }
 
 /// The least value of one end over the whole step: `tried` are evenly spaced, and one at least is a hit.
 double SweptCutter::least_of(std::span<const std::optional<Instant>> tried,
-                             const Vec3& at,
-                             int k,
+                             const Search& search,
                              std::size_t end) const {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& one : tried) {
@@ -183,10 +240,10 @@ double SweptCutter::least_of(std::span<const std::optional<Instant>> tried,
         const bool rises = right && right->rate[end] > 0.0;
         if (falls && (rises || !right)) {
             const double f = static_cast<double>(n) * step;
-            least = std::min(least, lowest({*left, f, right, false}, at, k, end));
+            least = std::min(least, lowest({*left, f, right, false}, search, end));
         } else if (rises && !left) {
             const double f = static_cast<double>(n - 1) * step;
-            least = std::min(least, lowest({*right, f, std::nullopt, true}, at, k, end));
+            least = std::min(least, lowest({*right, f, std::nullopt, true}, search, end));
         }
     }
     return least;
@@ -194,7 +251,7 @@ double SweptCutter::least_of(std::span<const std::optional<Instant>> tried,
 
 /// The least value between the ends of `bracket`. In turn the secant of the rates (exact where the value is a
 /// parabola), the meeting of the tangents (exact at an edge of the body) and the middle are tried.
-double SweptCutter::lowest(Bracket bracket, const Vec3& at, int k, std::size_t end) const {
+double SweptCutter::lowest(Bracket bracket, const Search& search, std::size_t end) const {
     constexpr int most_steps = 48;
     // Along a line that grazes the shank of a turning tool the value is not quite convex.
     const int least_steps = turn_ > 0.0 ? 2 : 0;
@@ -223,7 +280,7 @@ double SweptCutter::lowest(Bracket bracket, const Vec3& at, int k, std::size_t e
             s = 0.5 * width;
         }
         const double f = bracket.left.f + way * s;
-        const std::optional<Instant> next = instant(f, at, k);
+        const std::optional<Instant> next = instant(f, search.at, search.k, search.enough);
         if (next) {
             least = std::min(least, next->value[end]);
         }

@@ -13,6 +13,7 @@
 #include "core/simulation/interval.h"
 #include "core/toolpath/profile.h"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -24,6 +25,8 @@ inline constexpr double sweep_tolerance = 2e-4;
 /// The largest turn of the axis in one step, rad (0.6 degrees). Moves that turn farther are divided.
 inline constexpr double largest_turn = 0.0105;
 
+inline constexpr Interval whole_line{-1e300, 1e300};
+
 class SweptCutter {
 public:
     /// Throws Defect if the axes are no unit vectors or the turn is larger than `largest_turn`. `body` must
@@ -31,8 +34,9 @@ public:
     SweptCutter(const BodyRay& body, const geometry::ToolPose& from, const geometry::ToolPose& to);
 
     /// The part of the line through `at` along coordinate axis `k` (0 to 2) that the cutter passes through;
-    /// nullopt where it misses.
-    [[nodiscard]] std::optional<Interval> swept(const Vec3& at, int k) const;
+    /// nullopt where it misses. Ends that are beyond `material` need not be exact.
+    [[nodiscard]] std::optional<Interval>
+    swept(const Vec3& at, int k, const Interval& material = whole_line) const;
 
     [[nodiscard]] geometry::ToolPose pose(double f) const;
     /// Around all that is removed.
@@ -44,17 +48,22 @@ public:
 private:
     struct Instant; // the crossing at one f
     struct Bracket;
+    struct Search;
     [[nodiscard]] MovingPose moving(double f) const;
-    [[nodiscard]] std::optional<Instant> instant(double f, const Vec3& at, int k) const;
-    [[nodiscard]] std::optional<Instant> any_hit(const Vec3& at, int k) const;
-    [[nodiscard]] double
-    least_of(std::span<const std::optional<Instant>> tried, const Vec3& at, int k, std::size_t end) const;
-    [[nodiscard]] double lowest(Bracket bracket, const Vec3& at, int k, std::size_t end) const;
+    [[nodiscard]] std::optional<Instant>
+    instant(double f, const Vec3& at, int k, const std::array<double, 2>& enough) const;
+    [[nodiscard]] std::optional<Interval> searched(const Search& search) const;
+    [[nodiscard]] std::optional<Instant> any_hit(const Search& search) const;
+    [[nodiscard]] double least_of(std::span<const std::optional<Instant>> tried,
+                                  const Search& search,
+                                  std::size_t end) const;
+    [[nodiscard]] double lowest(Bracket bracket, const Search& search, std::size_t end) const;
 
     const BodyRay& body_;
     Vec3 tip_, way_;       // from, and to the end
     Vec3 middle_, across_; // axis at f = 0.5, and the unit vector towards which it turns
     double turn_ = 0.0;
+    double bend_ = 0.0; // mm
     bool moves_ = false;
 };
 

@@ -230,7 +230,7 @@ bool BodyRay::clip_to_torus(const Line& line, BodyCrossing& part) const {
            part.enter < part.leave;
 }
 
-double BodyRay::rate_of(const MovingPose& pose, const Vec3& at, Part part, int k) const {
+EndRate BodyRay::rate_of(const MovingPose& pose, const Vec3& at, Part part, int k) const {
     const Vec3 from_tip = at - pose.tip;
     const double z = from_tip.dot(pose.axis);
     const Vec3 radial = from_tip - z * pose.axis;
@@ -257,7 +257,7 @@ double BodyRay::rate_of(const MovingPose& pose, const Vec3& at, Part part, int k
     // The body turns about axis x axis_rate: a point at height z along it goes with z axis_rate, one beside
     // it along the axis.
     const Vec3 velocity = pose.tip_rate + z * pose.axis_rate - radial.dot(pose.axis_rate) * pose.axis;
-    return normal.dot(velocity) / normal[k];
+    return {normal.dot(velocity) / normal[k], std::abs(normal[k]) / normal.norm()};
 }
 
 } // namespace millwright::simulation

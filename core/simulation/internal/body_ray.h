@@ -24,6 +24,11 @@ struct BodyCrossing {
     Part enter_part = Part::bottom, leave_part = Part::top;
 };
 
+struct EndRate {
+    double rate = 0.0;  ///< mm per fraction of the move; infinite where the line is tangent
+    double slope = 0.0; ///< sine of the angle between line and surface
+};
+
 class BodyRay {
 public:
     explicit BodyRay(const toolpath::ProfileShape& shape);
@@ -37,9 +42,8 @@ public:
     [[nodiscard]] std::optional<BodyCrossing>
     crossing(const Vec3& tip, const Vec3& axis, const Vec3& origin, int k) const;
 
-    /// How fast the place of one end of the crossing moves, mm per fraction; infinite where the line is
-    /// tangent.
-    [[nodiscard]] double
+    /// How fast the place of one end of the crossing moves.
+    [[nodiscard]] EndRate
     rate_of(const MovingPose& pose, const Vec3& at, BodyCrossing::Part part, int k) const;
 
 private:

@@ -49,9 +49,14 @@ std::optional<Interval> TileCutter::reached(const ReadyStep& step, std::size_t l
     }
     const auto from = static_cast<float>(near->enter - face_);
     const auto to = static_cast<float>(near->leave - face_);
-    const bool material = std::ranges::any_of(
-        tile_.line(line), [&](const Dexel& piece) { return piece.from < to && piece.to > from; });
-    return material ? step.cutter.swept(at, k_) : std::nullopt;
+    Interval material{0.0, -1.0};
+    for (const Dexel& piece : tile_.line(line)) {
+        if (piece.from < to && piece.to > from) {
+            material.from = material.to < material.from ? face_ + static_cast<double>(piece.from) : material.from;
+            material.to = face_ + static_cast<double>(piece.to);
+        }
+    }
+    return material.from < material.to ? step.cutter.swept(at, k_, material) : std::nullopt;
 }
 
 void TileCutter::touch(const ReadyStep& step, std::size_t line, const Vec3& at, TileCut& found) const {

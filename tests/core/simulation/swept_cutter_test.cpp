@@ -146,7 +146,7 @@ TEST_P(Cutters, RatesAreThoseOfDifferences) {
         ++compared;
         Vec3 place = at;
         place[k] = now->enter;
-        const double rate = ray.rate_of(pose, place, now->enter_part, k);
+        const double rate = ray.rate_of(pose, place, now->enter_part, k).rate;
         EXPECT_NEAR(rate, (after->enter - before->enter) / (2.0 * h), 1e-3 * (1.0 + std::abs(rate))) << n;
     }
     EXPECT_GT(compared, 80);
