@@ -12,6 +12,10 @@ namespace millwright::simulation {
 
 namespace {
 
+/// Turns that are convex nearly enough in two parts, rad (0.6 degrees).
+constexpr double fine_turn = 0.0105;
+constexpr int most_parts = 6 * 3;
+
 bool is_unit(const Vec3& direction) {
     constexpr double rounding = 1e-6;
     return std::abs(direction.squaredNorm() - 1.0) < rounding;
@@ -203,8 +207,9 @@ std::optional<Interval> SweptCutter::searched(const Search& search) const {
     // What turns is convex only nearly, and in each part more nearly; least so along a line that the axis
     // becomes parallel to.
     constexpr double nearly_parallel = 0.999; // cosine of 2.6 degrees
-    const int parts = turn_ <= 0.0 ? 1 : std::abs(middle_[k]) < nearly_parallel ? 2 : 6;
-    std::array<std::optional<Instant>, 7> tried{first};
+    const int turns = static_cast<int>(std::ceil(turn_ / fine_turn));
+    const int parts = std::max(1, std::abs(middle_[k]) < nearly_parallel ? 2 * turns : 6 * turns);
+    std::array<std::optional<Instant>, most_parts + 1> tried{first};
     const auto used = std::span(tried).first(static_cast<std::size_t>(parts) + 1);
     for (std::size_t n = 1; n + 1 < used.size(); ++n) {
         used[n] = instant(static_cast<double>(n) / parts, at, k, enough);
