@@ -67,7 +67,8 @@ SweptCutter::SweptCutter(const BodyRay& body, const geometry::ToolPose& from, co
     }
     moves_ = turn_ > 0.0 || way_.squaredNorm() > 0.0;
     // Of points of the body: what turning adds to their acceleration, and to that of the place of contact.
-    const double far = std::max(std::abs(body.shape().top), std::abs(body.shape().bottom)) + body.shape().radius;
+    const double far =
+        std::max(std::abs(body.shape().top), std::abs(body.shape().bottom)) + body.shape().radius;
     bend_ = turn_ * (turn_ * far + 2.0 * way_.norm());
 }
 

@@ -54,9 +54,8 @@ private:
     instant(double f, const Vec3& at, int k, const std::array<double, 2>& enough) const;
     [[nodiscard]] std::optional<Interval> searched(const Search& search) const;
     [[nodiscard]] std::optional<Instant> any_hit(const Search& search) const;
-    [[nodiscard]] double least_of(std::span<const std::optional<Instant>> tried,
-                                  const Search& search,
-                                  std::size_t end) const;
+    [[nodiscard]] double
+    least_of(std::span<const std::optional<Instant>> tried, const Search& search, std::size_t end) const;
     [[nodiscard]] double lowest(Bracket bracket, const Search& search, std::size_t end) const;
 
     const BodyRay& body_;

@@ -52,7 +52,8 @@ std::optional<Interval> TileCutter::reached(const ReadyStep& step, std::size_t l
     Interval material{0.0, -1.0};
     for (const Dexel& piece : tile_.line(line)) {
         if (piece.from < to && piece.to > from) {
-            material.from = material.to < material.from ? face_ + static_cast<double>(piece.from) : material.from;
+            material.from =
+                material.to < material.from ? face_ + static_cast<double>(piece.from) : material.from;
             material.to = face_ + static_cast<double>(piece.to);
         }
     }

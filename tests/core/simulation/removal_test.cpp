@@ -22,7 +22,7 @@ using toolpath::CutterKind;
 using toolpath::CutterShape;
 using toolpath::Profile;
 
-constexpr std::size_t enough = 2'000'000'000;
+constexpr std::size_t removal_bytes = 2'000'000'000;
 
 CutterShape ball_6() {
     return {.kind = CutterKind::ball, .diameter = 6.0, .length = 30.0};
@@ -35,8 +35,8 @@ CutterShape flat_6() {
 class CutBlock {
 public:
     CutBlock(const Stock& stock, const CutterShape& cutter, double pitch)
-        : cutter_(*toolpath::body_of(cutter)), field_(stock, pitch, enough, Progress()), removal_(field_),
-          stock_volume_(volume(stock)) {}
+        : cutter_(*toolpath::body_of(cutter)), field_(stock, pitch, removal_bytes, Progress()),
+          removal_(field_), stock_volume_(volume(stock)) {}
 
     void cut(const std::vector<ToolPose>& poses, bool rapid = false) {
         std::vector<CutStep> steps;
@@ -339,7 +339,7 @@ TEST(Removal, SumsWhatEachMoveRemoved) {
 TEST(Removal, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
-    DexelField field(block(10.0, 10.0, 5.0), 0.5, enough, Progress());
+    DexelField field(block(10.0, 10.0, 5.0), 0.5, removal_bytes, Progress());
     const CuttingBody cutter(*toolpath::body_of(ball_6()));
     std::vector<CutStep> steps;
     divide(cutter,

@@ -189,9 +189,8 @@ TEST_P(Cutters, SweepWithinTwoMicrometresOfThousandsOfInstances) {
     const Profile body = *toolpath::body_of(GetParam().shape);
     const BodyRay ray(body.shape());
     Random random(3);
-    int hits = 0, missed = 0;
-    double worst = 0.0, worst_normal = 0.0;
-    for (int move = 0; move < 400; ++move) {
+    int hits = 0;
+    for (int move = 0; move < 100; ++move) {
         const ToolPose from{random.point(1.0), move % 4 == 0 ? Vec3::UnitZ() : random.direction()};
         const double turn = move % 3 == 0 ? 0.0 : random.between(0.0, largest_turn);
         const Vec3 way = move % 7 == 0 ? Vec3::Zero() : Vec3(random.between(0.1, 1.5) * random.direction());
@@ -212,7 +211,6 @@ TEST_P(Cutters, SweepWithinTwoMicrometresOfThousandsOfInstances) {
                 continue; // the search may find what lies between instances
             }
             if (!found) {
-                ++missed;
                 EXPECT_FALSE(deep(body, cutter, at, k, 0.5 * (expected.from + expected.to), micrometre))
                     << "move " << move << " line " << n;
                 continue;
@@ -220,7 +218,6 @@ TEST_P(Cutters, SweepWithinTwoMicrometresOfThousandsOfInstances) {
             ++hits;
             for (const bool far_end : {false, true}) {
                 const double short_by = far_end ? expected.to - found->to : found->from - expected.from;
-                worst = std::max(worst, short_by);
                 if (short_by > 2.0 * micrometre) {
                     // How deep what was left lies in the swept body.
                     Vec3 left = at;
@@ -229,7 +226,6 @@ TEST_P(Cutters, SweepWithinTwoMicrometresOfThousandsOfInstances) {
                     for (int i = 0; i <= 400; ++i) {
                         nearest = std::min(nearest, toolpath::distance(body, cutter.pose(i / 400.0), left));
                     }
-                    worst_normal = std::max(worst_normal, -nearest);
                     EXPECT_LT(-nearest, 2.0 * micrometre)
                         << "move " << move << " line " << n << " short by " << short_by << " turn " << turn;
                 }
@@ -238,12 +234,6 @@ TEST_P(Cutters, SweepWithinTwoMicrometresOfThousandsOfInstances) {
             EXPECT_LT(expected.from - found->from, 0.05) << move << ' ' << n;
         }
     }
-    RecordProperty("hits", hits);
-    std::printf("hits %d missed %d worst along %.2g um, by the normal %.2g um\n",
-                hits,
-                missed,
-                1e3 * worst,
-                1e3 * worst_normal);
     EXPECT_GT(hits, 1000);
 }
 
