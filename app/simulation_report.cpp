@@ -75,12 +75,12 @@ void print_rapids(const SimulatedWork& work, const simulation::Simulation& found
 /// A sentence each.
 std::vector<std::string> warnings_of(const SimulatedWork& work, const simulation::Simulation& found) {
     std::vector<std::string> warnings = work.warnings;
-    if (found.skipped) {
+    if (found.skipped && found.skipped->feeds > 0) {
         warnings.push_back(
             to_text(Diagnostic{{work.program_file, found.skipped->first_line, 0, -1},
                                fmt::format("not simulated: {} before the program has positioned "
                                            "every axis, up to line {}",
-                                           counted(found.skipped->blocks, "move"),
+                                           counted(found.skipped->feeds, "feed"),
                                            found.skipped->last_line),
                                {}}));
     }
@@ -126,7 +126,7 @@ std::string simulation_report_text(const SimulatedWork& work,
     json["volume_mm3"]["left"] = project::rounded(found.left_volume);
     json["moves"]["simulated"] = found.moves;
     json["moves"]["cutting"] = found.cutting_moves;
-    json["moves"]["skipped"] = found.skipped ? found.skipped->blocks : 0;
+    json["moves"]["skipped"] = found.skipped ? found.skipped->rapids + found.skipped->feeds : 0;
     json["rapid_in_stock"] = rapid_count(found);
     json["findings"] = findings_json(found);
     json["warnings"] = warnings_of(work, found);

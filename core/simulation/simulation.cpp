@@ -102,8 +102,8 @@ private:
         }
         known_.take(block);
         auto& skipped = result_.skipped;
-        skipped = skipped.value_or(SkippedStart{0, block.source_line, block.source_line});
-        ++skipped->blocks;
+        skipped = skipped.value_or(SkippedStart{0, 0, block.source_line, block.source_line});
+        ++(block.kind == program::BlockKind::rapid ? skipped->rapids : skipped->feeds);
         skipped->last_line = block.source_line;
     }
 

@@ -53,9 +53,10 @@ struct Finding {
     Contact contact;     ///< of a rapid
 };
 
-/// A run of blocks that were not simulated: an axis moved that the program had not positioned before.
+/// Moves that were not simulated: the program had not yet positioned every axis that it uses.
 struct SkippedStart {
-    int blocks = 0;
+    int rapids = 0;
+    int feeds = 0; ///< these might have cut
     int first_line = 0, last_line = 0;
 };
 

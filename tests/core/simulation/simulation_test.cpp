@@ -107,6 +107,8 @@ TEST(Simulation, CutsWhatTheProgramCuts) {
     ASSERT_TRUE(found.skipped.has_value());
     EXPECT_EQ(found.skipped->first_line, 11); // X and Y are not known before line 12
     EXPECT_EQ(found.skipped->last_line, 12);
+    EXPECT_EQ(found.skipped->rapids, 2);
+    EXPECT_EQ(found.skipped->feeds, 0);
     EXPECT_EQ(found.moves, 3);
 }
 
