@@ -5,6 +5,7 @@
 #include "core/kinematics/forward.h"
 #include "core/kinematics/machine_file.h"
 #include "core/toolpath/cutter.h"
+#include "tests/core/simulation/written_program.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,45 +31,6 @@ const kinematics::MachineModel& trunnion() {
     return machine;
 }
 
-/// Writes blocks for a machine, a line each from 10 on.
-class Writer {
-public:
-    explicit Writer(const kinematics::MachineModel& machine) : machine_(machine) {
-        for (const kinematics::MachineAxis& axis : machine.axes()) {
-            made_.axes.push_back({axis.letter, axis.kind});
-        }
-        made_.start = kinematics::AxisPositions::Zero(machine.axis_count());
-        at_ = made_.start;
-    }
-    Writer& go(BlockKind kind, std::initializer_list<std::pair<char, double>> to) {
-        Block block;
-        block.kind = kind;
-        for (const auto& [letter, position] : to) {
-            const int axis = machine_.axis_index(letter);
-            at_[axis] = position;
-            block.named.insert(axis);
-        }
-        return add(block);
-    }
-    Writer& add(Block block) {
-        block.target = at_;
-        block.source_line = 10 + made_.block_count();
-        made_.blocks.push_back(block);
-        return *this;
-    }
-    Writer& add(BlockKind kind) {
-        Block block;
-        block.kind = kind;
-        return add(block);
-    }
-    [[nodiscard]] const program::Program& program() const { return made_; }
-
-private:
-    const kinematics::MachineModel& machine_;
-    program::Program made_;
-    kinematics::AxisPositions at_;
-};
-
 toolpath::Profile flat(double diameter) {
     return *toolpath::body_of({.kind = toolpath::CutterKind::flat, .diameter = diameter, .length = 40.0});
 }
@@ -77,8 +39,10 @@ BoxStock plate() {
     return {{0.0, 0.0, -10.0}, {60.0, 40.0, 0.0}};
 }
 
-Simulation
-run(const Writer& writer, std::vector<ToolUse> tools, const Stock& stock = plate(), double pitch = 0.5) {
+Simulation run(const WrittenProgram& writer,
+               std::vector<ToolUse> tools,
+               const Stock& stock = plate(),
+               double pitch = 0.5) {
     return simulate({.program = writer.program(),
                      .machine = router(),
                      .tools = std::move(tools),
@@ -87,8 +51,8 @@ run(const Writer& writer, std::vector<ToolUse> tools, const Stock& stock = plate
                     Progress());
 }
 
-Writer positioned() {
-    Writer writer(router());
+WrittenProgram positioned() {
+    WrittenProgram writer(router());
     writer.add(BlockKind::spindle_on)
         .go(BlockKind::rapid, {{'Z', 5.0}})
         .go(BlockKind::rapid, {{'X', 10.0}, {'Y', 20.0}});
@@ -96,7 +60,7 @@ Writer positioned() {
 }
 
 TEST(Simulation, CutsWhatTheProgramCuts) {
-    Writer writer = positioned();
+    WrittenProgram writer = positioned();
     writer.go(BlockKind::feed, {{'Z', -3.0}})
         .go(BlockKind::feed, {{'X', 40.0}})
         .go(BlockKind::rapid, {{'Z', 5.0}});
@@ -113,7 +77,7 @@ TEST(Simulation, CutsWhatTheProgramCuts) {
 }
 
 TEST(Simulation, NamesTheLineOfARapidThroughMaterial) {
-    Writer writer = positioned();
+    WrittenProgram writer = positioned();
     writer.go(BlockKind::feed, {{'Z', -3.0}})
         .go(BlockKind::rapid, {{'X', 40.0}})
         .go(BlockKind::rapid, {{'Z', 5.0}});
@@ -126,7 +90,7 @@ TEST(Simulation, NamesTheLineOfARapidThroughMaterial) {
 }
 
 TEST(Simulation, UsesTheToolThatWasChangedTo) {
-    Writer writer = positioned();
+    WrittenProgram writer = positioned();
     writer.go(BlockKind::feed, {{'Z', -3.0}}).go(BlockKind::rapid, {{'Z', 5.0}});
     const int change = writer.program().block_count();
     writer.go(BlockKind::rapid, {{'X', 40.0}}).go(BlockKind::feed, {{'Z', -3.0}});
@@ -135,7 +99,7 @@ TEST(Simulation, UsesTheToolThatWasChangedTo) {
 }
 
 TEST(Simulation, RefusesAFeedWithoutAToolAndNamesItsLine) {
-    Writer writer = positioned();
+    WrittenProgram writer = positioned();
     const int change = writer.program().block_count() + 1;
     writer.go(BlockKind::feed, {{'Z', -3.0}}).go(BlockKind::feed, {{'X', 30.0}});
     for (const std::vector<ToolUse>& tools : {std::vector<ToolUse>{},
@@ -152,7 +116,7 @@ TEST(Simulation, RefusesAFeedWithoutAToolAndNamesItsLine) {
 }
 
 TEST(Simulation, ReportsCutsWithoutSpindle) {
-    Writer writer = positioned();
+    WrittenProgram writer = positioned();
     writer.go(BlockKind::feed, {{'Z', -1.0}}).add(BlockKind::spindle_off).go(BlockKind::feed, {{'X', 20.0}});
     const Simulation found = run(writer, {{0, 1, flat(6.0)}});
     ASSERT_THAT(found.findings, SizeIs(1));
@@ -161,14 +125,14 @@ TEST(Simulation, ReportsCutsWithoutSpindle) {
 }
 
 TEST(Simulation, FollowsMovesFromFarAwayAndRefusesEndlessOnes) {
-    Writer writer = positioned();
+    WrittenProgram writer = positioned();
     writer.go(BlockKind::feed, {{'X', -90'000.0}})
         .go(BlockKind::feed, {{'Z', -2.0}})
         .go(BlockKind::feed, {{'X', 90'000.0}});
     const Simulation found = run(writer, {{0, 1, flat(6.0)}});
     EXPECT_NEAR(found.removed_volume(), 60.0 * 6.0 * 2.0, 3.0);
 
-    Writer turning(trunnion());
+    WrittenProgram turning(trunnion());
     turning.go(BlockKind::feed, {{'X', 1e9}, {'Y', 0.0}, {'Z', 1e9}, {'A', 0.0}, {'C', 0.0}})
         .go(BlockKind::feed, {{'C', 3.0}, {'A', 1.0}});
     try {
@@ -199,7 +163,7 @@ TEST(Simulation, FollowsTheMachineBetweenBlocks) {
     const toolpath::Profile ball =
         *toolpath::body_of({.kind = toolpath::CutterKind::ball, .diameter = 8.0, .length = 60.0});
     const kinematics::MachineModel& machine = trunnion();
-    Writer writer(machine);
+    WrittenProgram writer(machine);
     writer.add(BlockKind::spindle_on)
         .go(BlockKind::rapid, {{'X', -15.0}, {'Y', -20.0}, {'Z', 30.0}, {'A', 0.1}, {'C', -0.4}})
         .go(BlockKind::feed, {{'X', 15.0}, {'Y', 10.0}, {'Z', 24.0}, {'A', 0.5}, {'C', 0.5}});
