@@ -281,6 +281,9 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
                        .stock = simulation::BoxStock{},
                        .stock_text = {},
                        .warnings = {}};
+    if (options.part.empty()) {
+        work.part = part_surface(*plan.workpiece);
+    }
     for (std::size_t n = 0; n < work.program.blocks.size(); ++n) {
         work.program.blocks[n].source_line = plan.listing->line_of_block[n];
     }
@@ -301,8 +304,13 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
 
 SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_token& stop) {
     const Progress progress({}, stop);
-    return fs::path(options.file).extension() == ".json" ? work_of_project(options, stop, progress)
-                                                         : work_of_program(options, progress);
+    SimulatedWork work = fs::path(options.file).extension() == ".json"
+                             ? work_of_project(options, stop, progress)
+                             : work_of_program(options, progress);
+    if (!options.part.empty()) {
+        work.part = part_surface(options.part, progress);
+    }
+    return work;
 }
 
 } // namespace millwright::app

@@ -1,6 +1,7 @@
 // What `millwright simulate` simulates: a project's program or a G-code file, with machine, tools and stock.
 #pragma once
 
+#include "app/part_surface.h"
 #include "core/base/progress.h"
 #include "core/gcode/settings.h"
 #include "core/kinematics/machine_model.h"
@@ -26,6 +27,8 @@ struct SimulateOptions {
     bool block_delete = false;
     std::optional<double> resolution; ///< mm; nullopt: by the size of the stock
     double memory_mb = 1000.0;
+    std::string part;       ///< a mesh to compare with; empty: of a project the machined face
+    double tolerance = 0.1; ///< of the comparison, mm
     std::string out;
 };
 
@@ -40,6 +43,7 @@ struct SimulatedWork {
     simulation::Stock stock;
     std::string stock_text;
     std::vector<std::string> warnings; ///< a sentence each
+    std::optional<PartSurface> part{}; ///< what is left is compared with
 };
 
 /// Throws Error with the first thing that is wrong, UsageError for options that do not fit the file;

@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <string_view>
 
 namespace millwright::app {
 
@@ -37,6 +39,64 @@ ReportJson findings_json(const simulation::Simulation& found) {
         list.push_back(std::move(entry));
     }
     return list;
+}
+
+ReportJson worst_json(const SimulatedWork& work, const std::optional<simulation::WorstDeviation>& worst) {
+    if (!worst) {
+        return {};
+    }
+    const int line =
+        worst->block < 0 ? 0 : work.program.blocks[static_cast<std::size_t>(worst->block)].source_line;
+    ReportJson json;
+    json["deviation_mm"] = project::rounded(worst->height);
+    json["line"] = line > 0 ? ReportJson(line) : ReportJson();
+    json["position_mm"] = project::vector(worst->point);
+    return json;
+}
+
+ReportJson comparison_json(const SimulatedWork& work, const ComparedPart& compared) {
+    constexpr double percent = 100.0;
+    const simulation::ComparisonSummary& summary = compared.summary;
+    ReportJson json;
+    json["part"] = work.part->text;
+    json["tolerance_mm"] = project::rounded(compared.tolerance);
+    json["area_mm2"] = project::rounded(summary.area);
+    json["within_percent"] = project::rounded(percent * summary.within);
+    json["gouged_percent"] = project::rounded(percent * summary.gouged);
+    json["excess_percent"] = project::rounded(percent * summary.in_excess);
+    json["largest_gouge"] = worst_json(work, summary.gouge);
+    json["largest_excess"] = worst_json(work, summary.excess);
+    return json;
+}
+
+std::string worst_text(const SimulatedWork& work,
+                       std::string_view kind,
+                       const std::optional<simulation::WorstDeviation>& worst) {
+    if (!worst) {
+        return fmt::format("no {}", kind);
+    }
+    const int line =
+        worst->block < 0 ? 0 : work.program.blocks[static_cast<std::size_t>(worst->block)].source_line;
+    return fmt::format("largest {} {} mm at {} {} {}{}",
+                       kind,
+                       fixed(std::abs(worst->height), 4),
+                       fixed(worst->point.x(), 3),
+                       fixed(worst->point.y(), 3),
+                       fixed(worst->point.z(), 3),
+                       line > 0 ? fmt::format(" (line {})", line) : std::string());
+}
+
+void print_comparison(const SimulatedWork& work, const ComparedPart& compared) {
+    constexpr double percent = 100.0;
+    const simulation::ComparisonSummary& summary = compared.summary;
+    fmt::print("compared with {}: {} % within {:g} mm, {} % gouged, {} % in excess\n",
+               work.part->text,
+               fixed(percent * summary.within, 1),
+               compared.tolerance,
+               fixed(percent * summary.gouged, 1),
+               fixed(percent * summary.in_excess, 1));
+    fmt::print(
+        "{}; {}\n", worst_text(work, "gouge", summary.gouge), worst_text(work, "excess", summary.excess));
 }
 
 ReportJson box_json(const Box3& box) {
@@ -110,6 +170,7 @@ std::size_t rapid_count(const simulation::Simulation& found) {
 std::string simulation_report_text(const SimulatedWork& work,
                                    const simulation::Simulation& found,
                                    const simulation::CutMesh& mesh,
+                                   const std::optional<ComparedPart>& compared,
                                    const SimulationCost& cost) {
     const simulation::DexelField& field = *found.field;
     ReportJson json;
@@ -129,6 +190,9 @@ std::string simulation_report_text(const SimulatedWork& work,
     json["moves"]["skipped"] = found.skipped ? found.skipped->rapids + found.skipped->feeds : 0;
     json["rapid_in_stock"] = rapid_count(found);
     json["findings"] = findings_json(found);
+    if (compared) {
+        json["comparison"] = comparison_json(work, *compared);
+    }
     json["warnings"] = warnings_of(work, found);
     json["resolution_mm"] = project::vector(field.cell());
     json["mesh"]["triangles"] = mesh.triangles.size();
@@ -141,6 +205,7 @@ std::string simulation_report_text(const SimulatedWork& work,
 
 void print_simulation(const SimulatedWork& work,
                       const simulation::Simulation& found,
+                      const std::optional<ComparedPart>& compared,
                       const SimulationCost& cost) {
     for (const std::string& warning : warnings_of(work, found)) {
         fmt::print(stderr, "warning: {}\n", warning);
@@ -160,6 +225,9 @@ void print_simulation(const SimulatedWork& work,
                rapid_count(found) == 0
                    ? std::string("no rapid move meets any")
                    : counted(rapid_count(found), "rapid move goes through it", "rapid moves go through it"));
+    if (compared) {
+        print_comparison(work, *compared);
+    }
     fmt::print("resolution {:.3g} mm, {:.1f} s, {:.0f} MB\n",
                found.field->cell().maxCoeff(),
                cost.seconds,

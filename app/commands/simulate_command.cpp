@@ -63,66 +63,99 @@ std::vector<std::array<std::uint8_t, 3>> mesh_colors(const simulation::CutMesh& 
     return colors;
 }
 
-/// Nothing where there is no OpenGL.
-std::optional<std::string> picture_of(const simulation::CutMesh& mesh) {
+/// Puts the picture `name` into `set`; where there is no OpenGL an older one is taken away.
+void add_picture(OutputSet& set, const std::string& name, const viewport::ColoredSolid& solid) {
     try {
-        return render::to_png(viewport::solid_picture(
-            {.points = mesh.points, .triangles = mesh.triangles, .colors = mesh_colors(mesh)},
-            simulation_picture_size,
-            render::Theme::light));
+        set.files.push_back(
+            {name,
+             render::to_png(viewport::solid_picture(solid, simulation_picture_size, render::Theme::light))});
     } catch (const Error& error) {
-        fmt::print(stderr, "warning: no picture: {}\n", to_text(error.diagnostic()));
+        fmt::print(stderr, "warning: no {}: {}\n", name, to_text(error.diagnostic()));
+        set.absent.push_back(name);
+    }
+}
+
+void add_part(OutputSet& set, const PartSurface& part, const ComparedPart& compared) {
+    const auto colors = deviation_colors(part, compared.deviations, compared.tolerance);
+    set.files.push_back({"part.ply", simulation::ply_of(part.corners, part.triangles, colors)});
+    add_picture(
+        set,
+        "part.png",
+        {.points = part.corners, .triangles = part.triangles, .colors = colors, .closed = part.closed});
+}
+
+/// Lines of the program in place of none.
+template <class Work> auto with_place(const SimulatedWork& work, const Work& body) {
+    try {
+        return body();
+    } catch (const Error& error) {
+        Diagnostic diagnostic = error.diagnostic();
+        if (diagnostic.place.line > 0 && diagnostic.place.file.empty()) {
+            diagnostic.place.file = work.program_file;
+        }
+        throw Error(std::move(diagnostic));
+    }
+}
+
+std::optional<ComparedPart> compared_part(const SimulatedWork& work,
+                                          const simulation::SimulationInput& input,
+                                          const simulation::Simulation& found,
+                                          double tolerance,
+                                          const Progress& progress) {
+    if (!work.part) {
         return std::nullopt;
     }
+    progress.report(0.0, "Comparing with the part");
+    ComparedPart compared{.deviations = simulation::deviations(input, found, work.part->points, progress),
+                          .summary = {},
+                          .tolerance = tolerance};
+    compared.summary = simulation::summary_of(work.part->points, compared.deviations, tolerance);
+    return compared;
 }
 
 int simulate(const SimulateOptions& options) {
     const Interrupt interrupt;
     const OutputFolder folder(options.out);
-    SimulatedWork work = simulated_work(options, interrupt.token());
+    const SimulatedWork work = simulated_work(options, interrupt.token());
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     const auto begin = std::chrono::steady_clock::now();
+    const simulation::SimulationInput input{.program = work.program,
+                                            .machine = work.machine,
+                                            .tools = work.tools,
+                                            .stock = work.stock,
+                                            .resolution = resolution_of(options, work.stock),
+                                            .most_bytes = most_field_bytes(options)};
     progress.report(0.0, "Cutting");
-    const auto found = [&] {
-        try {
-            return simulation::simulate({.program = work.program,
-                                         .machine = work.machine,
-                                         .tools = work.tools,
-                                         .stock = work.stock,
-                                         .resolution = resolution_of(options, work.stock),
-                                         .most_bytes = most_field_bytes(options)},
-                                        progress.part(0.0, 0.9));
-        } catch (const Error& error) {
-            Diagnostic diagnostic = error.diagnostic();
-            if (diagnostic.place.line > 0 && diagnostic.place.file.empty()) {
-                diagnostic.place.file = work.program_file;
-            }
-            throw Error(std::move(diagnostic));
-        }
-    }();
+    const simulation::Simulation found =
+        with_place(work, [&] { return simulation::simulate(input, progress.part(0.0, 0.8)); });
+    const std::optional<ComparedPart> compared =
+        compared_part(work, input, found, options.tolerance, progress.part(0.8, 0.9));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     progress.report(0.9, "Making the mesh");
     const simulation::CutMesh mesh =
         simulation::mesh_of(*found.field, most_triangles, progress.part(0.9, 1.0));
     printer.finish();
     const SimulationCost cost{took.count(), thread_count()};
-    OutputSet set{{{"simulation.json", simulation_report_text(work, found, mesh, cost)},
+    const auto colors = mesh_colors(mesh);
+    OutputSet set{{{"simulation.json", simulation_report_text(work, found, mesh, compared, cost)},
                    {"cut.stl", simulation::stl_of(mesh)},
-                   {"cut.ply", simulation::ply_of(mesh, mesh_colors(mesh))}},
+                   {"cut.ply", simulation::ply_of(mesh.points, mesh.triangles, colors)}},
                   {},
                   "simulation"};
     if (!work.program_text.empty()) {
         set.files.push_back({"program.ngc", work.program_text});
     }
-    if (auto picture = picture_of(mesh)) {
-        set.files.push_back({"cut.png", std::move(*picture)});
-    } else { // an older one would be taken for it
-        set.absent.push_back("cut.png");
+    if (!mesh.points.empty()) {
+        add_picture(set, "cut.png", {.points = mesh.points, .triangles = mesh.triangles, .colors = colors});
+    }
+    if (compared) {
+        add_part(set, *work.part, *compared);
     }
     write_outputs(options.out, set, options.file);
-    print_simulation(work, found, cost);
-    return rapid_count(found) == 0 ? 0 : 1;
+    print_simulation(work, found, compared, cost);
+    const bool gouged = compared && compared->summary.gouged > 0.0;
+    return rapid_count(found) == 0 && !gouged ? 0 : 1;
 }
 
 } // namespace
@@ -130,7 +163,8 @@ int simulate(const SimulateOptions& options) {
 void add_simulate_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<SimulateOptions>();
     CLI::App& command = *app.add_subcommand(
-        "simulate", "Cut a stock by a program: what is left, and rapid moves that go through material");
+        "simulate",
+        "Cut a stock by a program: what is left, gouges, and rapid moves that go through material");
     command.add_option("FILE", options->file, "Project, or G-code file")->required();
     command.add_option("--machine", options->machine, "Shipped machine or machine file, of a G-code file")
         ->type_name("NAME|FILE");
@@ -152,6 +186,14 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
     command.add_option("--resolution", options->resolution, "Distance of the lines that are cut, mm")
         ->type_name("MM")
         ->check(above_zero());
+    command
+        .add_option("--part",
+                    options->part,
+                    "Mesh in mm to compare what is left with; of a project by default the machined face")
+        ->type_name("FILE");
+    command.add_option("--tolerance", options->tolerance, "Of the comparison, mm")
+        ->type_name("MM")
+        ->check(not_below_zero());
     command.add_option("--memory", options->memory_mb, "Memory that they may take, MB")
         ->type_name("MB")
         ->check(above_zero());
@@ -168,7 +210,11 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
-    command.add_option("--out", options->out, "Folder for simulation.json, cut.stl, cut.ply and cut.png")
+    command
+        .add_option("--out",
+                    options->out,
+                    "Folder for simulation.json, cut.stl, cut.ply, cut.png, and part.ply and part.png of a "
+                    "comparison")
         ->required()
         ->type_name("DIR");
     command.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });

@@ -262,22 +262,24 @@ std::string stl_of(const CutMesh& mesh) {
     return bytes;
 }
 
-std::string ply_of(const CutMesh& mesh, const std::vector<std::array<std::uint8_t, 3>>& colors) {
-    expects(colors.size() == mesh.points.size(), "every point of a mesh has a colour");
+std::string ply_of(const std::vector<Vec3>& points,
+                   const std::vector<std::array<int, 3>>& triangles,
+                   const std::vector<std::array<std::uint8_t, 3>>& colors) {
+    expects(colors.size() == points.size(), "every point of a mesh has a colour");
     std::string bytes =
         fmt::format("ply\nformat binary_little_endian 1.0\ncomment Millwright, mm\n"
                     "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
                     "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                     "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-                    mesh.points.size(),
-                    mesh.triangles.size());
-    for (std::size_t n = 0; n < mesh.points.size(); ++n) {
-        append(bytes, mesh.points[n]);
+                    points.size(),
+                    triangles.size());
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        append(bytes, points[n]);
         bytes.append({static_cast<char>(colors[n][0]),
                       static_cast<char>(colors[n][1]),
                       static_cast<char>(colors[n][2])});
     }
-    for (const auto& triangle : mesh.triangles) {
+    for (const auto& triangle : triangles) {
         bytes.push_back(3);
         for (const int corner : triangle) {
             append(bytes, static_cast<std::int32_t>(corner));

@@ -28,6 +28,8 @@ struct CutMesh {
 /// A binary STL file.
 [[nodiscard]] std::string stl_of(const CutMesh& mesh);
 /// A binary PLY file with a colour a point, 0 to 255.
-[[nodiscard]] std::string ply_of(const CutMesh& mesh, const std::vector<std::array<std::uint8_t, 3>>& colors);
+[[nodiscard]] std::string ply_of(const std::vector<Vec3>& points,
+                                 const std::vector<std::array<int, 3>>& triangles,
+                                 const std::vector<std::array<std::uint8_t, 3>>& colors);
 
 } // namespace millwright::simulation

@@ -175,6 +175,32 @@ TEST(SimulateCommand, CutsAProjectWithItsMachineAndTool) {
     }
 }
 
+TEST(SimulateCommand, ComparesWithAPartAndEndsWithCodeOneForAGouge) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    ASSERT_EQ(simulate(program, scratch / "part", {"--tool", "flat:6"}).exit_code, 0);
+    const std::string part = scratch / "part/cut.stl";
+    const Ended same =
+        simulate(program, scratch / "same", {"--tool", "flat:6", "--part", part, "--tolerance", "0.3"});
+    EXPECT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_THAT(same.out, HasSubstr("compared with cut.stl"));
+    EXPECT_THAT(content_of(scratch / "same/part.ply"), StartsWith("ply\n"));
+    EXPECT_THAT(content_of(scratch / "same/part.png"), StartsWith("\x89PNG"));
+    std::string deeper = slot_program;
+    deeper.replace(deeper.find("G0 Z-2"), 6, "G0 Z-3");
+    const Ended gouged = simulate(program_in(scratch, deeper + "M2\n"),
+                                  scratch / "gouged",
+                                  {"--tool", "flat:6", "--part", part, "--tolerance", "0.3"});
+    EXPECT_EQ(gouged.exit_code, 1);
+    const auto report = nlohmann::json::parse(content_of(scratch / "gouged/simulation.json"));
+    const auto& worst = report.at("comparison").at("largest_gouge");
+    EXPECT_NEAR(worst.at("deviation_mm").get<double>(), -1.0, 1e-3);
+    EXPECT_EQ(worst.at("line"), 7);
+    EXPECT_NEAR(report.at("comparison").at("gouged_percent").get<double>(),
+                100.0 * 60.0 * 6.0 / report.at("comparison").at("area_mm2").get<double>(),
+                1.5);
+}
+
 TEST(SimulateCommand, CutsAClosedMeshOfAFile) {
     const ScratchFolder scratch;
     const fs::path first = program_in(scratch, std::string(slot_program) + "M2\n");

@@ -64,7 +64,7 @@ render::Picture solid_picture(const ColoredSolid& solid, const render::PixelSize
     render::ViewTarget target;
     target.begin(size);
     painter.background(render::view_colors(theme, {}));
-    painter.mesh(buffer, {.coloring = {.from = render::ColorFrom::vertex}, .closed = true}, view);
+    painter.mesh(buffer, {.coloring = {.from = render::ColorFrom::vertex}, .closed = solid.closed}, view);
     target.end();
     return target.read();
 }

@@ -1,4 +1,4 @@
-// A closed body as a picture for files, without a display.
+// A body or a surface as a picture for files, without a display.
 #pragma once
 
 #include "core/geometry/vectors.h"
@@ -17,6 +17,7 @@ struct ColoredSolid {
     const std::vector<Vec3>& points;                  ///< mm
     const std::vector<std::array<int, 3>>& triangles; ///< counter-clockwise seen from outside
     const std::vector<std::array<std::uint8_t, 3>>& colors;
+    bool closed = true; ///< false: a surface, seen from both sides
 };
 
 /// Seen from the front, right and above, filling the picture. Makes a context of its own, which is current

@@ -85,8 +85,8 @@ TEST(CutMesh, FilesHaveEveryTriangle) {
     std::uint32_t count = 0;
     std::memcpy(&count, stl.data() + 80, sizeof(count));
     EXPECT_EQ(count, mesh.triangles.size());
-    const std::string ply =
-        ply_of(mesh, std::vector<std::array<std::uint8_t, 3>>(mesh.points.size(), {1, 2, 3}));
+    const std::string ply = ply_of(
+        mesh.points, mesh.triangles, std::vector<std::array<std::uint8_t, 3>>(mesh.points.size(), {1, 2, 3}));
     const std::size_t header = ply.find("end_header\n") + 11;
     EXPECT_EQ(ply.size(), header + 15 * mesh.points.size() + 13 * mesh.triangles.size());
 }
