@@ -19,6 +19,7 @@
 #include "app/commands/reshape_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/send_command.h"
+#include "app/commands/simulate_command.h"
 #include "app/commands/stop_command.h"
 #include "app/commands/study_command.h"
 #include "app/commands/thesis_command.h"
@@ -117,6 +118,7 @@ int main(int argc, char** argv) {
     add_workbench_command(app, chosen);
     add_plan_command(app, chosen);
     add_render_command(app, chosen);
+    add_simulate_command(app, chosen);
     add_run_command(app, chosen);
     add_send_command(app, chosen);
     add_stop_command(app, chosen);

@@ -1,0 +1,223 @@
+#include "app/commands/simulate_command.h"
+
+#include "app/finite_number.h"
+#include "app/interrupt.h"
+#include "app/origin_choice.h"
+#include "app/outputs.h"
+#include "app/progress_printer.h"
+#include "app/simulated_work.h"
+#include "app/simulation_report.h"
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/simulation/cut_mesh.h"
+#include "ui/render/picture.h"
+#include "ui/viewport/solid_picture.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+constexpr double bytes_in_megabyte = 1e6;
+constexpr std::size_t most_triangles = 400'000;
+constexpr render::PixelSize simulation_picture_size{1280, 800};
+
+/// So many cells along the longest edge of the stock, where nothing is said.
+constexpr double usual_cells = 400.0;
+
+std::size_t most_field_bytes(const SimulateOptions& options) {
+    const auto wanted = static_cast<std::size_t>(options.memory_mb * bytes_in_megabyte);
+    constexpr std::size_t share = 5; // of the memory that is free four fifths
+    const std::optional<std::size_t> free = free_memory();
+    return free ? std::min(wanted, *free / share * (share - 1)) : wanted;
+}
+
+/// As fine as the memory allows, but no finer than usual.
+double resolution_of(const SimulateOptions& options, const simulation::Stock& stock) {
+    if (options.resolution) {
+        return *options.resolution;
+    }
+    const Box3 box = simulation::bounds(stock);
+    return std::max(box.sizes().maxCoeff() / usual_cells,
+                    1.05 * simulation::pitch_within(box, most_field_bytes(options)));
+}
+
+/// Cut faces in the colour of a fresh cut, the stock's own in gray.
+std::vector<std::array<std::uint8_t, 3>> mesh_colors(const simulation::CutMesh& mesh) {
+    std::vector<std::array<std::uint8_t, 3>> colors;
+    colors.reserve(mesh.moves.size());
+    constexpr std::array<std::uint8_t, 3> untouched{150, 156, 166}, cut{214, 178, 110};
+    for (const std::int32_t move : mesh.moves) {
+        colors.push_back(move == simulation::stock_surface ? untouched : cut);
+    }
+    return colors;
+}
+
+/// Puts the picture `name` into `set`; where there is no OpenGL an older one is taken away.
+void add_picture(OutputSet& set, const std::string& name, const viewport::ColoredSolid& solid) {
+    try {
+        set.files.push_back(
+            {name,
+             render::to_png(viewport::solid_picture(solid, simulation_picture_size, render::Theme::light))});
+    } catch (const Error& error) {
+        fmt::print(stderr, "warning: no {}: {}\n", name, to_text(error.diagnostic()));
+        set.absent.push_back(name);
+    }
+}
+
+void add_part(OutputSet& set, const PartSurface& part, const ComparedPart& compared) {
+    const auto colors = deviation_colors(part, compared.deviations, compared.tolerance);
+    set.files.push_back({"part.ply", simulation::ply_of(part.corners, part.triangles, colors)});
+    add_picture(
+        set,
+        "part.png",
+        {.points = part.corners, .triangles = part.triangles, .colors = colors, .closed = part.closed});
+}
+
+/// Lines of the program in place of none.
+template <class Work> auto with_place(const SimulatedWork& work, const Work& body) {
+    try {
+        return body();
+    } catch (const Error& error) {
+        Diagnostic diagnostic = error.diagnostic();
+        if (diagnostic.place.line > 0 && diagnostic.place.file.empty()) {
+            diagnostic.place.file = work.program_file;
+        }
+        throw Error(std::move(diagnostic));
+    }
+}
+
+std::optional<ComparedPart> compared_part(const SimulatedWork& work,
+                                          const simulation::SimulationInput& input,
+                                          const simulation::Simulation& found,
+                                          double tolerance,
+                                          const Progress& progress) {
+    if (!work.part) {
+        return std::nullopt;
+    }
+    progress.report(0.0, "Comparing with the part");
+    ComparedPart compared{.deviations = simulation::deviations(input, found, work.part->points, progress),
+                          .summary = {},
+                          .tolerance = tolerance};
+    compared.summary = simulation::summary_of(work.part->points, compared.deviations, tolerance);
+    return compared;
+}
+
+int simulate(const SimulateOptions& options) {
+    const Interrupt interrupt;
+    const OutputFolder folder(options.out);
+    const SimulatedWork work = simulated_work(options, interrupt.token());
+    ProgressPrinter printer;
+    const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
+    const auto begin = std::chrono::steady_clock::now();
+    const simulation::SimulationInput input{.program = work.program,
+                                            .machine = work.machine,
+                                            .tools = work.tools,
+                                            .stock = work.stock,
+                                            .resolution = resolution_of(options, work.stock),
+                                            .most_bytes = most_field_bytes(options)};
+    progress.report(0.0, "Cutting");
+    const simulation::Simulation found =
+        with_place(work, [&] { return simulation::simulate(input, progress.part(0.0, 0.8)); });
+    const std::optional<ComparedPart> compared =
+        compared_part(work, input, found, options.tolerance, progress.part(0.8, 0.9));
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    progress.report(0.9, "Making the mesh");
+    const simulation::CutMesh mesh =
+        simulation::mesh_of(*found.field, most_triangles, progress.part(0.9, 1.0));
+    printer.finish();
+    const SimulationCost cost{took.count(), thread_count()};
+    const auto colors = mesh_colors(mesh);
+    OutputSet set{{{"simulation.json", simulation_report_text(work, found, mesh, compared, cost)},
+                   {"cut.stl", simulation::stl_of(mesh)},
+                   {"cut.ply", simulation::ply_of(mesh.points, mesh.triangles, colors)}},
+                  {},
+                  "simulation"};
+    if (!work.program_text.empty()) {
+        set.files.push_back({"program.ngc", work.program_text});
+    }
+    if (!mesh.points.empty()) {
+        add_picture(set, "cut.png", {.points = mesh.points, .triangles = mesh.triangles, .colors = colors});
+    }
+    if (compared) {
+        add_part(set, *work.part, *compared);
+    }
+    write_outputs(options.out, set, options.file);
+    print_simulation(work, found, compared, cost);
+    const bool gouged = compared && compared->summary.gouged > 0.0;
+    return rapid_count(found) == 0 && !gouged ? 0 : 1;
+}
+
+} // namespace
+
+void add_simulate_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<SimulateOptions>();
+    CLI::App& command = *app.add_subcommand(
+        "simulate",
+        "Cut a stock by a program: what is left, gouges, and rapid moves that go through material");
+    command.add_option("FILE", options->file, "Project, or G-code file")->required();
+    command.add_option("--machine", options->machine, "Shipped machine or machine file, of a G-code file")
+        ->type_name("NAME|FILE");
+    command
+        .add_option("--stock",
+                    options->stock,
+                    "box:LX,LY,LZ[@X,Y,Z], cylinder:D,L[,x|y|z][@X,Y,Z], tube:D,BORE,L[,x|y|z][@X,Y,Z] or "
+                    "FILE.stl[@X,Y,Z]; of a project by default the box of its surface and 2 mm more")
+        ->type_name("SPEC");
+    command
+        .add_option(
+            "--tool",
+            options->tools,
+            "flat:D, ball:D, bull:D:R, v:ANGLE:D[:TIP|:rR], drill:D[:ANGLE], each with :lLENGTH, or a "
+            "tool file; N=SPEC for the tool of T N, once for each")
+        ->type_name("[N=]SPEC")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--resolution", options->resolution, "Distance of the lines that are cut, mm")
+        ->type_name("MM")
+        ->check(above_zero());
+    command
+        .add_option("--part",
+                    options->part,
+                    "Mesh in mm to compare what is left with; of a project by default the machined face")
+        ->type_name("FILE");
+    command.add_option("--tolerance", options->tolerance, "Of the comparison, mm")
+        ->type_name("MM")
+        ->check(not_below_zero());
+    command.add_option("--memory", options->memory_mb, "Memory that they may take, MB")
+        ->type_name("MB")
+        ->check(above_zero());
+    add_origin_option(command, options->origin);
+    command.add_option("--dialect", options->dialect, "Whose rules hold")
+        ->check(CLI::IsMember({"linuxcnc", "grbl"}))
+        ->capture_default_str();
+    command
+        .add_option("--subroutines",
+                    options->subroutines,
+                    "Folder of subroutine files, searched after the program's own")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
+    command
+        .add_option("--out",
+                    options->out,
+                    "Folder for simulation.json, cut.stl, cut.ply, cut.png, and part.ply and part.png of a "
+                    "comparison")
+        ->required()
+        ->type_name("DIR");
+    command.callback([&chosen, options] { chosen = [options] { return simulate(*options); }; });
+}
+
+} // namespace millwright::app

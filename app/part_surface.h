@@ -1,0 +1,35 @@
+// The surface that a simulation is compared with: where it is looked at, and triangles to show it by.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/plan/evaluation.h"
+#include "core/simulation/comparison.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace millwright::app {
+
+struct PartSurface {
+    std::string text;                          ///< for people
+    std::vector<simulation::PartPoint> points; ///< where it is looked at
+    std::vector<Vec3> corners;                 ///< of the triangles
+    std::vector<int> point_of_corner;          ///< whose colour a corner has
+    std::vector<std::array<int, 3>> triangles;
+    bool closed = false; ///< a body: it is drawn from outside alone
+};
+
+/// The machined face with its outlines, normals on the side of the tool.
+[[nodiscard]] PartSurface part_surface(const plan::Workpiece& workpiece);
+
+/// The triangles of an STL, OBJ or PLY file in mm, large ones divided. Throws Error, Cancelled.
+[[nodiscard]] PartSurface part_surface(const std::filesystem::path& file, const Progress& progress);
+
+/// Red: gouged beyond `tolerance` mm; green: within; blue: material left beyond it. One a corner.
+[[nodiscard]] std::vector<std::array<std::uint8_t, 3>> deviation_colors(
+    const PartSurface& part, const std::vector<simulation::Deviation>& deviations, double tolerance);
+
+} // namespace millwright::app

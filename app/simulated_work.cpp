@@ -1,0 +1,316 @@
+#include "app/simulated_work.h"
+
+#include "app/command.h"
+#include "app/commands/gcode_options.h"
+#include "app/origin_choice.h"
+#include "app/usage_error.h"
+#include "core/base/counted.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/exchange/mesh_file.h"
+#include "core/gcode/interpreter.h"
+#include "core/gcode/machine_program.h"
+#include "core/geometry/mesh.h"
+#include "core/kinematics/machine_file.h"
+#include "core/project/assets.h"
+#include "core/project/tool_file.h"
+#include "core/project/tool_settings.h"
+#include "core/simulation/spec_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace millwright::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using simulation::ToolUse;
+
+/// A change of the tool that the program asks for.
+struct ToolChange {
+    int first_block = 0;
+    int number = 0;
+    int line = 0;
+};
+
+/// Hands everything on, and keeps which tool is changed to before which block.
+class ToolChangeRecorder final : public gcode::CanonSink {
+public:
+    explicit ToolChangeRecorder(gcode::MachineProgramBuilder& builder) : builder_(builder) {}
+
+    void move(const gcode::Move& move, const gcode::SourceLine& now) override { builder_.move(move, now); }
+    void curve(const gcode::Curve& curve, const gcode::SourceLine& now) override {
+        builder_.curve(curve, now);
+    }
+    void command(const gcode::Command& command, const gcode::SourceLine& now) override {
+        builder_.command(command, now);
+        if (command.kind == gcode::CommandKind::select_tool) {
+            selected_ = command.index;
+            selected_line_ = command.source.line;
+        } else if (command.kind == gcode::CommandKind::change_tool) {
+            changes_.push_back({builder_.block_count(), selected_, command.source.line});
+        }
+    }
+    [[nodiscard]] const std::vector<ToolChange>& changes() const { return changes_; }
+    /// The last T word, where no M6 follows; 0: there is none.
+    [[nodiscard]] int selected() const { return selected_; }
+    [[nodiscard]] int selected_line() const { return selected_line_; }
+
+private:
+    gcode::MachineProgramBuilder& builder_;
+    std::vector<ToolChange> changes_;
+    int selected_ = 0, selected_line_ = 0;
+};
+
+/// A tool that a person named.
+struct NamedTool {
+    std::optional<int> number;
+    toolpath::Profile body;
+    std::string text;
+};
+
+NamedTool named_tool(const std::string& text) {
+    simulation::ToolText parsed = simulation::parse_tool(text);
+    if (parsed.body) {
+        return {parsed.number, *parsed.body, text};
+    }
+    const project::ToolInput input = project::read_tool(parsed.file);
+    const toolpath::Tool tool = project::tool_of(input);
+    if (!tool.cutter) {
+        throw Error("the tool is a point, which removes nothing", parsed.file, "give it a cutter");
+    }
+    return {parsed.number, *tool.cutter, project::tool_text(input)};
+}
+
+/// The tool for T `number`: the one of that number, or the only one if it has none.
+const NamedTool* tool_for(const std::vector<NamedTool>& tools, int number, bool only_call) {
+    for (const NamedTool& tool : tools) {
+        if (tool.number == number) {
+            return &tool;
+        }
+    }
+    const bool alone = tools.size() == 1 && !tools.front().number;
+    return alone && only_call ? &tools.front() : nullptr;
+}
+
+[[noreturn]] void throw_no_tool(const fs::path& file, int number, int line) {
+    throw Error(Diagnostic{{file, line, 0, -1},
+                           fmt::format("the program calls tool {}, and no tool {} is named", number, number),
+                           fmt::format("add --tool {}=SPEC, such as {}=flat:6", number, number)});
+}
+
+/// Which of `tools` is in the spindle from which block on.
+void take_tools(const ToolChangeRecorder& found, const std::vector<NamedTool>& tools, SimulatedWork& work) {
+    std::vector<ToolChange> changes = found.changes();
+    if (changes.empty()) {
+        changes.push_back({0, found.selected(), found.selected_line()});
+    }
+    const bool same = std::ranges::all_of(changes, [&](const ToolChange& change) {
+        return change.number == 0 ||
+               change.number == std::ranges::max(changes, {}, &ToolChange::number).number;
+    });
+    for (const ToolChange& change : changes) {
+        if (change.number == 0 && !found.changes().empty()) { // T0 M6: the spindle is emptied
+            work.tools.push_back({change.first_block, 0, std::nullopt});
+            continue;
+        }
+        const NamedTool* tool = tool_for(tools, change.number, same);
+        if (tool == nullptr && change.number == 0 && tools.size() == 1) {
+            tool = &tools.front(); // the program calls none, and one is named
+        }
+        if (tool == nullptr && change.number == 0) {
+            throw UsageError(
+                "the program calls no tool, and more than one is named", work.file, "name one tool");
+        }
+        if (tool == nullptr) {
+            throw_no_tool(work.file, change.number, change.line);
+        }
+        work.tools.push_back({change.first_block, change.number, tool->body});
+        const std::string text =
+            change.number == 0 ? tool->text : fmt::format("T{}: {}", change.number, tool->text);
+        if (std::ranges::find(work.tool_texts, text) == work.tool_texts.end()) {
+            work.tool_texts.push_back(text);
+        }
+    }
+}
+
+void throw_first_of(const std::vector<Diagnostic>& errors) {
+    if (!errors.empty()) {
+        throw Error(errors.front());
+    }
+}
+
+std::shared_ptr<const simulation::MeshStock>
+mesh_from(const fs::path& file, const Vec3& shift, const Progress& progress) {
+    exchange::MeshFile read = exchange::read_mesh(file, 1.0, progress);
+    auto mesh = std::make_shared<simulation::MeshStock>();
+    mesh->points = std::move(read.mesh.points);
+    mesh->triangles = std::move(read.mesh.triangles);
+    for (Vec3& point : mesh->points) {
+        point += shift;
+    }
+    if (const std::string fault = simulation::fault_of(simulation::Stock(mesh)); !fault.empty()) {
+        throw Error(fault, file, "repair it in the program that it comes from");
+    }
+    return mesh;
+}
+
+void take_stock(const std::string& text, SimulatedWork& work, const Progress& progress) {
+    simulation::StockText parsed = simulation::parse_stock(text);
+    if (parsed.stock) {
+        work.stock = *parsed.stock;
+        work.stock_text = simulation::to_text(work.stock);
+    } else {
+        work.stock = mesh_from(parsed.mesh_file, parsed.shift, progress);
+        work.stock_text = fmt::format(
+            "{} of {}", simulation::to_text(work.stock), printable(parsed.mesh_file.filename().string()));
+    }
+}
+
+gcode::ReaderSettings reader_settings(const SimulateOptions& options,
+                                      const kinematics::MachineModel& machine) {
+    GcodeOptions reading;
+    reading.dialect = options.dialect;
+    reading.axes.clear();
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        reading.axes += axis.letter;
+    }
+    reading.subroutines = options.subroutines;
+    reading.block_delete = options.block_delete;
+    reading.origin = options.origin;
+    return reader_settings(reading);
+}
+
+SimulatedWork work_of_program(const SimulateOptions& options, const Progress& progress) {
+    if (options.machine.empty() || options.stock.empty() || options.tools.empty()) {
+        throw UsageError("a G-code file is simulated with a machine, a stock and a tool",
+                         options.file,
+                         "add --machine NAME, --stock SPEC and --tool SPEC");
+    }
+    std::vector<NamedTool> tools;
+    for (const std::string& text : options.tools) {
+        tools.push_back(named_tool(text));
+    }
+    SimulatedWork work{.file = options.file,
+                       .program_file = options.file,
+                       .program_text = {},
+                       .machine = kinematics::read_machine(project::machine_path(
+                           options.machine, fs::current_path(), project::assets_folder())),
+                       .program = {},
+                       .tools = {},
+                       .tool_texts = {},
+                       .stock = simulation::BoxStock{},
+                       .stock_text = {},
+                       .warnings = {}};
+    take_stock(options.stock, work, progress);
+    gcode::MachineProgramSettings making;
+    making.chord_tolerance = 0.5 * simulation::tip_tolerance;
+    gcode::MachineProgramBuilder builder(work.machine, options.file, making);
+    ToolChangeRecorder recorder(builder);
+    gcode::Interpreter reader(options.file, reader_settings(options, work.machine), recorder);
+    constexpr int lines_a_check = 4096;
+    bool more = true;
+    for (int line = 0; more; ++line) {
+        more = reader.step();
+        if (line % lines_a_check == 0) {
+            progress.check();
+        }
+    }
+    throw_first_of(reader.errors());
+    gcode::MachineProgram made = builder.take();
+    throw_first_of(made.faults);
+    throw_first_of(made.lost);
+    for (const Diagnostic& unplaced : made.unplaced) {
+        work.warnings.push_back(to_text(unplaced));
+    }
+    work.program = std::move(made.program);
+    take_tools(recorder, tools, work);
+    return work;
+}
+
+Box3 box_of(const geometry::Surface& surface) {
+    Box3 box;
+    constexpr int steps = 60;
+    for (std::size_t n = 0; n < surface.patches().size(); ++n) {
+        for (const Vec3& point : geometry::tessellate(surface.patches()[n], steps, steps).positions) {
+            box.extend(point);
+        }
+    }
+    return box;
+}
+
+/// The part's box and so much more on every side, mm.
+constexpr double stock_allowance = 2.0;
+
+SimulatedWork
+work_of_project(const SimulateOptions& options, const std::stop_token& stop, const Progress& progress) {
+    if (!options.machine.empty()) {
+        throw UsageError("a project names its own machine", options.file, "leave --machine out");
+    }
+    OpenedProject opened = open_project(options.file);
+    if (options.tools.size() > 1) {
+        throw UsageError("a project is cut with one tool", options.file, "name one tool file");
+    }
+    if (!options.tools.empty()) {
+        const simulation::ToolText parsed = simulation::parse_tool(options.tools.front());
+        if (parsed.body) {
+            throw UsageError("the program of a project is made for its tool",
+                             options.file,
+                             "give a tool file, from which the program is made anew");
+        }
+        opened.project.tool = project::read_tool(parsed.file);
+    }
+    const toolpath::Tool tool = project::tool_of(opened.project.tool);
+    if (!tool.cutter) {
+        throw Error("the project's tool is a point, which removes nothing",
+                    options.file,
+                    "name a tool file with --tool");
+    }
+    const plan::Plan plan = planned(opened, plan::Scope::program, stop);
+    SimulatedWork work{.file = options.file,
+                       .program_file = fs::path(options.out) / "program.ngc",
+                       .program_text = plan.listing->text,
+                       .machine = plan.workpiece->machine,
+                       .program = *plan.program,
+                       .tools = {{0, opened.project.tool.number, *tool.cutter}},
+                       .tool_texts = {project::tool_text(opened.project.tool)},
+                       .stock = simulation::BoxStock{},
+                       .stock_text = {},
+                       .warnings = {}};
+    if (options.part.empty()) {
+        work.part = part_surface(*plan.workpiece);
+    }
+    for (std::size_t n = 0; n < work.program.blocks.size(); ++n) {
+        work.program.blocks[n].source_line = plan.listing->line_of_block[n];
+    }
+    if (options.stock.empty()) {
+        const Box3 box = box_of(*plan.surface);
+        const Vec3 more = Vec3::Constant(stock_allowance);
+        work.stock = simulation::BoxStock{box.min() - more, box.max() + more};
+        work.stock_text = fmt::format("{}: the box of the surface and {:g} mm on every side",
+                                      simulation::to_text(work.stock),
+                                      stock_allowance);
+    } else {
+        take_stock(options.stock, work, progress);
+    }
+    return work;
+}
+
+} // namespace
+
+SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_token& stop) {
+    const Progress progress({}, stop);
+    SimulatedWork work = fs::path(options.file).extension() == ".json"
+                             ? work_of_project(options, stop, progress)
+                             : work_of_program(options, progress);
+    if (!options.part.empty()) {
+        work.part = part_surface(options.part, progress);
+    }
+    return work;
+}
+
+} // namespace millwright::app

@@ -1,0 +1,53 @@
+// What is left against the part that is wanted: at each of its points, how far along the normal the material
+// goes on above it (excess) or ends below it (gouge). The lines of the field only say which moves can have
+// made the surface there; the figure is that of the tool's true positions on the machine's own motion.
+// Lengths mm.
+#pragma once
+
+#include "core/simulation/simulation.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace millwright::simulation {
+
+/// A point of the part's surface, and the area that it stands for.
+struct PartPoint {
+    Vec3 point = Vec3::Zero();
+    Vec3 normal = Vec3::UnitZ(); ///< unit, out of the material
+    double area = 0.0;           ///< mm^2
+};
+
+struct Deviation {
+    double height = 0.0; ///< along the normal: above 0 excess, below 0 gouge
+    int block = -1;      ///< of the program, that cuts deepest there; -1: none, the stock is as it was
+};
+
+/// One a point. Where no move comes near, the height is that of the stock's box along the normal; a point
+/// outside of that box has its distance to it, below 0. `found` is what simulate() gave for `input`. Throws
+/// Cancelled.
+[[nodiscard]] std::vector<Deviation> deviations(const SimulationInput& input,
+                                                const Simulation& found,
+                                                std::span<const PartPoint> points,
+                                                const Progress& progress);
+
+/// The worst point of one kind.
+struct WorstDeviation {
+    double height = 0.0;
+    int block = -1;
+    Vec3 point = Vec3::Zero();
+};
+
+struct ComparisonSummary {
+    double area = 0.0;                    ///< of all points
+    double within = 0.0;                  ///< share of it within the tolerance, 0 to 1
+    double gouged = 0.0, in_excess = 0.0; ///< shares beyond it
+    std::optional<WorstDeviation> gouge, excess;
+};
+
+/// Throws Defect unless there is a deviation for each point.
+[[nodiscard]] ComparisonSummary
+summary_of(std::span<const PartPoint> points, std::span<const Deviation> deviations, double tolerance);
+
+} // namespace millwright::simulation

@@ -1,0 +1,59 @@
+// One tile of lines and the steps that may reach it.
+#pragma once
+
+#include "core/simulation/dexel_field.h"
+#include "core/simulation/removal.h"
+
+#include <optional>
+#include <vector>
+
+namespace millwright::simulation {
+
+/// A step with what all tiles need of it.
+struct ReadyStep {
+    ReadyStep(const CutStep& step, double half_tile);
+
+    const CutStep* step;
+    SweptCutter cutter;
+    std::optional<SweptCutter> core; ///< of a step whose contact counts
+    geometry::ToolPose middle;
+    Box3 bounds;
+    BodyRay near_line; ///< holds all of the swept body, placed at the middle pose
+    BodyRay near_tile; ///< the same with the tile's half diagonal
+};
+
+/// What one step did to one tile.
+struct TileCut {
+    std::int32_t move = 0;
+    double length = 0.0; ///< of all that was removed, along the lines
+    std::optional<Contact> contact{};
+};
+
+class TileCutter {
+public:
+    /// The tile in column `i` and row `j` of family `k`.
+    TileCutter(DexelField& field, int k, int i, int j);
+
+    /// False where nothing was met.
+    bool cut(const ReadyStep& step, TileCut& found);
+
+private:
+    [[nodiscard]] bool may_reach(const ReadyStep& step) const;
+    [[nodiscard]] bool is_void(const Interval& range) const;
+    [[nodiscard]] std::optional<Interval>
+    reached(const ReadyStep& step, std::size_t line, const Vec3& at) const;
+    void touch(const ReadyStep& step, std::size_t line, const Vec3& at, TileCut& found) const;
+    void subtract(std::size_t line, const Interval& cut, std::int32_t move, TileCut& found);
+    void replace_lines(float middle);
+
+    const DexelField& field_;
+    Tile& tile_;
+    int k_, u_, v_;
+    double face_; // coordinate k of the box's lower face: lines are counted from there
+    int first_u_, first_v_, count_u_, count_v_; // cells
+    Vec3 center_;
+    std::vector<Dexel> next_; // of all lines, being made
+    std::array<std::uint32_t, Tile::lines + 1> next_first_{};
+};
+
+} // namespace millwright::simulation

@@ -1,0 +1,230 @@
+#include "tests/app/program.h"
+#include "tests/support/scratch_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace millwright::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* slot_program = "G21 G90 G17\n"
+                                     "T1 M6\n"
+                                     "M3 S8000\n"
+                                     "G0 Z5\n"
+                                     "G0 X-10 Y20\n"
+                                     "G0 Z-2\n"
+                                     "G1 X70 F300\n"
+                                     "G0 Z5\n";
+
+fs::path program_in(const ScratchFolder& scratch, const std::string& text) {
+    const fs::path file = scratch / "part.ngc";
+    std::ofstream(file) << text;
+    return file;
+}
+
+/// On the plate 60 x 40 x 10 with its top at Z 0.
+Ended simulate(const fs::path& program, const fs::path& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"simulate",
+                                       program.string(),
+                                       "--machine",
+                                       "router-xyz",
+                                       "--stock",
+                                       "box:60,40,10",
+                                       "--resolution",
+                                       "0.5",
+                                       "--out",
+                                       out.string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+}
+
+TEST(SimulateCommand, LeavesVolumesMeshesAndAPicture) {
+    const ScratchFolder scratch;
+    const Ended ended = simulate(
+        program_in(scratch, std::string(slot_program) + "M2\n"), scratch / "out", {"--tool", "flat:6"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("tool: T1: flat:6"));
+    EXPECT_THAT(ended.out, HasSubstr("removed 720.0 of 24000.0 mm^3"));
+    EXPECT_THAT(ended.out, HasSubstr("no rapid move meets any"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/simulation.json"));
+    EXPECT_EQ(report.at("format"), "millwright-simulation");
+    EXPECT_NEAR(report.at("volume_mm3").at("removed").get<double>(), 720.0, 0.1);
+    EXPECT_EQ(report.at("rapid_in_stock"), 0);
+    EXPECT_THAT(report.at("findings"), IsEmpty());
+    EXPECT_EQ(content_of(scratch / "out/cut.stl").size(),
+              84 + 50 * report.at("mesh").at("triangles").get<std::size_t>());
+    EXPECT_THAT(content_of(scratch / "out/cut.ply"), StartsWith("ply\n"));
+    EXPECT_THAT(content_of(scratch / "out/cut.png"), StartsWith("\x89PNG"));
+}
+
+TEST(SimulateCommand, EndsWithCodeOneForARapidThroughMaterial) {
+    const ScratchFolder scratch;
+    const fs::path program =
+        program_in(scratch, std::string(slot_program) + "G0 X30 Y10\nG1 Z-1\nG0 X50\nM2\n");
+    const Ended ended = simulate(program, scratch / "out", {"--tool", "1=flat:6"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("part.ngc:11: a rapid move goes through material at"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/simulation.json"));
+    ASSERT_EQ(report.at("findings").size(), 1U);
+    EXPECT_EQ(report.at("findings")[0].at("line"), 11);
+    EXPECT_EQ(report.at("findings")[0].at("kind"), "rapid-in-stock");
+    EXPECT_NEAR(report.at("findings")[0].at("removed_mm3").get<double>(), 120.0, 12.0);
+}
+
+TEST(SimulateCommand, RefusesACallOfAToolThatIsNotNamed) {
+    const ScratchFolder scratch;
+    const fs::path program =
+        program_in(scratch, std::string(slot_program) + "T2 M6\nG0 X30 Y10\nG1 Z-1\nG0 Z5\nM2\n");
+    const Ended numbered = simulate(program, scratch / "out", {"--tool", "1=flat:6"});
+    EXPECT_EQ(numbered.exit_code, 1);
+    EXPECT_THAT(numbered.err,
+                HasSubstr("part.ngc:9: the program calls tool 2, and no tool 2 is named (add "
+                          "--tool 2=SPEC"));
+    const Ended alone = simulate(program, scratch / "out", {"--tool", "flat:6"});
+    EXPECT_EQ(alone.exit_code, 1);
+    EXPECT_THAT(alone.err, HasSubstr("the program calls tool"));
+    const Ended both = simulate(program, scratch / "out", {"--tool", "1=flat:6", "--tool", "2=drill:5"});
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    EXPECT_THAT(both.out, HasSubstr("tool: T2: 2=drill:5"));
+}
+
+TEST(SimulateCommand, SaysWhatIsWrongWithItsInput) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const auto refused = [&](const std::vector<std::string>& arguments) {
+        std::vector<std::string> all{"simulate", program.string(), "--out", scratch / "out"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Ended ended = run(all);
+        EXPECT_NE(ended.exit_code, 0);
+        EXPECT_FALSE(fs::exists(scratch / "out"));
+        return ended.err;
+    };
+    EXPECT_THAT(refused({}), HasSubstr("add --machine NAME, --stock SPEC and --tool SPEC"));
+    const auto with =
+        [&](const std::string& stock, const std::string& tool, std::vector<std::string> more = {}) {
+            std::vector<std::string> all{"--machine", "router-xyz", "--stock", stock, "--tool", tool};
+            all.insert(all.end(), more.begin(), more.end());
+            return refused(all);
+        };
+    EXPECT_THAT(with("box:60,-4,10", "flat:6"), HasSubstr("column 8: \"-4\" is not above 0"));
+    EXPECT_THAT(with("box:60,40,10", "flat"), HasSubstr("\"flat\" is no tool"));
+    EXPECT_THAT(with("missing.stl", "flat:6"), HasSubstr("missing.stl"));
+    EXPECT_THAT(with("box:60,40,10", "flat:6", {"--resolution", "0.001"}), HasSubstr("mm fits"));
+    EXPECT_THAT(with("box:60,40,10", "missing.json"), HasSubstr("missing.json"));
+    std::ofstream(scratch / "open.stl")
+        << "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\n"
+           "vertex 0 9 0\nendloop\nendfacet\nendsolid a\n";
+    EXPECT_THAT(with(scratch / "open.stl", "flat:6"), HasSubstr("is open: 3 edges"));
+}
+
+TEST(SimulateCommand, SaysWhenNothingIsMetAndWhenTheSpindleIsOff) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const Ended beside = run({"simulate",
+                              program,
+                              "--machine",
+                              "router-xyz",
+                              "--stock",
+                              "box:9,9,9@200,200,0",
+                              "--tool",
+                              "flat:6",
+                              "--out",
+                              scratch / "out"});
+    EXPECT_EQ(beside.exit_code, 0);
+    EXPECT_THAT(beside.err, HasSubstr("no move meets the stock"));
+    std::string text = slot_program;
+    text.erase(text.find("M3 S8000\n"), 9);
+    const Ended still = simulate(program_in(scratch, text + "M2\n"), scratch / "out", {"--tool", "flat:6"});
+    EXPECT_EQ(still.exit_code, 0);
+    EXPECT_THAT(still.err, HasSubstr("part.ngc:6: 1 move cuts material while the spindle is off"));
+}
+
+TEST(SimulateCommand, CutsAProjectWithItsMachineAndTool) {
+    const ScratchFolder scratch;
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended point = run({"simulate", project, "--out", scratch / "out"});
+    EXPECT_EQ(point.exit_code, 1);
+    EXPECT_THAT(point.err, HasSubstr("the project's tool is a point"));
+    const Ended ended = run({"simulate",
+                             project,
+                             "--tool",
+                             "assets/tools/ball-6.json",
+                             "--resolution",
+                             "2",
+                             "--out",
+                             scratch / "out"});
+    EXPECT_LE(ended.exit_code, 1) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("the box of the surface and 2 mm on every side"));
+    EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("G93"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/simulation.json"));
+    EXPECT_GT(report.at("volume_mm3").at("removed").get<double>(), 1000.0);
+    for (const auto& finding : report.at("findings")) {
+        EXPECT_GT(finding.at("line").get<int>(), 10);
+    }
+}
+
+TEST(SimulateCommand, ComparesWithAPartAndEndsWithCodeOneForAGouge) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    ASSERT_EQ(simulate(program, scratch / "part", {"--tool", "flat:6"}).exit_code, 0);
+    const std::string part = scratch / "part/cut.stl";
+    const Ended same =
+        simulate(program, scratch / "same", {"--tool", "flat:6", "--part", part, "--tolerance", "0.3"});
+    EXPECT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_THAT(same.out, HasSubstr("compared with cut.stl"));
+    EXPECT_THAT(content_of(scratch / "same/part.ply"), StartsWith("ply\n"));
+    EXPECT_THAT(content_of(scratch / "same/part.png"), StartsWith("\x89PNG"));
+    std::string deeper = slot_program;
+    deeper.replace(deeper.find("G0 Z-2"), 6, "G0 Z-3");
+    const Ended gouged = simulate(program_in(scratch, deeper + "M2\n"),
+                                  scratch / "gouged",
+                                  {"--tool", "flat:6", "--part", part, "--tolerance", "0.3"});
+    EXPECT_EQ(gouged.exit_code, 1);
+    const auto report = nlohmann::json::parse(content_of(scratch / "gouged/simulation.json"));
+    const auto& worst = report.at("comparison").at("largest_gouge");
+    EXPECT_NEAR(worst.at("deviation_mm").get<double>(), -1.0, 1e-3);
+    EXPECT_EQ(worst.at("line"), 7);
+    EXPECT_NEAR(report.at("comparison").at("gouged_percent").get<double>(),
+                100.0 * 60.0 * 6.0 / report.at("comparison").at("area_mm2").get<double>(),
+                1.5);
+}
+
+TEST(SimulateCommand, CutsAClosedMeshOfAFile) {
+    const ScratchFolder scratch;
+    const fs::path first = program_in(scratch, std::string(slot_program) + "M2\n");
+    ASSERT_EQ(simulate(first, scratch / "first", {"--tool", "flat:6"}).exit_code, 0);
+    // What is left of the first simulation, at another place, is the stock of the next.
+    const Ended ended = run({"simulate",
+                             first,
+                             "--machine",
+                             "router-xyz",
+                             "--stock",
+                             (scratch / "first/cut.stl").string() + "@0,-8,0",
+                             "--tool",
+                             "ball:4",
+                             "--resolution",
+                             "0.5",
+                             "--out",
+                             scratch / "second"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const auto report = nlohmann::json::parse(content_of(scratch / "second/simulation.json"));
+    EXPECT_NEAR(report.at("volume_mm3").at("stock").get<double>(), 24000.0 - 720.0, 60.0);
+    EXPECT_NEAR(report.at("volume_mm3").at("removed").get<double>(),
+                60.0 * 2.0 * 3.14159,
+                12.0); // edges of the mesh are broken
+}
+
+} // namespace
+} // namespace millwright::test
