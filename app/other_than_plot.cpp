@@ -61,16 +61,16 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
             file,
             fmt::format("'millwright picture relief {0}', trace, carve or engrave makes a path of it", name));
     }
-    if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
-        throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),
-                    file,
-                    std::string(advice_for(*language)));
-    }
     if (plot::is_path_file(head)) {
         throw Error(
             "this is a path file, no plot: where the tool goes stands in it",
             file,
             fmt::format("'millwright {0}' shows it, 'millwright send {0}' sends it to a table", name));
+    }
+    if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
+        throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),
+                    file,
+                    std::string(advice_for(*language)));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "ui/actions/job_source.h"
+#include "ui/actions/run_check.h"
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
@@ -49,11 +50,14 @@ bool waits_for_a_link(const Workbench& now) {
 std::string checked_sentence(const Workbench& now, const std::string& name) {
     const bool another =
         now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
+    const bool both = another && now.run_check != nullptr && now.run_check->wish->source.as_text;
     return fmt::format(
         "Checked: axes and travel are within those of {}{}. Feeds beyond its axes are slowed.{}",
         name,
-        another ? ", the machine of the workbench" : "",
-        another ? " Those of the connected one are checked before it moves." : "");
+        both      ? ", the machine of the workbench, and of the connected one"
+        : another ? ", the machine of the workbench"
+                  : "",
+        another && !both ? " Those of the connected one are checked before it moves." : "");
 }
 
 /// 1/min that the program shown begins with, on a machine that has no words for its spindle.
@@ -108,6 +112,10 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
 
 /// What is known before anything is sent.
 void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
+    if (const auto checked = actions::run_check_passed(now); !checked.allowed && !now.follows_job()) {
+        (void)widgets::banner(ui, "findings", {widgets::Severity::warning, checked.reason, {}});
+        return;
+    }
     if (!now.in_file() || !now.opened->finished || now.follows_job()) {
         return;
     }
