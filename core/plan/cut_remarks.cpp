@@ -67,12 +67,16 @@ std::string left_text(const project::Project& project, const Plan& plan) {
                               : left;
 }
 
-std::string checked_text(const project::Project& project) {
+std::string checked_face_text(const project::Project& project) {
     const std::size_t patches = project.surface.patches.size();
     const std::string face = patches > 1
                                  ? fmt::format("patch {} of {}", project.surface.machined_patch + 1, patches)
                                  : std::string("this face");
-    return fmt::format("only {} was looked at, the faces beside it and the rest of the part were not", face);
+    return fmt::format("only {} was looked at", face);
+}
+
+std::string checked_text(const project::Project& project) {
+    return checked_face_text(project) + ", the faces beside it and the rest of the part were not";
 }
 
 std::string why_higher(const project::Project& project, const Plan& plan) {

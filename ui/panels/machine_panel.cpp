@@ -112,7 +112,8 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
 
 /// What is known before anything is sent.
 void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
-    if (const auto checked = actions::run_check_passed(now); !checked.allowed && !now.follows_job()) {
+    const bool is_said = now.follows_job() || !actions::axes_ready(now).allowed;
+    if (const auto checked = actions::run_check_passed(now); !checked.allowed && !is_said) {
         (void)widgets::banner(ui, "findings", {widgets::Severity::warning, checked.reason, {}});
         return;
     }

@@ -19,6 +19,7 @@ using gcode::MoveKind;
 
 constexpr double still = 1e-9; // mm or rad: less is no motion
 constexpr double seconds_per_minute = 60.0;
+constexpr double most_turns_of_path = 50.0; // of one arc: of more, one is kept
 
 } // namespace
 
@@ -123,7 +124,7 @@ void Surveyor::widen(std::array<Survey::Range, gcode::axis_count>& ranges, int l
     }
 }
 
-/// The points where an arc comes farthest along the axes of its plane.
+/// In their order along the arc, among them those where it comes farthest along the axes of its plane.
 void Surveyor::take_arc(const AxisValues& begin, const Move& move) {
     using gcode::Axis;
     using gcode::Plane;
@@ -136,10 +137,17 @@ void Surveyor::take_arc(const AxisValues& begin, const Move& move) {
     const double from = std::atan2(y, x);
     constexpr double quarter = 0.5 * std::numbers::pi;
     constexpr double step = quarter / 16.0; // the quarters themselves, and near enough where XY is turned
-    const double low = std::min(from, from + move.sweep);
-    const double high = std::min(std::max(from, from + move.sweep), low + 4.0 * quarter);
-    AxisValues point = begin;
-    for (double angle = std::ceil(low / step) * step; angle <= high; angle += step) {
+    // One turn has all extents; a path that is kept has more of them, as long as they are few.
+    const double most = (keep_path_ ? most_turns_of_path : 1.0) * 4.0 * quarter;
+    const double sweep = std::abs(move.sweep) > most ? std::copysign(4.0 * quarter, move.sweep) : move.sweep;
+    const double sense = std::copysign(1.0, sweep);
+    for (double n = std::floor(sense * from / step) + 1.0; n * step < sense * from + std::abs(sweep); ++n) {
+        const double angle = sense * n * step;
+        const double part = (angle - from) / move.sweep;
+        AxisValues point = begin;
+        for (std::size_t axis = 0; axis < gcode::axis_count; ++axis) {
+            point[axis] += part * (move.target[axis] - begin[axis]);
+        }
         point[first] = move.centre_1 + radius * std::cos(angle);
         point[second] = move.centre_2 + radius * std::sin(angle);
         go(point, move.source.line, true);
