@@ -63,17 +63,17 @@ void expect_no_other_than_plot(const std::filesystem::path& file) {
                 "make a path from it with 'millwright picture relief {0}', or with trace, carve or engrave",
                 name));
     }
-    if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
-        throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),
-                    file,
-                    std::string(advice_for(*language)));
-    }
     if (plot::is_path_file(head)) {
         throw Error(
             "this is a path file, not a plot: it contains the tool positions",
             file,
             fmt::format("show it with 'millwright {0}', or send it to a table with 'millwright send {0}'",
                         name));
+    }
+    if (const auto language = other_language(head); language && !gcode::is_gcode(head)) {
+        throw Error(fmt::format("this is {}, neither a plot nor G-code", name_of(*language)),
+                    file,
+                    std::string(advice_for(*language)));
     }
 }
 

@@ -247,7 +247,9 @@ std::string deviation_csv(const project::ImportedSurface& imported) {
 }
 
 ordered_json imported_json(const project::ImportedSurface& imported) {
-    ordered_json json{{"patches", imported.surface.patches.size()}, {"notes", imported.notes}};
+    ordered_json json{{"patches", imported.surface.patches.size()},
+                      {"notes", imported.notes},
+                      {"warnings", imported.warnings}};
     if (const auto& points = imported.points) {
         json["points"] = {{"count", points->points.size()},
                           {"rows", points->rows},
@@ -260,6 +262,7 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
         json["fit"] = {{"degree", {fit->patch.degree_u(), fit->patch.degree_v()}},
                        {"rounds", fit->rounds},
                        {"follows_outline", fit->follows_outline},
+                       {"holes_mm", fit->holes},
                        {"max_mm", fit->deviation.max},
                        {"mean_mm", fit->deviation.mean},
                        {"rms_mm", fit->deviation.rms},
@@ -288,6 +291,9 @@ void print_points_off(const project::PointFit& points, const project::SurfaceInp
 
 void print_imported(const project::ImportedSurface& imported, const ImportOptions& options) {
     print_import_notes(imported.notes);
+    for (const std::string& warning : imported.warnings) {
+        fmt::print(stderr, "warning: {}\n", warning);
+    }
     if (options.json) {
         fmt::print("{}\n", imported_json(imported).dump(2));
         return;
@@ -345,7 +351,8 @@ int import_file(const ImportOptions& options) {
         write_file(options.deviation, deviation_csv(imported));
     }
     print_imported(imported, options);
-    return 0;
+    constexpr int incomplete = 3;
+    return imported.warnings.empty() ? 0 : incomplete;
 }
 
 } // namespace

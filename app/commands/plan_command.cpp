@@ -147,6 +147,7 @@ void print_plan_summary(const plan::Plan& plan, const project::Project& project)
     if (plan::has_own_path(project)) {
         print_figures("path", *plan.path);
     }
+    fmt::print("distances: {}\n", plan::checked_text(project));
     print_plan_notes(plan);
     if (const std::string left_out = plan::left_out_sentence(project); !left_out.empty()) {
         fmt::print("{}\n", left_out);

@@ -114,7 +114,7 @@ struct DriverStatus {
     int executed_blocks = 0; ///< of the current or last program, completely executed
     int sent_blocks = 0;     ///< of it, given to the controller; 0 where that is done at once
     /// Where in the planned trajectory that is, s. 0 where the controller plans; the dispatcher's reports
-    /// tell it there too, by the executed blocks.
+    /// tell it there too, by `block` and `fraction`.
     double planned_time = 0.0;
     double feed = 0.0; ///< of the motion now, where the controller tells it, mm/s
     gcode::SpindleTurning spindle = gcode::SpindleTurning::stopped; ///< as commanded

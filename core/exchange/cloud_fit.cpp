@@ -156,6 +156,8 @@ MeshFit fit_cloud(const std::vector<Vec3>& points, const FitSettings& given, con
                 0.0,
                 *settings.along,
                 false,
+                0,
+                {},
                 std::move(deviation),
                 fit.rounds};
     }

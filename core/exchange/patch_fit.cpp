@@ -6,6 +6,7 @@
 #include "core/exchange/internal/fit_rounds.h"
 #include "core/exchange/internal/fit_target.h"
 #include "core/exchange/internal/least_squares.h"
+#include "core/exchange/internal/mesh_outlines.h"
 #include "core/exchange/internal/seen_side.h"
 #include "core/exchange/internal/square_map.h"
 #include "core/geometry/closest_point.h"
@@ -193,6 +194,8 @@ MeshFit fitted(FitTarget target,
             side.left_out_area,
             *settings.along,
             square.has_value(),
+            target.outlines.corners,
+            std::move(target.outlines.holes),
             std::move(deviation),
             fit.rounds};
 }
@@ -214,6 +217,9 @@ MeshFit fitted_side(FitTarget target,
         for (const int number : target.side.numbers) {
             target.places.push_back(places[static_cast<std::size_t>(number)]);
         }
+    }
+    if (target.face == nullptr) { // which knows its own outline and holes
+        target.outlines = outlines_of(target.side.mesh, along);
     }
     const auto rectangle = least_rectangle(target.side.mesh.points, along);
     const auto square = rectangle ? square_map(target.side.mesh, *rectangle) : std::nullopt;

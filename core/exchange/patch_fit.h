@@ -59,6 +59,8 @@ struct MeshFit {
     double left_out_area = 0.0; ///< mm^2
     Vec3 along = Vec3::UnitZ(); ///< unit, the way from which the side was seen
     bool follows_outline = false;
+    int outline_corners = 0;   ///< of the side, as seen; a patch that follows the outline has four
+    std::vector<double> holes; ///< of the side, that the patch goes across: largest width, mm, largest first
     Deviation deviation;
     int rounds = 0;
 };

@@ -87,6 +87,7 @@ struct Interpreter::Parts {
     void execute_words(Cursor& cursor);
     void send_reads();
     bool execute_flow(Cursor& cursor);
+    [[nodiscard]] std::optional<LineLanguage> language_ahead() const;
     void look_for_percent();
     void refuse_lines_behind_the_end();
     void check_repetition();
@@ -180,6 +181,10 @@ bool Interpreter::Parts::step() {
         } else if (const std::optional<Language> language = language_of_line(text)) {
             stopped = true; // each further line would only say it again
             report(files.place(), of_other_language(*language));
+        } else if (const auto later = errors.empty() ? language_ahead() : std::nullopt) {
+            stopped = true;
+            report({files.place().line + later->line, files.place().file},
+                   of_other_language(later->language));
         } else {
             report(files.place(), refusal);
         }
@@ -196,6 +201,16 @@ bool Interpreter::Parts::step() {
         reset();
     }
     return !stopped;
+}
+
+/// By a line soon behind the present one, whose own words are of no language alone: G71 G90 of Sinumerik,
+/// #1=0 of a macro that Grbl is to read. The words of printers and plots may stand in G-code, too.
+std::optional<LineLanguage> Interpreter::Parts::language_ahead() const {
+    constexpr std::size_t soon = 1 << 16; // bytes
+    const std::optional<LineLanguage> found = first_language(files.at_hand().substr(0, soon));
+    const bool may_be_gcode =
+        found && (found->language == Language::printer || found->language == Language::hpgl);
+    return may_be_gcode ? std::nullopt : found;
 }
 
 /// Behind M2 the text is read on to its closing %.

@@ -86,6 +86,7 @@ private:
     double tool_ = 0.0; ///< number of the last that was called
     int line_ = 0;
     int number_ = -1; ///< of the last block
+    bool numbered_ = true;
     bool tip_ = false;
     bool ended_ = false;
 
@@ -137,6 +138,12 @@ private:
 
     void block(std::string_view line) {
         words_ = words_of(line);
+        if (number_ < 0 && !words_.empty()) {
+            numbered_ = number_in(words_.front().text).has_value();
+        }
+        if (words_.empty() && !numbered_) {
+            return;
+        }
         if (words_.empty()) {
             refuse(1, "the line is empty");
         }
@@ -171,8 +178,13 @@ private:
         }
     }
 
-    /// Blocks count from 0 without a gap, so that none is lost.
+    /// Blocks count from 0 without a gap, so that none is lost; or none has a number, as in files of some
+    /// programs.
     void take_number() {
+        if (!numbered_) {
+            ++number_;
+            return;
+        }
         const Word first = words_.front();
         const std::optional<double> number = number_in(first.text);
         if (!number || !exactly_equal(*number, number_ + 1)) {

@@ -14,6 +14,8 @@ namespace {
 
 using internal::is_digit;
 
+constexpr std::size_t longest_beginning = 80; ///< of a line by which a kind of file is known
+
 bool is_capital(char c) {
     return c >= 'A' && c <= 'Z';
 }
@@ -134,6 +136,38 @@ bool begins_a_plot(std::string_view line) {
     return line.starts_with('\x1B') || line.starts_with("@PJL") || line.starts_with("CO\"");
 }
 
+/// <svg width="10">, </g>, <!-- -->, <?xml ?>
+bool is_xml(std::string_view line) {
+    const std::string_view behind = line.substr(std::min<std::size_t>(1, line.size()), 1);
+    return line.starts_with('<') && !behind.empty() &&
+           (std::string_view("?!/").find(behind[0]) != std::string_view::npos ||
+            is_capital(internal::to_upper(behind[0])));
+}
+
+/// Of files that are no programs, by how a line of theirs begins.
+std::optional<Language> kind_of_file(std::string_view line) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    line.remove_prefix(line.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const std::string text = plain_line(line.substr(0, longest_beginning));
+    if (is_xml(line)) {
+        return Language::xml;
+    }
+    if (line.starts_with("%PDF-") || line.starts_with("%!PS")) {
+        return Language::document;
+    }
+    if (line.starts_with('{') || line.starts_with("[{")) {
+        return Language::json;
+    }
+    if (text == "SOLID" || text.starts_with("SOLID ") || text.starts_with("FACET NORMAL ")) {
+        return Language::mesh;
+    }
+    if (text.starts_with("ISO-10303-21")) {
+        return Language::step;
+    }
+    return text == "SECTION" ? std::optional(Language::dxf) : std::nullopt;
+}
+
 /// IN, SP1, PU0,0, PA100,200: a command of two letters and its numbers.
 bool is_hpgl(std::string_view text) {
     constexpr std::array<std::string_view, 9> commands{"IN", "DF", "SP", "PU", "PD", "PA", "PR", "IP", "SC"};
@@ -200,6 +234,9 @@ std::optional<Language> language_of_line(std::string_view line) {
     if (begins_a_plot(line)) {
         return Language::hpgl;
     }
+    if (const auto kind = kind_of_file(line)) {
+        return kind;
+    }
     const std::string text = plain_line(line);
     if (is_klartext(text)) {
         return Language::klartext;
@@ -231,15 +268,20 @@ std::optional<Language> language_of_first_line(std::string_view text) {
     return std::nullopt;
 }
 
-std::optional<Language> language_of(std::string_view text) {
+std::optional<LineLanguage> first_language(std::string_view text) {
     text = program_text(text);
-    while (!text.empty()) {
+    for (int line = 1; !text.empty(); ++line) {
         if (const auto found = language_of_line(text.substr(0, end_of_line(text)))) {
-            return found;
+            return LineLanguage{*found, line};
         }
         text.remove_prefix(next_line(text, 0));
     }
     return std::nullopt;
+}
+
+std::optional<Language> language_of(std::string_view text) {
+    const std::optional<LineLanguage> found = first_language(text);
+    return found ? std::optional(found->language) : std::nullopt;
 }
 
 std::string_view name_of(Language language) {
@@ -256,6 +298,18 @@ std::string_view name_of(Language language) {
         return "a program for a 3D printer";
     case Language::hpgl:
         return "HPGL, a plot";
+    case Language::xml:
+        return "an XML file (an SVG drawing is one)";
+    case Language::mesh:
+        return "an STL mesh";
+    case Language::step:
+        return "a STEP file";
+    case Language::dxf:
+        return "a DXF drawing";
+    case Language::json:
+        return "a JSON file (projects and machine files are)";
+    case Language::document:
+        return "a PDF or PostScript document";
     }
     return "another language";
 }
@@ -275,6 +329,15 @@ std::string_view advice_for(Language language) {
                "toolpath'";
     case Language::printer:
         return "use a program without extruder and heater commands";
+    case Language::xml:
+    case Language::dxf:
+    case Language::document:
+        return "save a drawing as HPGL: 'millwright plot toolpath' makes a program of it";
+    case Language::mesh:
+    case Language::step:
+        return "use 'millwright import' to read it";
+    case Language::json:
+        return "use 'millwright plan' to make the program of a project";
     }
     return "";
 }

@@ -178,10 +178,11 @@ private:
     void remember(const drivers::DriverStatus& status) {
         if (status.state != drivers::DriverState::disconnected) {
             const drivers::DriverStatus before = std::exchange(last_, status);
-            last_.block = estimated_block(status);
-            last_.planned_time = able_.plans ? time_of_executed() : last_.planned_time;
+            estimate_place(status);
+            last_.planned_time = able_.plans ? time_of_place() : last_.planned_time;
             if (status.position_doubt != doubt_before_) { // what a controller says now is no position
                 last_.block = before.block;
+                last_.fraction = before.fraction;
                 last_.position = before.position;
                 last_.work_offset = before.work_offset;
             }
@@ -192,27 +193,31 @@ private:
     }
 
     /// By the reported position, where the controller proves late what it has executed.
-    [[nodiscard]] int estimated_block(const drivers::DriverStatus& status) {
+    void estimate_place(const drivers::DriverStatus& status) {
         const auto& lines = job_.listing->line_of_block;
         const int sent = std::min(status.sent_blocks, static_cast<int>(std::ssize(lines)));
         const int executed = std::clamp(status.executed_blocks, 0, sent);
         if (!estimate_.knows_path() || executed >= sent || status.position.size() < 3) {
-            return status.block;
+            return;
         }
-        const int line = estimate_.line_at(status.position.head<3>(),
-                                           lines[static_cast<std::size_t>(executed)],
-                                           lines[static_cast<std::size_t>(sent - 1)]);
-        return std::max(status.block, job_.listing->block_at_line(line));
+        const internal::PathPlace place = estimate_.place_at(status.position.head<3>(),
+                                                             lines[static_cast<std::size_t>(executed)],
+                                                             lines[static_cast<std::size_t>(sent - 1)]);
+        if (const int block = job_.listing->block_at_line(place.line); block >= status.block) {
+            last_.block = block;
+            last_.fraction = place.fraction;
+        }
     }
 
     [[nodiscard]] double planned() const { return planned_time(job_, trajectory_.get()); }
 
-    /// How far a controller that follows its own plan would be in ours.
-    [[nodiscard]] double time_of_executed() const {
-        if (!trajectory_ || last_.executed_blocks >= blocks()) {
+    /// How far a controller that follows its own plan would be in ours, as far as its place is known.
+    [[nodiscard]] double time_of_place() const {
+        const int block = std::max({0, last_.executed_blocks, last_.block});
+        if (!trajectory_ || last_.executed_blocks >= blocks() || block >= trajectory_->block_count()) {
             return planned();
         }
-        return trajectory_->start_of(std::max(0, last_.executed_blocks));
+        return trajectory_->time_at(block, block == last_.block ? last_.fraction : 0.0);
     }
 
     [[nodiscard]] LogRecord record(LogEvent event, double time, const drivers::DriverStatus& status) const {

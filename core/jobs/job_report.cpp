@@ -9,9 +9,12 @@
 namespace millwright::jobs {
 
 double JobReport::fraction() const {
-    return planned_time > 0.0
-               ? driver.planned_time / planned_time
-               : static_cast<double>(std::max(driver.executed_blocks, driver.block)) / std::max(1, blocks);
+    if (planned_time > 0.0) {
+        return driver.planned_time / planned_time;
+    }
+    const double done =
+        driver.block >= driver.executed_blocks ? driver.block + driver.fraction : driver.executed_blocks;
+    return std::clamp(done / std::max(1, blocks), 0.0, 1.0);
 }
 
 std::string JobReport::blocks_text() const {

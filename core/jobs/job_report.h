@@ -16,7 +16,8 @@ struct JobReport {
     bool answers = true;       ///< Capabilities::answers
     int line = 0; ///< of the listing, where the machine is as far as is known (`driver.block`); 0: not known
 
-    /// How much of it is done, 0 to 1: by the plan, else by the line. An estimate.
+    /// How much of it is done, 0 to 1: by the plan, else by the line and how far
+    /// it is on that. An estimate.
     [[nodiscard]] double fraction() const;
     /// "37 of 47 blocks executed", or "sent".
     [[nodiscard]] std::string blocks_text() const;

@@ -2,14 +2,13 @@
 
 #include "core/base/units.h"
 #include "core/drivers/hand_lines.h"
-#include "core/gcode/canon_frame.h"
 #include "core/gcode/interpreter.h"
+#include "core/jobs/internal/surveyor.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace millwright::jobs {
@@ -17,155 +16,10 @@ namespace millwright::jobs {
 namespace {
 
 using gcode::AxisValues;
-using gcode::Command;
-using gcode::CommandKind;
-using gcode::Move;
-using gcode::MoveKind;
+using internal::Surveyor;
 
 constexpr double seconds_per_minute = 60.0;
-constexpr double still = 1e-9;    // mm or rad: less is no motion
 constexpr double rounding = 1e-6; // mm or rad: of positions that went through texts and units
-
-class Surveyor final : public gcode::CanonSink {
-public:
-    Surveyor(Survey& found, const AxisValues& start, bool keep_path)
-        : found_(found), at_(start), keep_path_(keep_path) {}
-
-    void move(const Move& move, const gcode::SourceLine&) override {
-        const AxisValues begin = frame_.from_machine(at_);
-        const bool cuts = move.kind != MoveKind::traverse && move.kind != MoveKind::probe;
-        if (cuts) {
-            cut(move.source.line);
-        }
-        found_.probes = found_.probes || move.kind == MoveKind::probe;
-        if (move.kind == MoveKind::arc) {
-            take_arc(begin, move);
-        }
-        go(move.target, move.source.line, cuts);
-    }
-
-    void curve(const gcode::Curve& curve, const gcode::SourceLine&) override {
-        cut(curve.source.line);
-        AxisValues point = frame_.from_machine(at_);
-        for (const gcode::ControlPoint& corner : curve.points) { // the curve lies within their hull
-            point[gcode::Axis::x] = corner.x;
-            point[gcode::Axis::y] = corner.y;
-            go(point, curve.source.line, true);
-        }
-    }
-
-    void command(const Command& command, const gcode::SourceLine&) override {
-        frame_.command(command);
-        switch (command.kind) {
-        case CommandKind::set_feed_rate:
-            take_feed(command);
-            break;
-        case CommandKind::set_spindle_speed:
-            found_.greatest_spindle_rpm = std::max(found_.greatest_spindle_rpm, command.value);
-            break;
-        case CommandKind::start_spindle_clockwise:
-        case CommandKind::start_spindle_counterclockwise:
-            turning_ = true;
-            break;
-        case CommandKind::stop_spindle_turning:
-            turning_ = false;
-            break;
-        case CommandKind::select_tool:
-            if (std::ranges::find(found_.tools, command.index) == found_.tools.end()) {
-                found_.tools.push_back(command.index);
-            }
-            break;
-        default:
-            break;
-        }
-    }
-
-    /// Whether a move so far went rapidly to another Z, or up from a lower one of the moves.
-    [[nodiscard]] bool knows_height() const { return knows_height_; }
-
-private:
-    Survey& found_;
-    gcode::CanonFrame frame_;
-    AxisValues at_; ///< machine, mm and degrees
-    bool turning_ = false;
-    bool keep_path_ = false;
-    bool knows_height_ = false;
-
-    void cut(int line) {
-        if (found_.first_cut_line == 0) {
-            found_.first_cut_line = line;
-            found_.spindle_before_cut = turning_;
-        }
-        widen(found_.cuts, line);
-    }
-
-    void take_feed(const Command& command) {
-        const double feed = command.value * frame_.unit() / seconds_per_minute;
-        if (feed > found_.greatest_feed) {
-            found_.greatest_feed = feed;
-            found_.greatest_feed_line = command.source.line;
-        }
-    }
-
-    void go(const AxisValues& target, int line, bool cuts) {
-        const double z_before = at_[gcode::Axis::z];
-        at_ = frame_.to_machine(target);
-        const double z = at_[gcode::Axis::z];
-        const bool other_z = std::abs(z - z_before) > still;
-        const Survey::Range& range = found_.ranges[static_cast<std::size_t>(gcode::Axis::z)];
-        knows_height_ = knows_height_ || (other_z && !cuts) || (!range.empty() && z > range.min + still);
-        if (keep_path_) {
-            using gcode::Axis;
-            found_.path.push_back({line, Vec3(at_[Axis::x], at_[Axis::y], at_[Axis::z])});
-        }
-        widen(found_.ranges, line);
-        if (cuts) {
-            widen(found_.cuts, line);
-        }
-    }
-
-    /// By where the machine is.
-    void widen(std::array<Survey::Range, gcode::axis_count>& ranges, int line) const {
-        for (std::size_t n = 0; n < gcode::axis_count; ++n) {
-            const double value = gcode::is_rotary(n) ? from_degrees(at_[n]) : at_[n];
-            Survey::Range& range = ranges[n];
-            if (range.moved_line == 0 && std::abs(value) > still) {
-                range.moved_line = line;
-            }
-            if (value < range.min) {
-                range.min = value;
-                range.min_line = line;
-            }
-            if (value > range.max) {
-                range.max = value;
-                range.max_line = line;
-            }
-        }
-    }
-
-    /// The points where an arc comes farthest along the axes of its plane.
-    void take_arc(const AxisValues& begin, const Move& move) {
-        using gcode::Axis;
-        using gcode::Plane;
-        const auto [first, second] = move.plane == Plane::xz   ? std::pair{Axis::z, Axis::x}
-                                     : move.plane == Plane::yz ? std::pair{Axis::y, Axis::z}
-                                                               : std::pair{Axis::x, Axis::y};
-        const double x = begin[first] - move.centre_1;
-        const double y = begin[second] - move.centre_2;
-        const double radius = std::hypot(x, y);
-        const double from = std::atan2(y, x);
-        constexpr double quarter = 0.5 * std::numbers::pi;
-        constexpr double step = quarter / 16.0; // the quarters themselves, and near enough where XY is turned
-        const double low = std::min(from, from + move.sweep);
-        const double high = std::min(std::max(from, from + move.sweep), low + 4.0 * quarter);
-        AxisValues point = begin;
-        for (double angle = std::ceil(low / step) * step; angle <= high; angle += step) {
-            point[first] = move.centre_1 + radius * std::cos(angle);
-            point[second] = move.centre_2 + radius * std::sin(angle);
-            go(point, move.source.line, true);
-        }
-    }
-};
 
 std::string in_people_units(char letter, double value) {
     const bool rotary = letter >= 'A' && letter <= 'C';
@@ -310,6 +164,17 @@ void read_into(Survey& found,
         run_watching(reader, watched, surveyor, found);
     }
     found.errors = reader.errors();
+    found.unread_lines.clear();
+    for (const Diagnostic& error : found.errors) {
+        const bool is_known = !found.unread_lines.empty() && found.unread_lines.back() == error.place.line;
+        if (error.place.file == file && error.place.line > 0 && !is_known) {
+            found.unread_lines.push_back(error.place.line);
+        }
+    }
+    std::ranges::sort(found.unread_lines);
+    const int last = reader.place().file == 0 ? reader.place().line : 0;
+    const bool ended_by_it = !found.unread_lines.empty() && found.unread_lines.back() == last;
+    found.unread_from = ended_by_it ? last : 0;
 }
 
 bool moves(const Survey::Range& range) {
@@ -364,22 +229,49 @@ void add_missing_axes(Survey& found,
         return;
     }
     const std::string there = letters_of(settings.axes);
-    Survey of_all;
-    const bool again = settings.dialect == gcode::Dialect::grbl && !found.errors.empty();
-    if (again) {
+    if (settings.dialect == gcode::Dialect::grbl && !found.errors.empty()) {
+        Survey of_all;
+        take_start(of_all, settings);
         gcode::ReaderSettings reading = reading_of(file, settings);
         reading.grbl_axes.assign(gcode::axis_letters.begin(), gcode::axis_letters.end());
-        read_into(of_all, text, file, std::move(reading), false);
+        read_into(of_all, text, file, std::move(reading), settings.keep_path, settings.watched);
+        if (foreign_axes(of_all, there).empty()) {
+            return;
+        }
+        found = std::move(of_all); // its ranges are those of the whole program
     }
-    const Survey& of = again ? of_all : found;
-    found.missing_axes = foreign_axes(of, there);
+    found.missing_axes = foreign_axes(found, there);
     if (!found.missing_axes.empty()) {
         found.errors.insert(found.errors.begin(),
-                            missing_axes_fault(of, found.missing_axes, there, file, settings.dialect));
+                            missing_axes_fault(found, found.missing_axes, there, file, settings.dialect));
     }
 }
 
+/// "line 5", "lines 5, 7 and 9"
+std::string lines_text(const std::vector<int>& lines) {
+    constexpr std::size_t named_at_most = 5;
+    if (lines.size() > named_at_most) {
+        return fmt::format("{} lines, the first is line {}", lines.size(), lines.front());
+    }
+    std::string text = lines.size() == 1 ? "line" : "lines";
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+        text += n == 0 ? " " : n + 1 == lines.size() ? " and " : ", ";
+        text += std::to_string(lines[n]);
+    }
+    return text;
+}
+
 } // namespace
+
+std::string unread_text(const Survey& survey) {
+    std::vector<int> lines = survey.unread_lines;
+    std::string rest;
+    if (survey.unread_from > 0) {
+        std::erase(lines, survey.unread_from);
+        rest = fmt::format("everything from line {} on", survey.unread_from);
+    }
+    return lines.empty() ? rest : lines_text(lines) + (rest.empty() ? "" : " and " + rest);
+}
 
 Survey survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings) {
     Survey found;

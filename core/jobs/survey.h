@@ -60,6 +60,9 @@ struct Survey {
     std::string missing_axes; ///< letters of axes that the program moves and the controller does not have
     /// What breaks the rules of the dialect; before that the missing axes, all in one.
     std::vector<Diagnostic> errors;
+    /// Of the text, ascending: lines that broke those rules, so that ranges and the rest are without them.
+    std::vector<int> unread_lines;
+    int unread_from = 0; ///< reading ended in this line, before the program did; 0: it was read to its end
 };
 
 /// `start`, `offsets` and `modes` are what the controller reports: where the machine stands, its work
@@ -80,6 +83,10 @@ struct SurveySettings {
 /// For diagnostics the text is called `file`; subroutines in other files are looked for in its folder.
 [[nodiscard]] Survey
 survey(std::string_view text, const std::filesystem::path& file, const SurveySettings& settings);
+
+/// "line 5", "lines 5 and 7", "14 lines, the first is line 5", "everything from line 9 on": what of the
+/// program the ranges do not hold; empty where they hold all of it.
+[[nodiscard]] std::string unread_text(const Survey& survey);
 
 /// What stands against running it: errors, ways beyond the travel, and ways longer than a travel of which
 /// only the length is known.

@@ -67,12 +67,16 @@ std::string left_text(const project::Project& project, const Plan& plan) {
     return found.gouged > 0.0 ? fmt::format("{}; {} % gouged", left, fixed(100.0 * found.gouged, 2)) : left;
 }
 
-std::string checked_text(const project::Project& project) {
+std::string checked_face_text(const project::Project& project) {
     const std::size_t patches = project.surface.patches.size();
     const std::string face = patches > 1
                                  ? fmt::format("patch {} of {}", project.surface.machined_patch + 1, patches)
                                  : std::string("this face");
-    return fmt::format("only {} was checked, not the adjacent faces or the rest of the part", face);
+    return fmt::format("only {} was checked", face);
+}
+
+std::string checked_text(const project::Project& project) {
+    return checked_face_text(project) + ", not the adjacent faces or the rest of the part";
 }
 
 std::string why_higher(const project::Project& project, const Plan& plan) {

@@ -19,8 +19,11 @@ namespace millwright::plan {
 /// least so much where it is not cut. `plan` has its study.
 [[nodiscard]] std::string left_text(const project::Project& project, const Plan& plan);
 
+/// "only this face was checked", with its number where the project has several.
+[[nodiscard]] std::string checked_face_text(const project::Project& project);
+
 /// What the figures of a cut were measured on, to stand beside each that says nothing was hit: "only this
-/// face was looked at ...", with its number where the project has several.
+/// face was checked ...", with its number where the project has several.
 [[nodiscard]] std::string checked_text(const project::Project& project);
 
 /// Why tracks of constant scallop leave more than they should, as a sentence with what to do; empty if they

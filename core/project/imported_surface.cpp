@@ -40,13 +40,30 @@ void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
                                              "the rectangle around it and is up to {:.3g} mm from the mesh",
                                              fit.deviation.patch_max));
     }
+    if (!fit.holes.empty()) {
+        imported.warnings.push_back(
+            fmt::format("the mesh has {}, {:.3g} mm wide: the patch is fitted across, and so the tool cuts "
+                        "where there is no material; cut the mesh into parts beside it, or keep the tool off",
+                        fit.holes.size() == 1 ? std::string("a hole")
+                                              : fmt::format("{} holes, the largest", fit.holes.size()),
+                        fit.holes.front()));
+    }
     Box3 box;
     for (const Vec3& point : fit.side.points) {
         box.extend(point);
     }
     constexpr double far_off = 0.03; // of the diagonal
     const double off = fit.follows_outline ? fit.deviation.largest() : fit.deviation.max;
-    if (off > far_off * box.diagonal().norm()) {
+    constexpr int corners_of_patch = 4;
+    const bool has_other_outline = fit.follows_outline && fit.outline_corners > corners_of_patch;
+    if (off > far_off * box.diagonal().norm() && has_other_outline) {
+        imported.notes.push_back(
+            fmt::format("the patch deviates by up to {:.3g} mm: the outline of the mesh has {} "
+                        "corners and a patch has four; cut the mesh into parts with four "
+                        "sides and import one at a time",
+                        off,
+                        fit.outline_corners));
+    } else if (off > far_off * box.diagonal().norm()) {
         imported.notes.push_back(fmt::format("the patch deviates by up to {:.3g} mm: seen from this side the "
                                              "mesh folds over itself, or the degree is too low",
                                              off));
@@ -104,6 +121,23 @@ ImportedSurface face_as_it_is(const CadFace& face) {
             surface.patches.size()));
     }
     return imported;
+}
+
+/// Between its corners, mm.
+double largest_hole(const CadFace& face) {
+    double largest = 0.0;
+    for (const std::vector<Vec2>& hole : face.holes) {
+        std::vector<Vec3> corners;
+        for (const Vec2& place : hole) {
+            corners.push_back(face.position(place));
+        }
+        for (const Vec3& corner : corners) {
+            for (const Vec3& other : corners) {
+                largest = std::max(largest, (corner - other).norm());
+            }
+        }
+    }
+    return largest;
 }
 
 const CadFace& chosen_face(const exchange::CadModel& model, const std::filesystem::path& file, int number) {
@@ -218,7 +252,16 @@ std::string doubt_of_size(const CadModel& model) {
 }
 
 ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
-    return choice.degrees ? fitted_face(face, choice, progress) : face_as_it_is(face);
+    ImportedSurface imported = choice.degrees ? fitted_face(face, choice, progress) : face_as_it_is(face);
+    if (!face.holes.empty()) {
+        imported.notes.push_back(
+            fmt::format("the face has {}, {:.3g} mm wide: paths cross it, since they fill "
+                        "whole patches",
+                        face.holes.size() == 1 ? std::string("a hole")
+                                               : fmt::format("{} holes, the largest", face.holes.size()),
+                        largest_hole(face)));
+    }
+    return imported;
 }
 
 ImportSource read_source(const std::filesystem::path& file, const Progress& progress) {

@@ -58,6 +58,7 @@ struct ImportedSurface {
     std::optional<exchange::MeshFit> fit; ///< if one patch was fitted
     std::optional<PointFit> points;       ///< of a file of points
     std::vector<std::string> notes;       ///< what the person should know, a sentence each
+    std::vector<std::string> warnings{};  ///< the same: why it is not the surface of the file
 };
 
 inline constexpr const char* importable_kinds =

@@ -55,6 +55,13 @@ public:
         }
     }
 
+    void forget_failure() {
+        const std::scoped_lock lock(mutex_);
+        if (!view_.running) {
+            view_.failure.reset();
+        }
+    }
+
     [[nodiscard]] JobView view() const {
         const std::scoped_lock lock(mutex_);
         return view_;
@@ -178,6 +185,12 @@ void JobRunner::set_overrides(const drivers::Overrides& wanted) {
 void JobRunner::set_single_block(bool on) {
     if (run_) {
         run_->set_single_block(on);
+    }
+}
+
+void JobRunner::forget_failure() {
+    if (run_) {
+        run_->forget_failure();
     }
 }
 

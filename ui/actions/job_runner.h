@@ -58,6 +58,8 @@ public:
     void set_overrides(const drivers::Overrides& wanted);
     void set_single_block(bool on);
 
+    /// The last job's failure is not shown any more: another program is. Does nothing while one runs.
+    void forget_failure();
     [[nodiscard]] JobView view() const;
     /// Blocks until no job is running.
     void wait();

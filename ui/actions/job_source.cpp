@@ -1,7 +1,10 @@
 #include "ui/actions/job_source.h"
 
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "ui/actions/workbench.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
@@ -78,13 +81,26 @@ jobs::Job project_job(const JobSource& source) {
 
 } // namespace
 
+Permission refused_for(const std::vector<Diagnostic>& faults) {
+    if (faults.empty()) {
+        return {};
+    }
+    Diagnostic first = faults.front();
+    first.place.file = first.place.file.filename();
+    if (faults.size() > 1) {
+        first.message += fmt::format("; and {} more", faults.size() - 1);
+    }
+    const std::string text = to_text(first);
+    return Permission::refused(first.place.file.empty() ? as_sentence(text) : with_full_stop(text));
+}
+
 Permission program_ready(const Workbench& now) {
     if (now.in_file()) {
         if (!now.opened->finished || !now.opened->text) {
             return Permission::refused("The program is being read.");
         }
         if (!now.opened->errors.empty()) {
-            return Permission::refused("The program has errors.");
+            return refused_for(now.opened->errors);
         }
         if (sends_text(now)) {
             return {};
@@ -93,6 +109,9 @@ Permission program_ready(const Workbench& now) {
             now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
         if (real && !now.opened->unplaced.empty()) { // it has no work offsets of its own
             return Permission::refused(to_text(now.opened->unplaced.front()));
+        }
+        if (!now.opened->faults.empty()) { // its moves are without what this machine cannot do
+            return refused_for(now.opened->faults);
         }
         return now.opened->motion ? Permission{} : Permission::refused(now.opened->no_motion);
     }

@@ -1,6 +1,7 @@
 // What a job is made of: the opened file or the project's program, as a value that a thread may keep.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/jobs/job.h"
 #include "core/plan/opened_program.h"
 #include "core/plan/pipeline.h"
@@ -10,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace millwright::actions {
 
@@ -26,6 +28,9 @@ struct JobSource {
 
     friend bool operator==(const JobSource&, const JobSource&) = default;
 };
+
+/// With the first of `faults`, its line and how many more there are; allowed where there is none.
+[[nodiscard]] widgets::Permission refused_for(const std::vector<Diagnostic>& faults);
 
 /// Whether there is a program that can be sent to what is connected, else to a virtual machine.
 [[nodiscard]] widgets::Permission program_ready(const Workbench& now);

@@ -7,6 +7,7 @@
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/job_source.h"
+#include "ui/actions/run_check.h"
 #include "ui/actions/start_question.h"
 #include "ui/actions/workshop.h"
 
@@ -87,7 +88,8 @@ Permission can_run_job(const Workbench& now) {
     }
     const Permission machine = machine_ready(now);
     const Permission ready = machine.allowed ? axes_ready(now) : machine;
-    return ready.allowed ? position_ready(now, now.session.begin.on ? now.session.begin.line : 1) : ready;
+    const Permission checked = ready.allowed ? run_check_passed(now) : ready;
+    return checked.allowed ? position_ready(now, now.session.begin.on ? now.session.begin.line : 1) : checked;
 }
 
 template <DriverState state> Permission driver_is(const Workbench& now) {

@@ -189,7 +189,12 @@ double Workbench::job_time() const {
         return duration();
     }
     const auto line = job_line();
-    return (line ? time_at_line(*line) : std::nullopt).value_or(whole ? status.planned_time : 0.0);
+    const auto begin = line ? time_at_line(*line) : std::nullopt;
+    const auto end = line ? time_at_line(*line + 1) : std::nullopt;
+    if (begin && end && *end > *begin) {
+        return *begin + status.fraction * (*end - *begin);
+    }
+    return begin.value_or(whole ? status.planned_time : 0.0);
 }
 
 bool Workbench::job_is_shown() const {

@@ -25,6 +25,7 @@ namespace millwright::actions {
 class ArmBench;
 class ImportBench;
 class ProcessorBench;
+struct RunCheck;
 
 /// Both null where there is none.
 struct ProgramOfMachine {
@@ -64,6 +65,7 @@ struct Workbench {
     const std::optional<Diagnostic>&
         queue_problem; ///< why its file is not open; nothing: it is, or there is none
     std::shared_ptr<const StartCheck> start_check; ///< of Session::start; null before the first
+    std::shared_ptr<const RunCheck> run_check;     ///< of what Run would start now; null while not known
 
     /// The connected controller moves an arm.
     [[nodiscard]] bool arm_connected() const {

@@ -83,6 +83,7 @@ Workshop::Workshop(WorkshopOptions options)
     arm_ = std::make_unique<ArmBench>(options_.assets, wake);
     approach_ = std::make_unique<ApproachFinder>(wake);
     start_ = std::make_unique<StartChecker>(check_start, wake);
+    run_check_ = std::make_unique<RunChecker>(check_run, wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     follow_project();
 }
@@ -90,6 +91,8 @@ Workshop::Workshop(WorkshopOptions options)
 Workshop::~Workshop() = default;
 
 Workbench Workshop::look() const {
+    auto checked = run_check_->answer();
+    const bool is_of_this = checked && run_wish_ && checked->wish == run_wish_;
     return {history_.current(),
             session_,
             document(),
@@ -122,7 +125,8 @@ Workbench Workshop::look() const {
             machine_solids_.bodies(),
             set_up_->latest(),
             queue_.problem(),
-            start_->answer()};
+            start_->answer(),
+            is_of_this ? std::move(checked) : nullptr};
 }
 
 void Workshop::follow_project() {
@@ -251,6 +255,7 @@ bool Workshop::advance(double seconds) {
     follow_import();
     follow_file();
     follow_begin();
+    follow_run();
     follow_queue();
     arm_->news().follow(controller_->view(), controller_->driver(), session_);
     const bool armed = follow_arm(seconds);
@@ -280,6 +285,24 @@ void Workshop::follow_begin() {
     }
     const auto dialect = now.controller.can.dialect.value_or(gcode::Dialect::linuxcnc);
     approach_->want(ApproachWish{job_source(now), session_.begin, dialect});
+}
+
+/// Where Run starts something, and not while a machine moves: then the last answer stays.
+void Workshop::follow_run() {
+    const Workbench now = look();
+    if (now.session.workspace != Workspace::machine || now.job.running || !job_ready(now).allowed) {
+        if (std::exchange(run_wish_, nullptr)) {
+            run_check_->forget();
+        }
+        return;
+    }
+    if (now.controller.connected() && !at_rest(now.controller).allowed) {
+        return;
+    }
+    if (RunWish wish = run_wish(now); !run_wish_ || !asks_the_same(*run_wish_, wish)) {
+        run_wish_ = std::make_shared<const RunWish>(std::move(wish));
+        run_check_->want(run_wish_);
+    }
 }
 
 void Workshop::ask_to_start(StartWish wish) {
@@ -327,6 +350,8 @@ void Workshop::wait_idle() {
     jobs_->wait();
     follow_begin();
     approach_->wait_idle();
+    follow_run();
+    run_check_->wait_idle();
     start_->wait_idle();
     job_recovery_->wait_idle();
     arm_->wait_idle();

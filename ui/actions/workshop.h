@@ -6,6 +6,7 @@
 #include "core/project/window_settings.h"
 #include "ui/actions/action.h"
 #include "ui/actions/machine_solids.h"
+#include "ui/actions/run_check.h"
 #include "ui/actions/stored_queue.h"
 
 #include <chrono>
@@ -247,6 +248,7 @@ private:
     void want_plan(); ///< what of it is looked at
     void follow_job();
     void follow_begin();
+    void follow_run();
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
     void open_processor_text(const std::function<void()>& open);
@@ -283,6 +285,8 @@ private:
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<StartChecker> start_;
+    std::unique_ptr<RunChecker> run_check_;
+    std::shared_ptr<const RunWish> run_wish_; ///< null while nothing could be run
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<jobs::QueuedJobId> loading_; ///< waits for the program that is being read

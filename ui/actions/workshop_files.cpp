@@ -112,6 +112,7 @@ void Workshop::open_gcode(const fs::path& file) {
         throw Error("a job is running; open another program when it has ended", file);
     }
     reader_->open(file, session_.file.reading, options_.assets);
+    jobs_->forget_failure();
     gcode_ = file;
     plot_plays_ = false;
     followed_plot_ = 0;
@@ -138,6 +139,7 @@ void Workshop::read_again() {
 
 void Workshop::close_file() {
     reader_->close();
+    jobs_->forget_failure();
     gcode_.clear();
     plot_plays_ = false;
     followed_plot_ = 0;
@@ -212,6 +214,7 @@ void Workshop::begin(project::Project other, const std::string& title, Document 
 
 void Workshop::look_at_another() {
     import_->drop_reference();
+    jobs_->forget_failure();
     session_.begin = {};
     session_.selected.clear();
     fit_project(session_);

@@ -65,6 +65,9 @@ void Workshop::take_import() {
     for (const std::string& note : now->surface->notes) {
         tell(session_, widgets::Severity::info, with_full_stop(note), now->file.filename().string());
     }
+    for (const std::string& warning : now->surface->warnings) {
+        tell(session_, widgets::Severity::warning, as_sentence(warning), now->file.filename().string());
+    }
     session_.selected.clear();
     fit_project(session_);
 }

@@ -246,6 +246,13 @@ void draw_found(Ui& ui, const ImportResult& found) {
     for (const std::string& note : found.surface->notes) {
         ui.note(with_full_stop(note));
     }
+    std::string warnings;
+    for (const std::string& warning : found.surface->warnings) {
+        warnings = with_sentence(std::move(warnings), as_sentence(warning));
+    }
+    if (!warnings.empty()) {
+        (void)widgets::banner(ui, "warnings", {widgets::Severity::warning, warnings, {}});
+    }
 }
 
 void draw_file(Ui& ui, const ImportResult& found) {

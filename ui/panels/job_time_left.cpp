@@ -23,9 +23,17 @@ std::optional<double> left_by_lines(const Workbench& now, const jobs::JobReport&
     const plan::PlannedMotion& plan = *now.opened->motion;
     const std::vector<int>& planned = plan.listing->line_of_block;
     const auto next = std::ranges::find_if(planned, [&](int line) { return line >= lines[at]; });
-    return next == planned.end() ? 0.0
-                                 : plan.trajectory->duration() -
-                                       plan.trajectory->start_of(static_cast<int>(next - planned.begin()));
+    if (next == planned.end()) {
+        return 0.0;
+    }
+    const auto behind = std::ranges::find_if(next, planned.end(), [&](int line) { return line > *next; });
+    const auto start = [&](auto block) {
+        return block == planned.end() ? plan.trajectory->duration()
+                                      : plan.trajectory->start_of(static_cast<int>(block - planned.begin()));
+    };
+    const bool is_on_it = *next == lines[at] && static_cast<int>(at) == report.driver.block;
+    const double done = is_on_it ? report.driver.fraction * (start(behind) - start(next)) : 0.0;
+    return plan.trajectory->duration() - start(next) - done;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "ui/actions/job_source.h"
+#include "ui/actions/run_check.h"
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
@@ -49,11 +50,15 @@ bool waits_for_a_link(const Workbench& now) {
 std::string checked_sentence(const Workbench& now, const std::string& name) {
     const bool another =
         now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
+    const bool both = another && now.run_check != nullptr && now.run_check->wish->source.as_text;
     return fmt::format("Check passed: axes and travel are within the limits of {}{}. Feed rates above the "
                        "axis limits are reduced.{}",
                        name,
-                       another ? ", the machine of the project" : "",
-                       another ? " The limits of the connected machine are checked before the start." : "");
+                       both      ? ", the machine of the project, and of the connected machine"
+                       : another ? ", the machine of the project"
+                                 : "",
+                       another && !both ? " The limits of the connected machine are checked before the start."
+                                        : "");
 }
 
 /// 1/min that the program shown begins with, on a machine that has no words for its spindle.
@@ -108,6 +113,11 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
 
 /// What is known before anything is sent.
 void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
+    const bool is_said = now.follows_job() || !actions::axes_ready(now).allowed;
+    if (const auto checked = actions::run_check_passed(now); !checked.allowed && !is_said) {
+        (void)widgets::banner(ui, "findings", {widgets::Severity::warning, checked.reason, {}});
+        return;
+    }
     if (!now.in_file() || !now.opened->finished || now.follows_job()) {
         return;
     }

@@ -72,6 +72,13 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
                  {},
                  "Extents in machine coordinates from the current position, with the active work offset");
     }
+    if (const std::string unread = jobs::unread_text(check.survey); !unread.empty()) {
+        (void)widgets::banner(ui,
+                              "unread",
+                              {widgets::Severity::warning,
+                               "These extents are without " + unread + ", which could not be read.",
+                               {}});
+    }
 }
 
 void draw_spindle_and_tool(Ui& ui, const Survey& survey, const drivers::DriverStatus& status) {

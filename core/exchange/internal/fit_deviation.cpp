@@ -145,8 +145,20 @@ private:
     Vec2 at_ = Vec2::Zero();
 };
 
-void refuse_fold(const Fold& fold) {
+void refuse_fold(const Fold& fold, int outline_corners) {
     constexpr double negligible = 1e-4; // of the area: a corner whose sides are nearly in line turns over
+    constexpr int of_patch = 4;
+    if (fold.share > negligible && outline_corners > of_patch) {
+        throw Error(
+            fmt::format("the outline of the mesh has {} corners and a patch has four: following it, "
+                        "the patch turns over on {:.2g} % of its area, mostly near u {:.2f}, v {:.2f}",
+                        outline_corners,
+                        100.0 * fold.share,
+                        fold.at.x(),
+                        fold.at.y()),
+            {},
+            "cut the mesh into parts with four sides and import one at a time");
+    }
     if (fold.share > negligible) {
         throw Error(fmt::format("the fitted patch folds over itself: {:.2g} % of its area faces backwards, "
                                 "mainly near u {:.2f}, v {:.2f}",
@@ -286,7 +298,7 @@ void FitComparison::measure_patch(Deviation& deviation,
         }
     }
     deviation.patch_mean = area > 0.0 ? sum / area : deviation.patch_max;
-    refuse_fold(fold.fold());
+    refuse_fold(fold.fold(), target_->outlines.corners);
 }
 
 Deviation FitComparison::deviation_of(const BezierPatch& patch,

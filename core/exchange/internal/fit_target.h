@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/exchange/cad_file.h"
+#include "core/exchange/internal/mesh_outlines.h"
 #include "core/exchange/internal/seen_side.h"
 
 #include <array>
@@ -28,6 +29,7 @@ struct FitTarget {
     SeenSide side;
     const CadFace* face = nullptr; ///< null for a mesh
     std::vector<Vec2> places;      ///< on the face, one per point of the side; empty for a mesh
+    MeshOutlines outlines{};       ///< of a mesh alone
 
     [[nodiscard]] Vec3 at(const Spread& spread) const {
         return face != nullptr ? face->position(spread.of(places)) : spread.of(side.mesh.points);

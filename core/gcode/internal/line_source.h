@@ -26,6 +26,9 @@ public:
     /// The next line without its end, valid until the next call. False at the end of the text. Throws Error
     /// if the file cannot be read.
     [[nodiscard]] bool next(std::string_view& line);
+    /// Of what follows the last line, as much as is in memory; the last line of it may be cut. Valid until
+    /// next().
+    [[nodiscard]] std::string_view at_hand() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
     /// The last line was cut: it is longer than any limit.
     [[nodiscard]] bool cut() const { return cut_; }
     /// Number of the last line.

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::gcode::internal {
@@ -23,6 +24,7 @@ public:
 
     /// The next line of the present file. Counts lines that were read before.
     [[nodiscard]] bool next(std::string_view& line);
+    [[nodiscard]] std::string_view at_hand() const { return files_[present_].source->at_hand(); }
     [[nodiscard]] bool cut() const { return files_[present_].source->cut(); }
     [[nodiscard]] SourcePlace place() const {
         return {files_[present_].source->line_number(), static_cast<int>(present_)};

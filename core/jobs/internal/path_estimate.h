@@ -9,6 +9,11 @@
 
 namespace millwright::jobs::internal {
 
+struct PathPlace {
+    int line = 0;
+    double fraction = 0.0; ///< of the way of that line, 0 to 1
+};
+
 class PathEstimate {
 public:
     /// Knows no path, and estimates nothing.
@@ -17,16 +22,22 @@ public:
     PathEstimate(std::vector<Survey::PathPoint> path, const Vec3& start);
 
     [[nodiscard]] bool knows_path() const { return !path_.empty(); }
-    /// The line of the first move that `at` lies on, from the move of the last call on and of the lines
-    /// `first` to `last`; where it lies on none, the line of the last call, but at least `first`. Proves
-    /// nothing: a path may come to one place twice.
-    [[nodiscard]] int line_at(const Vec3& at, int first, int last);
+    /// On the first move that `at` lies on, from the move of the last call on and of the lines `first` to
+    /// `last`; where it lies on none, the place of the last call, but at least the beginning of `first`.
+    /// Never goes back. Proves nothing: a path may come to one place twice.
+    [[nodiscard]] PathPlace place_at(const Vec3& at, int first, int last);
 
 private:
     std::vector<Survey::PathPoint> path_;
     Vec3 start_ = Vec3::Zero();
-    std::size_t next_ = 0;
-    int line_ = 0;
+    std::size_t next_ = 0; ///< move of the last call
+    PathPlace place_;
+
+    [[nodiscard]] const Vec3& begin_of(std::size_t move) const {
+        return move == 0 ? start_ : path_[move - 1].at;
+    }
+    [[nodiscard]] double length_of(std::size_t move) const;
+    [[nodiscard]] double fraction_of_line(std::size_t move, double part) const;
 };
 
 } // namespace millwright::jobs::internal

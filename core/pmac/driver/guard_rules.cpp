@@ -188,6 +188,50 @@ bool stops_guard(std::string_view text) {
     return text.find("^D") != std::string_view::npos; // of all PLC programs
 }
 
+/// Words of the card's memory that hold neither programs nor variables.
+struct MemoryPart {
+    char word = 'X'; ///< X or Y; '*': both, and long ones
+    int first = 0, last = 0;
+};
+
+constexpr std::array<MemoryPart, 3> set_up_memory{
+    MemoryPart{'Y', 0x720, 0x73F},    // the encoder conversion table
+    MemoryPart{'X', 0x783, 0x787},    // where the computer finds the dual-ported memory
+    MemoryPart{'*', 0xD000, 0xDFFF}}; // that memory
+
+/// Behind WX, WY, WL ...: `:$786,$D,$43`, the address and a value for each word from there on.
+bool writes_set_up(char word, std::string_view rest) {
+    rest.remove_prefix(rest.starts_with(':') ? 1 : 0);
+    const auto first = take_index(rest);
+    const bool has_values = first && rest.starts_with(',');
+    const auto count = has_values ? std::ranges::count(rest, ',') : 1;
+    return first && std::ranges::any_of(set_up_memory, [&](const MemoryPart& part) {
+               return (part.word == word || part.word == '*') && *first >= part.first &&
+                      *first + count - 1 <= part.last;
+           });
+}
+
+/// WX:$786,$D,$43; no WHILE, no WAIT, no move of the axis W.
+bool writes_memory(std::string_view text) {
+    constexpr std::array<std::string_view, 7> kinds{"X", "Y", "L", "DP", "D", "F", "TWS"};
+    for (std::size_t at = text.find('W'); at != std::string_view::npos; at = text.find('W', at + 1)) {
+        std::string_view rest = text.substr(at + 1);
+        const auto* const kind =
+            std::ranges::find_if(kinds, [&](std::string_view name) { return rest.starts_with(name); });
+        if (kind == kinds.end()) {
+            continue;
+        }
+        const char word = rest.front();
+        rest.remove_prefix(kind->size());
+        const bool is_address = rest.starts_with(':') || rest.starts_with('$') || rest.starts_with('(') ||
+                                (!rest.empty() && is_digit_of(rest.front(), false));
+        if (is_address && !writes_set_up(word, rest)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 std::string guard_refusal(std::string_view line) {
@@ -195,6 +239,12 @@ std::string guard_refusal(std::string_view line) {
     const std::string text = without_blanks(line);
     if (stops_guard(text)) {
         return "the guard is PLC 31";
+    }
+    if (writes_memory(text)) {
+        return "what it writes into the card's memory could be the guard's program or its variables: only "
+               "the "
+               "encoder table (WY:$720 to $73F), WX:$783 to $787 and the dual-ported memory ($D000 to $DFFF) "
+               "are written";
     }
     for (const Assignment& one : assignments_of(text)) {
         if (one.letter == 'I') {

@@ -147,6 +147,24 @@ TEST(Klartext, ReadsWhatSurroundsTheBlocksInForeignPrograms) {
     EXPECT_EQ(klartext_error(dos), "read");
 }
 
+TEST(Klartext, ReadsProgramsWithoutBlockNumbers) {
+    const std::string blocks =
+        "BEGIN PGM A MM\n; a heading\n\nTOOL CALL 1 Z S800\nL X+3 Y+4 R0 F600 M3\nEND PGM A MM\n";
+    const auto steps = read_written_klartext(blocks, "a.h", {});
+    const auto move = std::ranges::find(steps, StepKind::feed, &WrittenStep::kind);
+    ASSERT_NE(move, steps.end());
+    EXPECT_EQ(move->line, 5);
+    EXPECT_EQ(move->target[Axis::x], 3.0);
+    EXPECT_EQ(move->target[Axis::y], 4.0);
+    EXPECT_EQ(klartext_error("BEGIN PGM A MM\nL X+1 F60\nEND PGM A MM\n"), "read");
+    EXPECT_THAT(klartext_error("L X+1 F60\nEND PGM A MM\n"),
+                HasSubstr("a.h:1:1: a program begins with BEGIN PGM"));
+    // Numbers that begin, or end, in the middle: a block may be lost.
+    EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\nL X+1 F60\n2 END PGM A MM\n"),
+                HasSubstr("a.h:2:1: the block number is 1"));
+    EXPECT_NE(klartext_error("BEGIN PGM A MM\n1 L X+1 F60\nEND PGM A MM\n"), "read");
+}
+
 TEST(Klartext, RefusesWhatItDoesNotKnowWithItsPlace) {
     EXPECT_THAT(error_in("L X+1 RL F60"), HasSubstr("a.h:2:9: 'RL' is not supported in an L block"));
     EXPECT_THAT(error_in("L X+1"), HasSubstr("a.h:2:1: a feed move has no feed rate"));

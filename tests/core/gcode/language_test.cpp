@@ -66,6 +66,49 @@ TEST(Language, IsKnownByALine) {
     }
 }
 
+TEST(Language, FilesThatAreNoProgramsAreKnownByALine) {
+    for (const char* line : {"<?xml version=\"1.0\"?>",
+                             "\xEF\xBB\xBF<svg width=\"10mm\" x=\"1\">",
+                             "  <path d=\"M0 0\"/>",
+                             "<!DOCTYPE html>",
+                             "</g>"}) {
+        EXPECT_EQ(language_of_line(line), Language::xml) << line;
+    }
+    EXPECT_EQ(language_of_line("solid part"), Language::mesh);
+    EXPECT_EQ(language_of_line("  facet normal 0 0 1"), Language::mesh);
+    EXPECT_EQ(language_of_line("ISO-10303-21;"), Language::step);
+    EXPECT_EQ(language_of_line("SECTION"), Language::dxf);
+    EXPECT_EQ(language_of_line("{\"format\": 1, \"R1\"=5"), Language::json);
+    EXPECT_EQ(language_of_line("%PDF-1.4"), Language::document);
+    EXPECT_EQ(language_of_line("%!PS-Adobe-3.0"), Language::document);
+    EXPECT_EQ(language_of_line("<"), std::nullopt);
+    EXPECT_EQ(language_of_line("< 5"), std::nullopt);
+}
+
+TEST(Language, OfALaterLineIsNamedInPlaceOfWhatIsWrongBefore) {
+    ReaderSettings settings;
+    settings.most_errors = 100;
+    const auto refusal = [&](const std::string& text) {
+        const test::ReadProgram read = test::read_all(text, settings);
+        EXPECT_EQ(read.errors.size(), 1U) << text;
+        return read.errors.empty() ? std::string() : to_text(read.errors.front());
+    };
+    for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl}) {
+        settings.dialect = dialect;
+        EXPECT_THAT(refusal("N10 G71 G90\nN20 R1=5\nN30 G1 X=R1 F100\nM30\n"),
+                    HasSubstr(":2:1: this is the Sinumerik language of Siemens, not G-code"));
+        EXPECT_THAT(refusal("%\nO1000\n#1=0\nWHILE [#1 LT 3] DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n%\n"),
+                    HasSubstr(":4:1: this is Fanuc custom macro B, not G-code"));
+        EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<svg width=\"10mm\"/>\n"),
+                    HasSubstr(":1:1: this is an XML file (an SVG drawing is one), not G-code"));
+        EXPECT_THAT(refusal("  0\nSECTION\n  2\nHEADER\n"), HasSubstr(":2:1: this is a DXF drawing"));
+    }
+    // A program with a fault of its own, and words behind it that G-code has, too.
+    settings.dialect = Dialect::linuxcnc;
+    EXPECT_THAT(refusal("G21 G90\nG1 X1 F\nM106\nM2\n"), HasSubstr(":2:"));
+    EXPECT_THAT(refusal("G21 G71\nG1 X1 F100\n(WHILE R1=5)\nM2\n"), HasSubstr("G71 is not known"));
+}
+
 TEST(Language, LinesOfGcodeShowNone) {
     for (const char* line : {"G1 X10 Y-2 F300",
                              "N10 #1=[#2+3] #<depth>=4",

@@ -1,7 +1,9 @@
 // A job that waits for another tool in the Machine workspace: what a person sees and can do meanwhile.
 #include "core/base/files.h"
 #include "tests/ui/panels/at_machine.h"
+#include "ui/actions/job_source.h"
 #include "ui/actions/kept_session.h"
+#include "ui/actions/start_question.h"
 #include "ui/actions/tool_changes.h"
 
 #include <gmock/gmock.h>
@@ -89,10 +91,8 @@ TEST_P(ToolChangeAtGrbl, AProgramIsRefusedWhereThatIsChosen) {
     const std::string way = "inspector/tool_changes/way";
     person.bring_into_sight(way);
     person.choose(way, "none");
-    person.click("inspector/job/machine_run");
-    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().start_check != nullptr; }));
-    person.frames(3);
-    EXPECT_THAT(person.refusal("dialogs/start/start_go"), HasSubstr("error 20"));
+    ASSERT_TRUE(person.live_until([this] { return !person.refusal("inspector/job/machine_run").empty(); }));
+    EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("error 20"));
 }
 
 TEST_P(ToolChangeAtGrbl, TheSensorHasItsFieldsAndIsCheckedBefore) {
@@ -108,16 +108,17 @@ TEST_P(ToolChangeAtGrbl, TheSensorHasItsFieldsAndIsCheckedBefore) {
     EXPECT_EQ(kept.plan.way, ToolChangeWay::probe);
     EXPECT_EQ(kept.plan.sensor.x, -12.5);
     EXPECT_EQ(kept.plan.sensor.deepest_z, -40.0);
-    person.click("inspector/job/machine_run");
-    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().start_check != nullptr; }));
-    person.frames(3);
-    EXPECT_NE(person.refusal("dialogs/start/start_go"), "");
-    EXPECT_THAT(person.workshop().look().start_check->tool,
-                HasSubstr("The tool with which the Z zero was set must be in the spindle"));
-    const auto faults = person.workshop().look().start_check->faults;
-    EXPECT_TRUE(std::ranges::any_of(faults, [](const Diagnostic& fault) {
+    ASSERT_TRUE(person.live_until([this] { return !person.refusal("inspector/job/machine_run").empty(); }));
+    const auto checked = person.workshop().look().run_check;
+    ASSERT_TRUE(checked);
+    EXPECT_TRUE(std::ranges::any_of(checked->faults, [](const Diagnostic& fault) {
         return fault.message.find("needs a machine that homes") != std::string::npos;
     }));
+    const auto now = person.workshop().look();
+    const auto wish = std::make_shared<const actions::StartWish>(
+        actions::start_wish(actions::wanted_job(now), {}, now.controller));
+    EXPECT_THAT(actions::check_start(wish, {}).tool,
+                HasSubstr("The tool with which the zero of Z was set has to be in the spindle"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows,

@@ -37,6 +37,21 @@ protected:
             return is_asked() && now.start_check && now.start_check->wish == now.session.start;
         }));
     }
+    /// Of Run, once the whole program was read for this machine.
+    [[nodiscard]] std::string run_refusal() {
+        EXPECT_TRUE(person.live_until([this] { return person.workshop().look().run_check != nullptr; }));
+        person.frames(2);
+        return person.refusal("inspector/job/machine_run");
+    }
+    /// Opens the sheet for what is shown, which Run may refuse.
+    void ask_all_the_same() {
+        const auto now = person.workshop().look();
+        const jobs::Job job = jobs::text_job(std::string(now.opened->text->bytes.text()), now.opened->file);
+        person.workshop().ask_to_start(actions::start_wish(job, {}, now.controller));
+        person.frames(2);
+        wait_for_check();
+        person.frames(2);
+    }
     [[nodiscard]] bool has_job() {
         const auto job = person.workshop().look().job;
         return job.running || job.outcome || job.failure;
@@ -112,9 +127,8 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
 TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
     open("G21 G90 G94\nG1 X40 F60\nM66 P1\nM2\n");
     show_machine();
-    person.press_key(render::Key::f9);
-    wait_for_check();
-    person.frames(2);
+    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:3:1: Grbl does not know M66"));
+    ask_all_the_same();
     person.click("dialogs/start/start_check");
     const std::string answer = "dialogs/start/answer";
     ASSERT_TRUE(person.live_until([&] { // after the answer it is asked for its modes and offsets
@@ -126,8 +140,7 @@ TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
     person.keep("machine-start-check");
     person.press_key(render::Key::escape);
     person.frames(5);
-    person.press_key(render::Key::f9);
-    wait_for_check();
+    ask_all_the_same();
     EXPECT_FALSE(person.sees(answer)) << "of another question";
     EXPECT_FALSE(has_job());
 }
@@ -171,9 +184,12 @@ TEST_F(StartSheetAtGrbl, EnterThatIsHeldFromBeforeStartsNothing) {
 TEST_F(StartSheetAtGrbl, AProgramThatLeavesTheTravelCannotBeStarted) {
     open("G21 G90 G94\nG1 X5000 F600\nM2\n");
     show_machine();
-    person.click("inspector/job/machine_run");
-    wait_for_check();
-    person.frames(2);
+    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:2: axis X would go "));
+    EXPECT_TRUE(person.sees("inspector/job/findings"));
+    person.press_key(render::Key::f9);
+    person.frames(5);
+    EXPECT_FALSE(is_asked());
+    ask_all_the_same();
     EXPECT_THAT(person.refusal(start), HasSubstr("axis X"));
     EXPECT_TRUE(person.sees("dialogs/start/faults"));
     person.keep("machine-start-refused");
@@ -204,6 +220,50 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
     const actions::StartCheck check = actions::check_start(wish, {});
     ASSERT_FALSE(check.faults.empty());
     EXPECT_EQ(check.faults.front().message, "the program moves A, but the machine has only X, Y and Z");
+}
+
+TEST_F(StartSheetAtGrbl, RunIsCheckedAgainForAnotherProgramAndAnotherPosition) {
+    open("G21 G90\nG1 X10 A30 F100\nX20\nM2\n"); // the machine of the workbench has no A, this Grbl neither
+    show_machine();
+    EXPECT_THAT(run_refusal(), HasSubstr("the program moves A, and the machine has X, Y and Z"));
+    const auto extents = [&] {
+        return actions::check_start(std::make_shared<const actions::StartWish>(actions::start_wish(
+                                        jobs::text_job(read_file(person.folder() / "part.ngc"), "part.ngc"),
+                                        {},
+                                        person.workshop().look().controller)),
+                                    {})
+            .survey;
+    };
+    EXPECT_DOUBLE_EQ(extents().ranges[0].max, 20.0); // of the lines with A, too
+    EXPECT_EQ(jobs::unread_text(extents()), "");
+    open("G21 G90 G94\nG1 X3 F3000\nM2\n");
+    show_machine();
+    EXPECT_EQ(run_refusal(), "");
+    open("G21 G91 G94\nG0 X150\nM2\n"); // a travel of 200 mm of which the beginning is not known
+    show_machine();
+    EXPECT_EQ(run_refusal(), "");
+    const auto before = person.workshop().look().run_check;
+    person.frames(30);
+    EXPECT_EQ(person.workshop().look().run_check, before) << "nothing has changed";
+    person.workshop().controller().tell(
+        [](drivers::Driver& driver) { (void)driver.command("G91 G0 X2\nG90"); });
+    ASSERT_TRUE(person.live_until([&] {
+        const auto now = person.workshop().look();
+        return now.run_check && now.run_check != before &&
+               now.run_check->wish->machine.status.position[0] > 1.99;
+    }));
+}
+
+TEST_F(StartSheetAtGrbl, AProgramWithALineThatGrblCannotReadIsNotOfferedAndItsExtentsSaySo) {
+    open("G21 G90 G94\nG1 X10 F600\nM66 P1\nG1 X30\nM2\n");
+    show_machine();
+    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:3:1: "));
+    ask_all_the_same();
+    const jobs::Survey& survey = person.workshop().look().start_check->survey;
+    EXPECT_DOUBLE_EQ(survey.ranges[0].max, 30.0);
+    EXPECT_EQ(jobs::unread_text(survey), "line 3");
+    EXPECT_TRUE(person.sees("dialogs/start/unread"));
+    person.keep("machine-start-unread");
 }
 
 TEST_F(StartSheetAtGrbl, AMachineThatIsGoneIsNotReplacedByAVirtualOne) {

@@ -39,7 +39,12 @@ const std::vector<std::string> weakening{"I5=0",          "I5=1",
                                          "M1000->*",      "M1000->Y:$C003,8,16",
                                          "M1001=0",       "M1..1023=0",
                                          "CMD\"I5=0\"",   "CMD\"DISABLE PLC 31\"",
-                                         "CMD^D"};
+                                         "CMD^D",         "WX:$1000,0",
+                                         "wy $13E8,$0",   "WL:$13E8,1,2",
+                                         "WX4096,0",      "WDP:$1000,0",
+                                         "WX:$787,$D,1",  "WY:$783,1",
+                                         "WY:$73F,1,2",   "CMD\"WX:$1000,0\"",
+                                         "WX:(P1),0",     "WY:$FFFFFF,0"};
 
 TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
     for (const std::string& line : weakening) {
@@ -69,6 +74,13 @@ TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
                                    "OPEN PROG 31",
                                    "CIRCLE1 X10 Y10 I(P5) J5",
                                    "CMD^A",
+                                   "WX:$786,$D,$43",
+                                   "WY:$724,$5007F0",
+                                   "WY:$D300,$123456",
+                                   "RHX:$1000,8",
+                                   "X10 W5",
+                                   "W(P1) F5",
+                                   "WHILE(P1<3) WAIT",
                                    "X10 F5"}) {
         EXPECT_EQ(guard_refusal(line), "") << line;
     }

@@ -1,0 +1,78 @@
+#include "ui/actions/run_check.h"
+
+#include "ui/actions/start_question.h"
+#include "ui/actions/tool_changes.h"
+#include "ui/actions/workbench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace millwright::actions {
+
+namespace {
+
+bool same_positions(const kinematics::AxisPositions& a, const kinematics::AxisPositions& b) {
+    constexpr double noise = 1e-3; // mm or rad: of scales read at rest
+    return a.size() == b.size() && (a.size() == 0 || (a - b).cwiseAbs().maxCoeff() <= noise);
+}
+
+bool same_offsets(const std::vector<drivers::StoredOffset>& a, const std::vector<drivers::StoredOffset>& b) {
+    return std::ranges::equal(a, b, [](const drivers::StoredOffset& x, const drivers::StoredOffset& y) {
+        return x.name == y.name && same_positions(x.value, y.value);
+    });
+}
+
+bool same(const std::optional<double>& a, const std::optional<double>& b) {
+    return a.has_value() == b.has_value() && (!a || !(*a < *b || *a > *b));
+}
+
+bool same_limits(const drivers::MachineLimits& a, const drivers::MachineLimits& b) {
+    return same(a.spindle_rpm, b.spindle_rpm) && std::ranges::equal(a.axes, b.axes, [](auto& x, auto& y) {
+               return x.letter == y.letter && same(x.min, y.min) && same(x.max, y.max) &&
+                      same(x.travel, y.travel) && same(x.speed, y.speed);
+           });
+}
+
+bool same_abilities(const drivers::Capabilities& a, const drivers::Capabilities& b) {
+    return a.plans == b.plans && a.points == b.points && a.dialect == b.dialect && a.mist == b.mist &&
+           a.tool_changes == b.tool_changes && a.laser == b.laser && a.firmware == b.firmware;
+}
+
+bool same_machine(const ControllerView& a, const ControllerView& b) {
+    return a.link == b.link && a.choice.kind == b.choice.kind && a.axes == b.axes &&
+           a.status.modes == b.status.modes && a.status.tool == b.status.tool &&
+           same_abilities(a.can, b.can) && same_limits(a.limits, b.limits) &&
+           same_positions(a.status.position, b.status.position) && same_offsets(a.offsets, b.offsets);
+}
+
+} // namespace
+
+RunWish run_wish(const Workbench& now) {
+    return {job_source(now), now.session.begin.on ? now.approach : nullptr, now.controller};
+}
+
+widgets::Permission run_check_passed(const Workbench& now) {
+    return now.run_check ? refused_for(now.run_check->faults) : widgets::Permission{};
+}
+
+bool asks_the_same(const RunWish& a, const RunWish& b) {
+    return a.source == b.source && a.approach == b.approach && same_machine(a.machine, b.machine);
+}
+
+RunCheck check_run(const std::shared_ptr<const RunWish>& wish, const Progress& progress) {
+    RunCheck check{wish, {}};
+    try {
+        jobs::Job job = wish->approach ? wish->approach->job.value() : make_job(wish->source);
+        read_macro(job);
+        const auto start = std::make_shared<const StartWish>(start_wish(std::move(job), {}, wish->machine));
+        check.faults =
+            wish->source.as_text ? check_start(start, progress).faults : jobs::preflight(*start->job);
+    } catch (const Error& error) {
+        check.faults.push_back(error.diagnostic());
+    }
+    return check;
+}
+
+} // namespace millwright::actions

@@ -1,0 +1,43 @@
+// What Run would be refused for: worked out in the background each time that the program or the machine has
+// changed, by the checks that are made before a job is sent.
+#pragma once
+
+#include "core/base/error.h"
+#include "core/base/progress.h"
+#include "ui/actions/approach.h"
+#include "ui/actions/controller.h"
+#include "ui/actions/job_source.h"
+#include "ui/actions/latest_work.h"
+
+#include <memory>
+#include <vector>
+
+namespace millwright::actions {
+
+struct Workbench;
+
+/// The job that is shown, and the machine that would get it.
+struct RunWish {
+    JobSource source;
+    std::shared_ptr<const Approach> approach; ///< of a job from a line; null: from its beginning
+    ControllerView machine;                   ///< at rest
+};
+
+struct RunCheck {
+    std::shared_ptr<const RunWish> wish;
+    std::vector<Diagnostic> faults; ///< in their order; empty: nothing stands against it
+};
+
+/// Of what is shown. Only where job_ready() says yes.
+[[nodiscard]] RunWish run_wish(const Workbench& now);
+/// Why what is shown is not run: the first of the faults of Workbench::run_check. While that is not known it
+/// is allowed, since the same is checked again before anything is sent.
+[[nodiscard]] widgets::Permission run_check_passed(const Workbench& now);
+/// Both have the same faults: positions within 0.001 mm, or rad, are the same.
+[[nodiscard]] bool asks_the_same(const RunWish& a, const RunWish& b);
+/// Reads the whole program. Throws nothing but Cancelled: what is wrong is a fault.
+[[nodiscard]] RunCheck check_run(const std::shared_ptr<const RunWish>& wish, const Progress& progress);
+
+using RunChecker = LatestWork<std::shared_ptr<const RunWish>, RunCheck>;
+
+} // namespace millwright::actions
