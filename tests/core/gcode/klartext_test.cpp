@@ -158,10 +158,10 @@ TEST(Klartext, ReadsProgramsWithoutBlockNumbers) {
     EXPECT_EQ(move->target[Axis::y], 4.0);
     EXPECT_EQ(klartext_error("BEGIN PGM A MM\nL X+1 F60\nEND PGM A MM\n"), "read");
     EXPECT_THAT(klartext_error("L X+1 F60\nEND PGM A MM\n"),
-                HasSubstr("a.h:1:1: a program begins with BEGIN PGM"));
+                HasSubstr("a.h:1:1: a program must start with BEGIN PGM"));
     // Numbers that begin, or end, in the middle: a block may be lost.
     EXPECT_THAT(klartext_error("0 BEGIN PGM A MM\nL X+1 F60\n2 END PGM A MM\n"),
-                HasSubstr("a.h:2:1: the block number is 1"));
+                HasSubstr("a.h:2:1: the block number must be 1"));
     EXPECT_NE(klartext_error("BEGIN PGM A MM\n1 L X+1 F60\nEND PGM A MM\n"), "read");
 }
 

@@ -96,7 +96,7 @@ TEST(Language, OfALaterLineIsNamedInPlaceOfWhatIsWrongBefore) {
     for (const Dialect dialect : {Dialect::linuxcnc, Dialect::grbl}) {
         settings.dialect = dialect;
         EXPECT_THAT(refusal("N10 G71 G90\nN20 R1=5\nN30 G1 X=R1 F100\nM30\n"),
-                    HasSubstr(":2:1: this is the Sinumerik language of Siemens, not G-code"));
+                    HasSubstr(":2:1: this is the Siemens Sinumerik language, not G-code"));
         EXPECT_THAT(refusal("%\nO1000\n#1=0\nWHILE [#1 LT 3] DO1\nG0 X#1\n#1=#1+1\nEND1\nM30\n%\n"),
                     HasSubstr(":4:1: this is Fanuc custom macro B, not G-code"));
         EXPECT_THAT(refusal("<?xml version=\"1.0\"?>\n<svg width=\"10mm\"/>\n"),
@@ -106,7 +106,7 @@ TEST(Language, OfALaterLineIsNamedInPlaceOfWhatIsWrongBefore) {
     // A program with a fault of its own, and words behind it that G-code has, too.
     settings.dialect = Dialect::linuxcnc;
     EXPECT_THAT(refusal("G21 G90\nG1 X1 F\nM106\nM2\n"), HasSubstr(":2:"));
-    EXPECT_THAT(refusal("G21 G71\nG1 X1 F100\n(WHILE R1=5)\nM2\n"), HasSubstr("G71 is not known"));
+    EXPECT_THAT(refusal("G21 G71\nG1 X1 F100\n(WHILE R1=5)\nM2\n"), HasSubstr("G71 is not supported"));
 }
 
 TEST(Language, LinesOfGcodeShowNone) {

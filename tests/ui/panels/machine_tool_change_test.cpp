@@ -118,7 +118,7 @@ TEST_P(ToolChangeAtGrbl, TheSensorHasItsFieldsAndIsCheckedBefore) {
     const auto wish = std::make_shared<const actions::StartWish>(
         actions::start_wish(actions::wanted_job(now), {}, now.controller));
     EXPECT_THAT(actions::check_start(wish, {}).tool,
-                HasSubstr("The tool with which the zero of Z was set has to be in the spindle"));
+                HasSubstr("The tool with which the Z zero was set must be in the spindle"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows,

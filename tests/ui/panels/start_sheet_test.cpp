@@ -127,7 +127,7 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
 TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
     open("G21 G90 G94\nG1 X40 F60\nM66 P1\nM2\n");
     show_machine();
-    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:3:1: Grbl does not know M66"));
+    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:3:1: Grbl does not support M66"));
     ask_all_the_same();
     person.click("dialogs/start/start_check");
     const std::string answer = "dialogs/start/answer";
@@ -184,7 +184,7 @@ TEST_F(StartSheetAtGrbl, EnterThatIsHeldFromBeforeStartsNothing) {
 TEST_F(StartSheetAtGrbl, AProgramThatLeavesTheTravelCannotBeStarted) {
     open("G21 G90 G94\nG1 X5000 F600\nM2\n");
     show_machine();
-    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:2: axis X would go "));
+    EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:2: axis X would move "));
     EXPECT_TRUE(person.sees("inspector/job/findings"));
     person.press_key(render::Key::f9);
     person.frames(5);
@@ -225,7 +225,7 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
 TEST_F(StartSheetAtGrbl, RunIsCheckedAgainForAnotherProgramAndAnotherPosition) {
     open("G21 G90\nG1 X10 A30 F100\nX20\nM2\n"); // the machine of the workbench has no A, this Grbl neither
     show_machine();
-    EXPECT_THAT(run_refusal(), HasSubstr("the program moves A, and the machine has X, Y and Z"));
+    EXPECT_THAT(run_refusal(), HasSubstr("the program moves A, but the machine has only X, Y and Z"));
     const auto extents = [&] {
         return actions::check_start(std::make_shared<const actions::StartWish>(actions::start_wish(
                                         jobs::text_job(read_file(person.folder() / "part.ngc"), "part.ngc"),
