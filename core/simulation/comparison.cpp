@@ -95,8 +95,7 @@ public:
             }
         }
         std::ranges::sort(blocks_);
-        const auto [rest, end] = std::ranges::unique(blocks_);
-        blocks_.erase(rest, end);
+        blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
     }
     [[nodiscard]] const std::vector<int>& blocks() const { return blocks_; }
 
