@@ -38,12 +38,23 @@ public:
 
     /// The least height over `at` along its normal; infinite where the tool does not come over it.
     [[nodiscard]] double height(const PartPoint& at) const {
+        return least(
+            [&](double f) { return toolpath::height_over(*body_, way_.at(f), at.point, at.normal); });
+    }
+    /// How deep the point is in the tool, whatever the direction; below 0: outside.
+    [[nodiscard]] double depth(const Vec3& point) const {
+        return -least([&](double f) { return toolpath::distance(*body_, way_.at(f), point); });
+    }
+
+private:
+    /// Of a function of the move's fraction: the least of many looks, and a golden section around it.
+    template <class Value> [[nodiscard]] double least(const Value& value) const {
         int best = 0;
         double lowest = never;
         for (int n = 0; n <= looks_; ++n) {
-            const double height = height_at(static_cast<double>(n) / looks_, at);
-            if (height < lowest) {
-                lowest = height;
+            const double here = value(static_cast<double>(n) / looks_);
+            if (here < lowest) {
+                lowest = here;
                 best = n;
             }
         }
@@ -57,16 +68,11 @@ public:
         for (int n = 0; n < most_steps; ++n) {
             const double a = high - golden * (high - low);
             const double b = low + golden * (high - low);
-            const double at_a = height_at(a, at), at_b = height_at(b, at);
+            const double at_a = value(a), at_b = value(b);
             lowest = std::min({lowest, at_a, at_b});
             (at_a < at_b ? high : low) = at_a < at_b ? b : a;
         }
         return lowest;
-    }
-
-private:
-    [[nodiscard]] double height_at(double f, const PartPoint& at) const {
-        return toolpath::height_over(*body_, way_.at(f), at.point, at.normal);
     }
 
     const toolpath::Profile* body_;
@@ -89,8 +95,7 @@ public:
             }
         }
         std::ranges::sort(blocks_);
-        const auto [rest, end] = std::ranges::unique(blocks_);
-        blocks_.erase(rest, end);
+        blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
     }
     [[nodiscard]] const std::vector<int>& blocks() const { return blocks_; }
 
@@ -156,6 +161,35 @@ const toolpath::Profile* tool_of(const SimulationInput& input, int block) {
     return found;
 }
 
+Deviation deviation_at(const SimulationInput& input, const DexelField& field, const PartPoint& at) {
+    Deviation deviation{height_of_box(field.box(), at), -1};
+    if (deviation.height < 0.0) {
+        return deviation;
+    }
+    const NearBlocks near(field, at.point);
+    double deepest = 0.0; // in any tool, whatever the direction
+    for (const int block : near.blocks()) {
+        const toolpath::Profile* tool = tool_of(input, block);
+        if (tool == nullptr) {
+            continue;
+        }
+        const BlockSweep sweep(input, block, *tool);
+        const double height = sweep.height(at);
+        if (height < 0.0) {
+            deepest = std::max(deepest, sweep.depth(at.point));
+        }
+        if (height < deviation.height) {
+            deviation = {height, block};
+        }
+    }
+    // At an edge of the part the normal can run along a cut that is hardly touched.
+    constexpr double much_nearer = 0.5;
+    if (deviation.height < 0.0 && deepest < -much_nearer * deviation.height) {
+        deviation.height = -deepest;
+    }
+    return deviation;
+}
+
 } // namespace
 
 std::vector<Deviation> deviations(const SimulationInput& input,
@@ -166,19 +200,8 @@ std::vector<Deviation> deviations(const SimulationInput& input,
     constexpr std::ptrdiff_t points_a_chunk = 16;
     parallel_for(std::ssize(result), points_a_chunk, [&](std::ptrdiff_t n) {
         progress.check();
-        const PartPoint& at = points[static_cast<std::size_t>(n)];
-        Deviation deviation{height_of_box(found.field->box(), at), -1};
-        if (deviation.height >= 0.0) {
-            const NearBlocks near(*found.field, at.point);
-            for (const int block : near.blocks()) {
-                const toolpath::Profile* tool = tool_of(input, block);
-                const double height = tool != nullptr ? BlockSweep(input, block, *tool).height(at) : never;
-                if (height < deviation.height) {
-                    deviation = {height, block};
-                }
-            }
-        }
-        result[static_cast<std::size_t>(n)] = deviation;
+        result[static_cast<std::size_t>(n)] =
+            deviation_at(input, *found.field, points[static_cast<std::size_t>(n)]);
     });
     return result;
 }

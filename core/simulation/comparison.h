@@ -20,8 +20,10 @@ struct PartPoint {
 };
 
 struct Deviation {
-    double height = 0.0; ///< along the normal: above 0 excess, below 0 gouge
-    int block = -1;      ///< of the program, that cuts deepest there; -1: none, the stock is as it was
+    /// Along the normal: above 0 excess, below 0 gouge. Of a gouge whose side is less than half as far away,
+    /// as at an edge of the part, the distance to that.
+    double height = 0.0;
+    int block = -1; ///< of the program, that cuts deepest there; -1: none, the stock is as it was
 };
 
 /// One a point. Where no move comes near, the height is that of the stock's box along the normal; a point

@@ -185,7 +185,7 @@ double DexelField::filled_part(int k, const std::array<int, 3>& cell) const {
 
 double DexelField::volume() const {
     // Cells in layers along X: the lines along Z give the whole, cells at the surface are weighed anew.
-    const auto [nx, ny, nz] = size_.count;
+    const int nx = size_.count[0], ny = size_.count[1], nz = size_.count[2];
     std::vector<double> layers(static_cast<std::size_t>(nx));
     // Which cells of each layer an end lies in: of lines along X these are found line by line first.
     std::vector<std::vector<std::uint64_t>> ends(static_cast<std::size_t>(nx));
@@ -224,8 +224,7 @@ double DexelField::volume() const {
             }
         }
         std::ranges::sort(found);
-        const auto [rest, end] = std::ranges::unique(found);
-        found.erase(rest, end);
+        found.erase(std::unique(found.begin(), found.end()), found.end());
         for (const std::uint64_t at : found) {
             const std::array<int, 3> cell{x,
                                           static_cast<int>(at / static_cast<std::uint64_t>(nz)),

@@ -15,6 +15,8 @@ namespace {
 
 template <class... Each> struct Overloaded : Each... { using Each::operator()...; };
 
+template <class... Each> Overloaded(Each...) -> Overloaded<Each...>; // clang 14 deduces none
+
 std::string fault_of_box(const BoxStock& box) {
     if (!is_finite(box.low) || !is_finite(box.high)) {
         return "the corners of a box are finite";

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -26,6 +27,11 @@ struct NamedCutter {
     std::string name;
     CutterShape shape;
 };
+
+void PrintTo(const NamedCutter& cutter,
+             std::ostream* out) { // NOLINT(readability-identifier-naming): of gtest
+    *out << cutter.name;
+}
 
 std::vector<NamedCutter> cutters() {
     return {{"Ball", {CutterKind::ball, 6.0, 0.0, 0.0, 20.0}},
