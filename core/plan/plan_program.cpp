@@ -41,10 +41,10 @@ header_of(const project::Project& project, const Plan& plan, const Evaluation& c
         {has_nodes ? "grid" : "path",
          has_nodes ? fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method) : strategy_text(project)},
         {"distance from the surface",
-         fmt::format("at most {} mm, {} mm on average inside the tracks; {}",
+         fmt::format("at most {} mm, {} mm on average inside the tracks",
                      fixed(chosen.closest.max, 4),
-                     fixed(chosen.closest.mean, 4),
-                     checked_face_text(project))},
+                     fixed(chosen.closest.mean, 4))},
+        {"note", checked_face_text(project)},
         {plan.workpiece->tool.lean.upright() ? "tool axis from the normal"
                                              : "tool axis from where it should be",
          fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};

@@ -57,6 +57,36 @@ TEST_F(ImportCommand, StepComesBackAsItWas) {
     EXPECT_EQ(nets(path("again.json")), nets(path("back.json")));
 }
 
+TEST_F(ImportCommand, AHoleThatIsFittedAcrossIsAWarningWithItsOwnExitCode) {
+    // A plate of 60 x 60 mm, in cells of 2 mm, with a square hole of 20 mm.
+    std::string plate = "solid plate\n";
+    const auto corner = [](int x, int y) { return fmt::format("vertex {} {} 0\n", x, y); };
+    for (int x = 0; x < 60; x += 2) {
+        for (int y = 0; y < 60; y += 2) {
+            if (x >= 20 && x < 40 && y >= 20 && y < 40) {
+                continue;
+            }
+            const std::string begin = "facet normal 0 0 1\nouter loop\n", end = "endloop\nendfacet\n";
+            plate += begin + corner(x, y) + corner(x + 2, y) + corner(x + 2, y + 2) + end;
+            plate += begin + corner(x, y) + corner(x + 2, y + 2) + corner(x, y + 2) + end;
+        }
+    }
+    write_content(path("plate.stl"), plate + "endsolid plate\n");
+    const Ended ended = run({"import", path("plate.stl"), "--out", path("plate.json")});
+    EXPECT_EQ(ended.exit_code, 3) << ended.err;
+    EXPECT_THAT(ended.err,
+                HasSubstr("warning: the mesh has a hole, 28.3 mm wide: the patch is fitted across"));
+    EXPECT_TRUE(std::filesystem::exists(path("plate.json")));
+    const auto told =
+        nlohmann::json::parse(run({"import", path("plate.stl"), "--out", path("plate.json"), "--json"}).out);
+    EXPECT_EQ(told.at("warnings").size(), 1U);
+    ASSERT_EQ(told.at("fit").at("holes_mm").size(), 1U);
+    EXPECT_NEAR(told.at("fit").at("holes_mm").at(0).get<double>(), 20.0 * std::sqrt(2.0), 0.01);
+    const Ended whole = run({"import", exported("dome.stl"), "--out", path("dome.json"), "--json"});
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_TRUE(nlohmann::json::parse(whole.out).at("warnings").empty());
+}
+
 TEST_F(ImportCommand, PointsInRowsAreMetExactly) {
     std::string text;
     for (const int x : {-30, -10, 10, 30}) {

@@ -24,7 +24,10 @@ TEST(PlanCommand, LeavesProgramReportAndPicture) {
     const fs::path project = small_project(scratch.path(), "dome");
     const Ended ended = run({"plan", project, "--out", scratch / "new/out"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(content_of(scratch / "new/out/program.ngc"), HasSubstr("G93"));
+    const std::string program = content_of(scratch / "new/out/program.ngc");
+    EXPECT_THAT(program, HasSubstr("G93"));
+    EXPECT_THAT(program, HasSubstr("mm on average inside the tracks)\n(note: only this face was checked)\n"));
+    EXPECT_THAT(ended.out, HasSubstr("\ndistances: only this face was checked, not the adjacent faces "));
     EXPECT_THAT(content_of(scratch / "new/out/preview.png"), StartsWith("\x89PNG"));
     const auto report = nlohmann::json::parse(content_of(scratch / "new/out/report.json"));
     EXPECT_EQ(report.at("grid").at("nu"), 6);

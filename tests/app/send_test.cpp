@@ -529,6 +529,44 @@ TEST_F(Send, ChecksTheTravelInTheModesThatTheControllerIsIn) {
     EXPECT_THAT(inches.err, HasSubstr("254.000 mm, but its travel is only 200.000 mm"));
 }
 
+/// A program that does not name G90, at a controller that begins in G91: 10, 20 and 10 mm are 40.
+TEST_F(Send, ChecksTheTravelOfAProgramWithoutG90WhereTheControllerIsInG91) {
+    const std::string eeprom = (scratch / "eeprom").string();
+    write_content(file, "G21\nG0 X10\nG0 X20\nG0 X10\nM30\n");
+    for (const bool fits : {false, true}) {
+        write_content(eeprom, fits ? "$N0=G91\n$130=41\n" : "$N0=G91\n$130=39\n");
+        Emulator emulator(port, {"--eeprom", eeprom, "--speed", "20"});
+        const Ended ended = run(words());
+        EXPECT_EQ(ended.exit_code, fits ? 0 : 1) << ended.err;
+        if (fits) {
+            EXPECT_EQ(last_record(logs).at("position"), nlohmann::json({40.0, 0.0, 0.0}));
+        } else {
+            EXPECT_THAT(ended.err,
+                        HasSubstr("zigzag.ngc:4: axis X would go from 0.000 mm to 40.000 mm in machine "
+                                  "coordinates, 40.000 mm, and its whole travel is 39.000 mm"));
+            EXPECT_TRUE(last_record(logs).is_null()) << "nothing was sent";
+        }
+        (void)emulator.stop();
+    }
+}
+
+TEST_F(Send, EndsWhereTheWorkSystemsOfTheProgramSay) {
+    const std::string eeprom = (scratch / "eeprom").string();
+    write_content(file, "G21 G90 G54\nG0 X0 Y0 Z5\nG1 X10 F1200\nG1 Y10\nG55\nG0 X0 Y0\nG1 X10\nM30\n");
+    for (const char* const reports : {"$10=0", "$10=1", "$10=2"}) {
+        write_content(eeprom, std::string(reports) + "\nG55=30,-5,2\n");
+        Emulator emulator(port, {"--eeprom", eeprom, "--speed", "20"});
+        auto trusting = words();
+        trusting.emplace_back("--trust-position"); // a stored offset at a Grbl that was just switched on
+        const Ended ended = run(trusting);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        EXPECT_THAT(ended.out, HasSubstr("All 8 blocks were executed"));
+        // M30 brings G54 back, which is zero: these are machine coordinates.
+        EXPECT_EQ(last_record(logs).at("position"), nlohmann::json({40.0, -5.0, 5.0})) << reports;
+        (void)emulator.stop();
+    }
+}
+
 TEST_F(Send, SaysWhichAlarmEndedAHoming) {
     const std::string eeprom = (scratch / "eeprom").string();
     write_content(eeprom, "$22=1\n$130=20\n$131=20\n$132=20\n$25=3000\n");
@@ -539,6 +577,8 @@ TEST_F(Send, SaysWhichAlarmEndedAHoming) {
     const Ended ended = run(homing);
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("alarm 9: homing failed: no limit switch was found"));
+    EXPECT_THAT(ended.err, testing::Not(HasSubstr("stopping")));
+    EXPECT_TRUE(last_record(logs).is_null()) << "the program was not begun";
 }
 
 TEST_F(Send, RefusesMistWhereGrblWasBuiltWithoutIt) {

@@ -100,9 +100,14 @@ TEST(ClosestPoint, IsTheNearestOfAWildNetToo) {
         for (int n = 0; n < 100; ++n) {
             const Vec3 point(across(random), across(random), height(random));
             const double by_force = least_distance(raster, point);
-            EXPECT_LE(search.closest(point).distance, by_force + 1e-12) << points << " points, try " << n;
-            EXPECT_LE(search.closest(point, {guess(random), guess(random)}).distance, by_force + 1e-12)
-                << points << " points, guess " << n;
+            for (const ClosestPoint& found :
+                 {search.closest(point), search.closest(point, {guess(random), guess(random)})}) {
+                EXPECT_LE(found.distance, by_force + 1e-12) << points << " points, try " << n;
+                // A place of the patch, so that no nearer one is made up.
+                const Vec3 there = patch.position(found.parameters.x(), found.parameters.y());
+                EXPECT_LT((found.position - there).norm(), 1e-9);
+                EXPECT_NEAR(found.distance, (point - there).norm(), 1e-9);
+            }
         }
     }
 }

@@ -130,6 +130,14 @@ TEST_P(GrblWorkReports, GiveTheMachinesPositionAcrossChangesOfTheOffset) {
     }
     EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;
     EXPECT_LT(farthest, 6.0); // rapids go 50 mm/s and are reported ten times per second
+    const DriverStatus at_end = wire.session.status();
+    const Vec3 end(20.0, 0.0, 4.0); // G55 stands at 100, -50, 0; the tool is 3 mm long at Z1
+    ASSERT_EQ(at_end.position.size(), 3);
+    EXPECT_LT((at_end.position.head<3>() - end).norm(), 0.002);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(wire.grbl.position()[axis], end[static_cast<Eigen::Index>(axis)], 0.002);
+    }
+    EXPECT_LT((at_end.work_position().head<3>() - end).norm(), 0.002); // M30 brings G54 back, which is zero
     EXPECT_EQ(wire.session.status().executed_blocks, 15);
 }
 

@@ -15,6 +15,7 @@ struct GrblAnswer {
     int error = 0;                     ///< 0: ok
     std::string_view modes = at_start; ///< $G afterwards
     std::array<double, 3> position{};  ///< machine coordinates afterwards, mm
+    bool was_under_way = false;        ///< `position` was still being gone to when the firmware was asked
 };
 
 inline constexpr auto grbl_answers = std::to_array<GrblAnswer>({
@@ -179,6 +180,8 @@ inline constexpr auto grbl_answers = std::to_array<GrblAnswer>({
     {"M300", 23},
     {"G59.1", 23},
     {"G80 G0 X1", 21},
+    {"G0 X123456.789", 0, at_start, {123456.789, 0, 0}, true},
 });
+static_assert(grbl_answers.size() == 162); // as docs/reference/grbl.md says
 
 } // namespace millwright::test

@@ -34,10 +34,13 @@ std::string answer_of(GrblEmulator& grbl, std::string_view line) {
             grbl.receive("~"); // after M0
         }
     }
+    return text;
+}
+
+void come_to_rest(GrblEmulator& grbl) {
     while (grbl.moving() || grbl.planned_blocks() > 0) {
         grbl.advance(0.01);
     }
-    return text;
 }
 
 std::string modes_of(GrblEmulator& grbl) {
@@ -57,6 +60,13 @@ TEST(GrblAnswers, TheEmulatedControllerAnswersAsTheFirmware) {
         } else {
             EXPECT_TRUE(answer.ends_with("ok\r\n")) << answer;
         }
+        if (known.was_under_way) { // hours away
+            grbl.advance(0.1);
+            EXPECT_TRUE(grbl.moving());
+            EXPECT_EQ(modes_of(grbl), known.modes);
+            continue;
+        }
+        come_to_rest(grbl);
         EXPECT_EQ(modes_of(grbl), known.modes);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             EXPECT_NEAR(grbl.position()[axis], known.position[axis], 0.0005);
