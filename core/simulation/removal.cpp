@@ -104,7 +104,7 @@ void divide(const CuttingBody& cutter,
             bool contact_counts,
             std::vector<CutStep>& steps) {
     const double turn = angle_between(from.axis, to.axis);
-    const double longest = 0.5 * cutter.body.shape().radius; // farther apart, tiles are told apart badly
+    const double longest = 0.5 * cutter.body.shape().radius; // longer steps reach too many tiles
     const double wanted =
         std::max({1.0, std::ceil(turn / largest_turn), std::ceil((to.tip - from.tip).norm() / longest)});
     constexpr double most = 1e7;

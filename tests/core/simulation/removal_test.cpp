@@ -316,7 +316,7 @@ TEST(Removal, ARapidThatLeavesACutOrSlidesOnTheStockIsNoContact) {
     const ToolPose end{Vec3(15.0, 10.0, -2.0), axis};
     cut.cut({{Vec3(5.0, 10.0, -2.0), axis}, end});
     cut.cut({end, {Vec3(end.tip + 20.0 * axis), axis}}, true);
-    cut.cut({{Vec3(-5.0, 10.0, 0.0), Vec3::UnitZ()}, {Vec3(35.0, 10.0, 0.0), Vec3::UnitZ()}}, true);
+    cut.cut({{Vec3(-5.0, 10.0, -0.005), Vec3::UnitZ()}, {Vec3(35.0, 10.0, -0.005), Vec3::UnitZ()}}, true);
     for (const auto& [move, made] : cut.removal().cuts()) {
         EXPECT_FALSE(made.contact.has_value());
     }
