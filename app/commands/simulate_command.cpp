@@ -163,42 +163,44 @@ int simulate(const SimulateOptions& options) {
 void add_simulate_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<SimulateOptions>();
     CLI::App& command = *app.add_subcommand(
-        "simulate",
-        "Cut a stock by a program: what is left, gouges, and rapid moves that go through material");
+        "simulate", "Simulate material removal: remaining stock, gouges, and rapid moves through material");
     command.add_option("FILE", options->file, "Project, or G-code file")->required();
-    command.add_option("--machine", options->machine, "Shipped machine or machine file, of a G-code file")
+    command.add_option("--machine", options->machine, "Shipped machine or machine file, for a G-code file")
         ->type_name("NAME|FILE");
     command
         .add_option("--stock",
                     options->stock,
                     "box:LX,LY,LZ[@X,Y,Z], cylinder:D,L[,x|y|z][@X,Y,Z], tube:D,BORE,L[,x|y|z][@X,Y,Z] or "
-                    "FILE.stl[@X,Y,Z]; of a project by default the box of its surface and 2 mm more")
+                    "FILE.stl[@X,Y,Z] (default for a project: the bounding box of its surface plus 2 mm)")
         ->type_name("SPEC");
     command
         .add_option(
             "--tool",
             options->tools,
             "flat:D, ball:D, bull:D:R, v:ANGLE:D[:TIP|:rR], drill:D[:ANGLE], each with :lLENGTH, or a "
-            "tool file; N=SPEC for the tool of T N, once for each")
+            "tool file; N=SPEC sets the tool of T N (repeatable)")
         ->type_name("[N=]SPEC")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--resolution", options->resolution, "Distance of the lines that are cut, mm")
+    command
+        .add_option("--resolution",
+                    options->resolution,
+                    "Spacing of the dexel lines, mm (default: longest stock edge / 400)")
         ->type_name("MM")
         ->check(above_zero());
     command
         .add_option("--part",
                     options->part,
-                    "Mesh in mm to compare what is left with; of a project by default the machined face")
+                    "Mesh of the part to compare with, mm (default for a project: the machined face)")
         ->type_name("FILE");
-    command.add_option("--tolerance", options->tolerance, "Of the comparison, mm")
+    command.add_option("--tolerance", options->tolerance, "Tolerance of the comparison, mm")
         ->type_name("MM")
         ->check(not_below_zero());
-    command.add_option("--memory", options->memory_mb, "Memory that they may take, MB")
+    command.add_option("--memory", options->memory_mb, "Memory limit of the dexel field, MB")
         ->type_name("MB")
         ->check(above_zero());
     add_origin_option(command, options->origin);
-    command.add_option("--dialect", options->dialect, "Whose rules hold")
+    command.add_option("--dialect", options->dialect, "G-code dialect")
         ->check(CLI::IsMember({"linuxcnc", "grbl"}))
         ->capture_default_str();
     command
@@ -209,7 +211,7 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
         ->check(CLI::ExistingDirectory)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_flag("--block-delete", options->block_delete, "Leave out lines that begin with /");
+    command.add_flag("--block-delete", options->block_delete, "Skip lines that begin with / (block delete)");
     command
         .add_option("--out",
                     options->out,

@@ -166,12 +166,13 @@ void read_into(Survey& found,
     found.errors = reader.errors();
     found.unread_lines.clear();
     for (const Diagnostic& error : found.errors) {
-        const bool is_known = !found.unread_lines.empty() && found.unread_lines.back() == error.place.line;
-        if (error.place.file == file && error.place.line > 0 && !is_known) {
+        if (error.place.file == file && error.place.line > 0) {
             found.unread_lines.push_back(error.place.line);
         }
     }
     std::ranges::sort(found.unread_lines);
+    const auto doubles = std::ranges::unique(found.unread_lines);
+    found.unread_lines.erase(doubles.begin(), doubles.end());
     const int last = reader.place().file == 0 ? reader.place().line : 0;
     const bool ended_by_it = !found.unread_lines.empty() && found.unread_lines.back() == last;
     found.unread_from = ended_by_it ? last : 0;

@@ -96,7 +96,7 @@ constexpr std::array<NumberSetting<EllipticInput>, 8> of_elliptic{{
      6,
      field<&EllipticInput::tolerance>},
     {"max_iterations",
-     "Iterations per round",
+     "Max. iterations",
      "",
      "Maximum number of solver iterations per round",
      1,
@@ -170,7 +170,7 @@ constexpr std::array<NumberSetting<MixSettings>, 7> of_mix{{
 
 constexpr std::array<NumberSetting<TracksInput>, 4> of_tracks{{
     {"lattice",
-     "Candidates per track",
+     "Candidates",
      "",
      "Lattice points per track from which its nodes are chosen; 0 = automatic: max(160, 4 n) for n nodes",
      0,

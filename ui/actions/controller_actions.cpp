@@ -92,6 +92,9 @@ Permission can_trust(const Workbench& now) {
     if (const Permission connected = can_disconnect(now); !connected.allowed) {
         return connected;
     }
+    if (now.controller.can.told_place) {
+        return Permission::refused("This machine does not report its position: enter it.");
+    }
     return now.controller.status.position_doubt.empty() ? Permission::refused("The position is not in doubt.")
                                                         : Permission{};
 }

@@ -23,7 +23,11 @@ void save(Hands& hands) {
 }
 
 Permission has_listing(const Workbench& now) {
-    return now.listing() ? Permission{} : Permission::refused("There is no program yet.");
+    if (!now.listing()) {
+        return Permission::refused("There is no program yet.");
+    }
+    return now.program_is_current() ? Permission{}
+                                    : Permission::refused("The program is still being computed.");
 }
 
 Permission can_change_file(const Workbench& now) {

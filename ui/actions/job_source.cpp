@@ -118,8 +118,9 @@ Permission program_ready(const Workbench& now) {
     if (!now.program() || !now.trajectory() || !now.listing()) {
         return Permission::refused("There is no program yet.");
     }
-    return now.plan->program_exact ? Permission{}
-                                   : Permission::refused("The program is still being computed.");
+    return now.plan->program_exact && now.program_is_current()
+               ? Permission{}
+               : Permission::refused("The program is still being computed.");
 }
 
 Permission axes_ready(const Workbench& now) {

@@ -15,7 +15,7 @@ namespace {
 
 bool same_positions(const kinematics::AxisPositions& a, const kinematics::AxisPositions& b) {
     constexpr double noise = 1e-3; // mm or rad: of scales read at rest
-    return a.size() == b.size() && (a.size() == 0 || (a - b).cwiseAbs().maxCoeff() <= noise);
+    return a.size() == b.size() && (a.size() == 0 || !((a - b).cwiseAbs().maxCoeff() > noise)); // NaN is NaN
 }
 
 bool same_offsets(const std::vector<drivers::StoredOffset>& a, const std::vector<drivers::StoredOffset>& b) {
@@ -43,14 +43,21 @@ bool same_abilities(const drivers::Capabilities& a, const drivers::Capabilities&
 bool same_machine(const ControllerView& a, const ControllerView& b) {
     return a.link == b.link && a.choice.kind == b.choice.kind && a.axes == b.axes &&
            a.status.modes == b.status.modes && a.status.tool == b.status.tool &&
-           same_abilities(a.can, b.can) && same_limits(a.limits, b.limits) &&
-           same_positions(a.status.position, b.status.position) && same_offsets(a.offsets, b.offsets);
+           a.status.position_doubt == b.status.position_doubt &&
+           a.status.position_lost == b.status.position_lost && same_abilities(a.can, b.can) &&
+           same_limits(a.limits, b.limits) && same_positions(a.status.position, b.status.position) &&
+           same_offsets(a.offsets, b.offsets);
 }
 
 } // namespace
 
 RunWish run_wish(const Workbench& now) {
-    return {job_source(now), now.session.begin.on ? now.approach : nullptr, now.controller};
+    RunWish wish{job_source(now), now.session.begin.on ? now.approach : nullptr, now.controller, {}};
+    if (const auto& change = wish.source.tool_change; change && !change->macro_file.empty()) {
+        std::error_code failure; // of a file that is not there, which the check reports
+        wish.macro_written = std::filesystem::last_write_time(change->macro_file, failure);
+    }
+    return wish;
 }
 
 widgets::Permission run_check_passed(const Workbench& now) {
@@ -58,7 +65,8 @@ widgets::Permission run_check_passed(const Workbench& now) {
 }
 
 bool asks_the_same(const RunWish& a, const RunWish& b) {
-    return a.source == b.source && a.approach == b.approach && same_machine(a.machine, b.machine);
+    return a.source == b.source && a.approach == b.approach && a.macro_written == b.macro_written &&
+           same_machine(a.machine, b.machine);
 }
 
 RunCheck check_run(const std::shared_ptr<const RunWish>& wish, const Progress& progress) {

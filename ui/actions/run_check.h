@@ -9,6 +9,7 @@
 #include "ui/actions/job_source.h"
 #include "ui/actions/latest_work.h"
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct RunWish {
     JobSource source;
     std::shared_ptr<const Approach> approach; ///< of a job from a line; null: from its beginning
     ControllerView machine;                   ///< at rest
+    std::filesystem::file_time_type
+        macro_written; ///< of the tool change's macro, so that a repaired one is read
 };
 
 struct RunCheck {

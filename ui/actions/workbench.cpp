@@ -138,6 +138,10 @@ std::shared_ptr<const program::Listing> Workbench::listing() const {
     return plan ? plan->plan.listing : nullptr;
 }
 
+bool Workbench::program_is_current() const {
+    return plan != nullptr && plan->project == project;
+}
+
 std::string Workbench::gouge_warning() const {
     if (project.tool.cutter == toolpath::CutterKind::point || !plan) {
         return {};

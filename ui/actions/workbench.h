@@ -98,6 +98,8 @@ struct Workbench {
     [[nodiscard]] ProgramOfMachine arm_program() const;
     /// Of the project's own program.
     [[nodiscard]] std::shared_ptr<const program::Listing> listing() const;
+    /// Whether that is of the project as it is now, not as it was before the last change.
+    [[nodiscard]] bool program_is_current() const;
     /// How the project's program gouges the part, or that this is not known yet, as a sentence; empty if it
     /// does not.
     [[nodiscard]] std::string gouge_warning() const;

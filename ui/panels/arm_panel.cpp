@@ -100,8 +100,9 @@ void roll_fields(Ui& ui, const ArmBench& bench, ActionQueue& ask) {
         const widgets::FieldInfo field{"roll",
                                        "Roll",
                                        "\u00b0",
-                                       "Rotation of the tool about its axis. At 0 the tool's x axis lies in "
-                                       "the vertical plane through the tool axis and points up",
+                                       "Rotation of the tool about its axis, from where the shortest turn "
+                                       "from the base x axis to the tool axis takes the base -z axis. At 0 "
+                                       "the x axis of a level tool points down",
                                        -360.0,
                                        360.0,
                                        {},

@@ -317,7 +317,9 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
     }
     if (!machine.status.position_doubt.empty()) {
         ui.note(drivers::doubt_sentence(machine.status.position_doubt));
-        action_button(ui, now, ask, catalogue_, "machine.trust_position");
+        if (!machine.can.told_place) {
+            action_button(ui, now, ask, catalogue_, "machine.trust_position");
+        }
     }
     if (asks_where_it_stands(machine)) {
         stands_fields(ui, now, ask);

@@ -50,7 +50,10 @@ bool waits_for_a_link(const Workbench& now) {
 std::string checked_sentence(const Workbench& now, const std::string& name) {
     const bool another =
         now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
-    const bool both = another && now.run_check != nullptr && now.run_check->wish->source.as_text;
+    const auto is_bounded = [](const auto& axis) { return axis.min.has_value() && axis.max.has_value(); };
+    const bool both = another && now.run_check != nullptr && now.run_check->faults.empty() &&
+                      now.run_check->wish->source.as_text &&
+                      std::ranges::all_of(now.run_check->wish->machine.limits.axes, is_bounded);
     return fmt::format("Check passed: axes and travel are within the limits of {}{}. Feed rates above the "
                        "axis limits are reduced.{}",
                        name,

@@ -59,7 +59,7 @@ void stands_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             });
         }
     }
-    if (ui.button("there", "Confirm position", can_say(machine.status))) {
+    if (ui.button("there", "Set position", can_say(machine.status))) {
         kinematics::AxisPositions place(std::ssize(machine.axes));
         for (std::size_t n = 0; n < values.size(); ++n) {
             const bool turns = machine.axes[n].kind == AxisKind::rotary;

@@ -167,7 +167,9 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (!status.position_doubt.empty()) {
         (void)widgets::banner(
             ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(status.position_doubt), {}});
-        action_button(ui, now, ask, catalogue_, "machine.trust_position");
+        if (!now.controller.can.told_place) {
+            action_button(ui, now, ask, catalogue_, "machine.trust_position");
+        }
     }
     if (!wish.gouges.empty()) {
         (void)widgets::banner(ui, "gouges", {widgets::Severity::danger, wish.gouges, {}});

@@ -244,7 +244,7 @@ std::string guard_refusal(std::string_view line) {
         return "what it writes into the card's memory could be the guard's program or its variables: only "
                "the "
                "encoder table (WY:$720 to $73F), WX:$783 to $787 and the dual-ported memory ($D000 to $DFFF) "
-               "are written";
+               "may be written by W commands";
     }
     for (const Assignment& one : assignments_of(text)) {
         if (one.letter == 'I') {

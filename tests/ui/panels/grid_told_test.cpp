@@ -50,8 +50,8 @@ TEST_F(GridTold, ACancelledChainLeavesANotice) {
     person_.keep("grid-chain-running");
     person_.workshop().run("work.cancel");
     person_.wait_idle();
-    EXPECT_TRUE(
-        was_told("Cancelled: Moving all nodes at once. What is missing is made with the next change"));
+    EXPECT_TRUE(was_told("Cancelled: Moving all nodes at once. Missing results are computed after the next "
+                         "change of the project"));
     EXPECT_FALSE(person_.workshop().look().plan->plan.grid(GridMethod::chain).evaluation);
     person_.keep("grid-chain-cancelled");
 }

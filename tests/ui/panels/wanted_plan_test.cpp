@@ -1,5 +1,6 @@
 // What is not looked at is not made: the window asks for more when a workspace comes up that shows it.
 #include "tests/ui/panels/person.h"
+#include "ui/actions/job_source.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,6 +103,24 @@ TEST_F(WantedPlan, TheProgramStaysReadyWhileMoreIsMade) {
     } while (person_.workshop().look().activity.busy);
     EXPECT_TRUE(ready);
     EXPECT_NE(grid(GridMethod::elliptic), nullptr);
+}
+
+// Else the machine would run with the feed, the height or the path from before the edit.
+TEST_F(WantedPlan, TheProgramFromBeforeAnEditIsNeitherRunNorWritten) {
+    go_to(Key::f6);
+    person_.workshop().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
+    person_.wait_idle();
+    ASSERT_TRUE(actions::program_ready(person_.workshop().look()).allowed);
+    person_.workshop().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
+    EXPECT_EQ(actions::program_ready(person_.workshop().look()).reason,
+              "The program is still being computed.");
+    EXPECT_FALSE(person_.workshop()
+                     .catalogue()
+                     .find("file.write_program")
+                     .permission(person_.workshop().look())
+                     .allowed);
+    person_.wait_idle();
+    EXPECT_TRUE(actions::program_ready(person_.workshop().look()).allowed);
 }
 
 } // namespace

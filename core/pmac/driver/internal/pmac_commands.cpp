@@ -164,7 +164,7 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
         throw PowerRefused(
             fmt::format("'{}' would enable {}, which is disabled", fmt::join(lines, " "), name_of(*to)),
             {},
-            "inspect the machine, then enable its motors: --power on the command line");
+            "inspect the machine, then enable its motors");
     }
     command_lines_.clear();
     finish(Stage::stopping);
