@@ -1,5 +1,6 @@
 #include "core/plan/internal/derivation.h"
 
+#include "core/plan/internal/failure.h"
 #include "core/project/assets.h"
 
 #include <algorithm>
@@ -120,34 +121,41 @@ void Derivation::run(Quality quality, const Publish& publish, const Progress& pr
 /// comes to a fault again, and with a program first.
 void Derivation::make(std::size_t n, Quality quality, const Progress& progress) {
     Entry& entry = entries_[n];
-    const std::optional<project::GridMethod> owner = entry.stage.fault_of;
-    try {
-        progress.check();
-        if (!entry.stage.title.empty() &&
-            (quality == Quality::exact || (quality == Quality::coarse && !owner))) {
-            progress.report(0.0, entry.stage.title);
-        }
-        std::vector<std::uint64_t> read = numbers_read(entry.stage);
-        const bool found = entry.stage.make({plan_, *source_, earlier_, quality, progress});
-        if (!found && quality != Quality::exact) {
-            return;
-        }
-        entry.made = ++count_;
-        entry.quality = entry.stage.graded ? quality : Quality::exact;
-        entry.read = std::move(read);
-        published_ = published_ && !(entry.stage.share > 0.0);
-        drop_stale();
-    } catch (const Error& error) {
-        const bool passing = quality == Quality::carried && entry.stage.graded; // a guess
-        if (!owner && !passing) {
-            throw;
-        }
-        if (owner && quality == Quality::exact) {
-            plan_.grid(*owner).failure = error.diagnostic();
+    if (const auto owner = entry.stage.fault_of) {
+        const auto failure = failure_of([&] { make_result(entry, quality, progress); });
+        if (failure && quality == Quality::exact) {
+            plan_.grid(*owner).failure = failure;
             drop(entry);
             drop_stale();
         }
+        return;
     }
+    try {
+        make_result(entry, quality, progress);
+    } catch (const Error&) {
+        const bool is_guess = quality == Quality::carried && entry.stage.graded;
+        if (!is_guess) {
+            throw;
+        }
+    }
+}
+
+void Derivation::make_result(Entry& entry, Quality quality, const Progress& progress) {
+    progress.check();
+    const bool is_named = quality == Quality::exact || (quality == Quality::coarse && !entry.stage.fault_of);
+    if (is_named && !entry.stage.title.empty()) {
+        progress.report(0.0, entry.stage.title);
+    }
+    std::vector<std::uint64_t> read = numbers_read(entry.stage);
+    const bool found = entry.stage.make({plan_, *source_, earlier_, quality, progress});
+    if (!found && quality != Quality::exact) {
+        return;
+    }
+    entry.made = ++count_;
+    entry.quality = entry.stage.graded ? quality : Quality::exact;
+    entry.read = std::move(read);
+    published_ = published_ && !(entry.stage.share > 0.0);
+    drop_stale();
 }
 
 void Derivation::drop_stale() {

@@ -245,7 +245,12 @@ Stage unsequenced_stage(const project::Project& project, const Scope& scope) {
                 },
             .make =
                 [](const StageWork& work) {
-                    add_unsequenced(work.plan, work.project(), work.progress);
+                    try { // only compared with: without it there is a program all the same
+                        add_unsequenced(work.plan, work.project(), work.progress);
+                    } catch (const Error&) {
+                        work.plan.unsequenced = nullptr;
+                        work.plan.unsequenced_time.reset();
+                    }
                     return true;
                 },
             .clear =

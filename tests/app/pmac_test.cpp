@@ -81,7 +81,7 @@ TEST_F(Pmac, WarnsOfWhatAFileTurnsOff) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("pmac.ini:2:1: I125 bit 17: motor 1: its limit switches are ignored"));
     EXPECT_THAT(ended.err, HasSubstr("pmac.ini:3:1: I111=0"));
-    EXPECT_THAT(ended.err, HasSubstr("pmac.ini:5:1: NONSENSE is left out"));
+    EXPECT_THAT(ended.err, HasSubstr("pmac.ini:5:1: NONSENSE is skipped"));
     EXPECT_EQ(ended.out, ""); // nothing more was sent
     EXPECT_EQ(run({"pmac", "I131", "--port", port}).out, "795\n");
     write_content(scratch / "pmac.ini", "I131=many\nI130=702");

@@ -78,7 +78,7 @@ TEST(RenderCommand, DrawsFromOtherSidesInOtherColours) {
     const Ended wrong =
         run({"render", project, "--view", "design", "--color", "sky=#ffffff", "--out", scratch / "o.png"});
     EXPECT_EQ(wrong.exit_code, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("there are background, surface,"));
+    EXPECT_THAT(wrong.err, HasSubstr("the IDs are background, surface,"));
     EXPECT_EQ(
         run({"render", project, "--view", "design", "--color", "grid_u=red", "--out", scratch / "o.png"})
             .exit_code,

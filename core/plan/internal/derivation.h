@@ -51,6 +51,7 @@ private:
     void take_over(const std::vector<Entry>& last, const std::optional<Source>& source);
     void run(Quality quality, const Publish& publish, const Progress& progress);
     void make(std::size_t n, Quality quality, const Progress& progress);
+    void make_result(Entry& entry, Quality quality, const Progress& progress);
     void drop_stale();
     void drop(Entry& entry);
     void publish_changes(const Publish& publish);

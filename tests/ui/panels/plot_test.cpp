@@ -118,7 +118,7 @@ TEST(PlotWorkspace, ADrawingBeyondTheTableSaysWhichOriginWouldDo) {
     bench.person.fill_in("inspector/work/origin_x_mm", "600");
     bench.settle();
     ASSERT_TRUE(bench.made().failure);
-    EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("axis X would have to go to"));
+    EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("axis X would have to move to"));
     EXPECT_THAT(to_text(*bench.made().failure), testing::HasSubstr("set the origin to"));
     bench.person.frames(3);
     EXPECT_TRUE(bench.person.sees("layers/failure"));
