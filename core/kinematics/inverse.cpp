@@ -139,7 +139,7 @@ int axis_outside(const MachineModel& machine, const AxisPositions& q) {
 std::string axis_limit_sentence(const MachineAxis& axis, double position) {
     const bool rotary = axis.kind == AxisKind::rotary;
     const auto shown = [&](double value) { return rotary ? to_degrees(value) : value; };
-    return fmt::format("axis {} would have to go to {:.3f}, outside {:.3f} ... {:.3f} {}",
+    return fmt::format("axis {} would have to move to {:.3f}, outside {:.3f} ... {:.3f} {}",
                        axis.letter,
                        shown(position),
                        shown(axis.min),

@@ -27,7 +27,7 @@ void expect_inside(const arm::ArmModel& arm, const JointPositions& joints) {
     const ArmJoint& joint = arm.joint(n);
     const bool turns = joint.kind == arm::JointKind::revolute;
     const auto shown = [&](double value) { return turns ? to_degrees(value) : value; };
-    throw Error(fmt::format("joint {} would have to go to {:.3f} {}, but its limits are {:.3f} and {:.3f}",
+    throw Error(fmt::format("joint {} would have to move to {:.3f} {}, but its limits are {:.3f} and {:.3f}",
                             joint.name,
                             shown(joints[n]),
                             turns ? "deg" : "mm",

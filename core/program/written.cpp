@@ -32,7 +32,7 @@ bool inside(const MachineAxis& axis, double position) {
 }
 
 [[noreturn]] void outside(const MachineAxis& axis, double position, int block) {
-    throw Error(fmt::format("block {}: axis {} would have to go to {:.3f}, outside {:.3f} ... {:.3f} {}",
+    throw Error(fmt::format("block {}: axis {} would have to move to {:.3f}, outside {:.3f} ... {:.3f} {}",
                             block + 1,
                             axis.letter,
                             for_people(axis, position),

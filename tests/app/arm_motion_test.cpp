@@ -64,7 +64,7 @@ TEST(Arm, SimulatesAnyArmFromWhereItIsToldToBegin) {
     EXPECT_THAT(ended.out, HasSubstr("tool axis turned by at most 0.000 deg"));
     EXPECT_THAT(content_of(out), HasSubstr("\n 6 := 20.00000 \n"));
     EXPECT_THAT(run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "1,2,3"}).err,
-                HasSubstr("UR5 has 6 joints, 3 positions were given"));
+                HasSubstr("UR5 has 6 joints, but 3 positions were given"));
     EXPECT_THAT(run({"arm", "simulate", file, "--out", out, "--arm", arm, "--start", "400,0,0,0,0,0"}).err,
                 HasSubstr("--start is outside the limits of joint 1"));
     // Outwards from the stretched arm: the answer names the point, and how far it is off.

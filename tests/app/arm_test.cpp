@@ -329,10 +329,11 @@ TEST(Arm, MakesItsBodies) {
 }
 
 TEST(Arm, RefusesWhatIsNoPoseAndNoArm) {
-    EXPECT_THAT(run({"arm", "fk", "0", "0"}).err, HasSubstr("has 5 joints, 2 positions were given"));
+    EXPECT_THAT(run({"arm", "fk", "0", "0"}).err, HasSubstr("has 5 joints, but 2 positions were given"));
     EXPECT_THAT(run({"arm", "fk", "nan", "0", "0", "0", "0"}).err, HasSubstr("not a finite number"));
     EXPECT_THAT(run({"arm", "ik", "1", "2", "3", "0", "0", "0"}).err, HasSubstr("no direction"));
-    EXPECT_THAT(run({"arm", "ik", "1e300", "2", "3", "0", "0", "1"}).err, HasSubstr("farther than 1e+06 mm"));
+    EXPECT_THAT(run({"arm", "ik", "1e300", "2", "3", "0", "0", "1"}).err,
+                HasSubstr("farther away than 1e+06 mm"));
     EXPECT_THAT(run({"arm", "fk", "0", "0", "0", "0", "0", "--arm", "puma"}).err,
                 HasSubstr("known: motoman-l3, scara, six-axis"));
     EXPECT_EQ(run({"arm", "ik", "1", "2"}).exit_code, 2);
@@ -352,7 +353,7 @@ TEST(Arm, HelpsWithSettingUp) {
     EXPECT_THAT(resistors.out, HasSubstr("18.18 kOhm"));
     EXPECT_THAT(resistors.out, HasSubstr("model 8/16: 18.00 kOhm"));
     EXPECT_THAT(resistors.out, HasSubstr("6.60 kOhm"));
-    EXPECT_THAT(run({"arm", "amplifier", "--peak", "7", "--nominal", "16"}).err, HasSubstr("7 A, is less"));
+    EXPECT_THAT(run({"arm", "amplifier", "--peak", "7", "--nominal", "16"}).err, HasSubstr("7 A, is below"));
     EXPECT_THAT(run({"arm", "amplifier", "--peak", "16", "--nominal", "9"}).err, HasSubstr("less than 9 A"));
     EXPECT_EQ(run({"arm", "amplifier"}).exit_code, 2);
     EXPECT_EQ(run({"arm", "amplifier", "--nominal", "7"}).exit_code, 2);

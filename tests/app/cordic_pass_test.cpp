@@ -65,7 +65,7 @@ TEST(CordicPass, AccuracyAndHardwareKnowEachSystem) {
     ASSERT_EQ(measured.exit_code, 0) << measured.err;
     EXPECT_THAT(content_of(folder.path() / "accuracy.csv"), HasSubstr("f64,ieee,thesis 29 hyperbolic,1000,"));
     EXPECT_THAT(run({"cordic", "accuracy", "--out", out, "--system", "hyperbolic", "--format", "q3.20"}).err,
-                HasSubstr("need 4 bits before the point"));
+                HasSubstr("use at least 4 bits before the point"));
     const Ended written = run({"cordic", "rtl", "--out", out, "--system", "linear", "--vectors", "10"});
     ASSERT_EQ(written.exit_code, 0) << written.err;
     EXPECT_THAT(content_of(folder.path() / "cordic_core.v"), HasSubstr("29 linear steps"));

@@ -145,7 +145,7 @@ TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     write_content(file, "G21\nG0 X1\nG0 Z2 A3\nM2\n");
     const Ended axis = run({"cordic", "run", file.string()});
     EXPECT_EQ(axis.exit_code, 1);
-    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor does not support axis A"));
+    EXPECT_THAT(axis.err, HasSubstr("part.ngc:3:7: the CORDIC processor has no axis A"));
     EXPECT_EQ(run({"cordic", "run", file.string(), "--other-axes"}).exit_code, 0);
     const auto text = folder.path() / "wrong.asm";
     write_content(text, "G01\n MOV Q, 1\n");
@@ -194,7 +194,7 @@ TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
                  {"--microprogram", micro}},
              Bad{"g.asm", "HLT\n", "label.micro:2:", {"--microprogram", label}},
              Bad{"h.bin", "MWCP?", "h.bin"},
-             Bad{"i.ngc", "G21 S100 M19 R0\nM2\n", "no spindle orientation"},
+             Bad{"i.ngc", "G21 S100 M19 R0\nM2\n", "does not support spindle orientation"},
          }) {
         const auto file = folder.path() / bad.name;
         write_content(file, bad.text);

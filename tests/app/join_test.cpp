@@ -75,7 +75,7 @@ TEST_F(JoinCommand, NamesTheSeamThatStaysOpen) {
     EXPECT_TRUE(nlohmann::json::parse(wider.out).at("open_seams").empty());
     const Ended none = run({"join", b, c, "--out", path("one.json")});
     EXPECT_EQ(none.exit_code, 1);
-    EXPECT_THAT(none.err, HasSubstr("left open: 0 u = 1 - 1 u = 0 with a gap of 5.0000 mm"));
+    EXPECT_THAT(none.err, HasSubstr("open seams: 0 u = 1 - 1 u = 0 with a gap of 5.0000 mm"));
 }
 
 TEST_F(JoinCommand, SaysWhatIsWrong) {

@@ -139,7 +139,7 @@ TEST(PictureCommand, ReliefIsCutOutOfItsPlateWithTabs) {
                                         file};
     const Ended outside = run(command); // the frame is around the picture, which begins at 0, 0
     EXPECT_EQ(outside.exit_code, 1);
-    EXPECT_THAT(outside.err, HasSubstr("axis X would have to go to -2.100"));
+    EXPECT_THAT(outside.err, HasSubstr("axis X would have to move to -2.100"));
     EXPECT_THAT(outside.err, HasSubstr("--origin 2.100,2.100"));
     command.insert(command.begin() + 2, {"--origin", "3,3"});
     const Ended ended = run(command);

@@ -461,9 +461,10 @@ TEST(PlotCommand, ToolpathKeepsToTheTravelOfItsMachine) {
                     "--out",
                     file});
     };
-    EXPECT_THAT(at("100,0").err, HasSubstr("axis X would have to go to 500.000, outside 0.000 ... 480.000"));
+    EXPECT_THAT(at("100,0").err,
+                HasSubstr("axis X would have to move to 500.000, outside 0.000 ... 480.000"));
     EXPECT_FALSE(std::filesystem::exists(file));
-    EXPECT_THAT(at("0,-1").err, HasSubstr("axis Y would have to go to -1.000"));
+    EXPECT_THAT(at("0,-1").err, HasSubstr("axis Y would have to move to -1.000"));
     const Ended ended = at("80,10");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(file), HasSubstr("X480.0000"));

@@ -218,7 +218,7 @@ TEST_F(Pmac, AMotionProgramNeedsPowerThatAPersonGave) {
     const Ended ended =
         run({"send", file, "--driver", "pmac", "--port", port, "--log", (scratch / "logs").string()});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr("could not be enabled"));
+    EXPECT_THAT(ended.err, HasSubstr("the motors are not enabled"));
     EXPECT_THAT(run({"pmac", "#1P", "--port", port}).out, testing::ContainsRegex("^-?0(\\.[0-9])?\n"));
 }
 

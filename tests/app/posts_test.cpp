@@ -111,7 +111,7 @@ TEST_F(Posts, ConvertPutsTheZeroOfAProgramWhereItFits) {
         "gcode", "convert", plate, "--machine", "forming-table", "--post", "linuxcnc-xyz"};
     const Ended outside = run(words);
     EXPECT_EQ(outside.exit_code, 1);
-    EXPECT_THAT(outside.err, HasSubstr("axis X would have to go to -7.000"));
+    EXPECT_THAT(outside.err, HasSubstr("axis X would have to move to -7.000"));
     auto moved = words;
     moved.insert(moved.end(), {"--origin", "10,20"});
     const Ended inside = run(moved);
@@ -201,7 +201,7 @@ TEST_F(Posts, ConvertRefusesWhatPlannedMotionCannotDoAndTellsWhatItSaysOtherwise
                           "coordinates is unknown in Z (give the program zero"));
     ended = convert("router-xyz", "grbl", {"--origin", "1,2,-20"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("warning: " + part + ":2:1: mist (M7)"));
+    EXPECT_THAT(ended.err, HasSubstr("warning: " + part + ":2:1: mist coolant (M7)"));
     EXPECT_THAT(ended.out, HasSubstr("G0 X1.000 Y2.000 Z-15.000\nG1 X10.000 F300.0\nG0 Z0.000\n"));
 }
 
@@ -221,7 +221,7 @@ TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
     const std::string remembered = (scratch / "linuxcnc.var").string();
     Ended ended = convert("router-xyz", "grbl", {"--origin", "0,0,10"});
     EXPECT_EQ(ended.exit_code, 1);
-    EXPECT_THAT(ended.err, HasSubstr(":4:1: G28 would take Z from 15.000 to 0.000, towards the part"));
+    EXPECT_THAT(ended.err, HasSubstr(":4:1: G28 would move Z from 15.000 to 0.000, towards the part"));
     write_content(remembered, "5163 50\n5210 0\n5221 1\n5222 2\n5223 -20\n5230 0\n");
     ended = convert("router-xyz", "grbl", {"--parameters", remembered});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -542,8 +542,8 @@ TEST_F(Send, ChecksTheTravelOfAProgramWithoutG90WhereTheControllerIsInG91) {
             EXPECT_EQ(last_record(logs).at("position"), nlohmann::json({40.0, 0.0, 0.0}));
         } else {
             EXPECT_THAT(ended.err,
-                        HasSubstr("zigzag.ngc:4: axis X would go from 0.000 mm to 40.000 mm in machine "
-                                  "coordinates, 40.000 mm, and its whole travel is 39.000 mm"));
+                        HasSubstr("zigzag.ngc:4: axis X would move from 0.000 mm to 40.000 mm in machine "
+                                  "coordinates, a distance of 40.000 mm, but its travel is only 39.000 mm"));
             EXPECT_TRUE(last_record(logs).is_null()) << "nothing was sent";
         }
         (void)emulator.stop();

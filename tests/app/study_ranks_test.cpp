@@ -151,7 +151,7 @@ TEST_F(StudyOnRanks, ASetUpSearchFindsWhatOneProcessFinds) {
     for (const char* name : {"set-up.csv", "set-up.png"}) {
         EXPECT_EQ(content_of(folder_ / "one" / name), content_of(folder_ / "two" / name)) << name;
     }
-    EXPECT_THAT(both.err, HasSubstr("81 places on 2 ranks"));
+    EXPECT_THAT(both.err, HasSubstr("81 positions on 2 ranks"));
 }
 
 TEST_F(StudyOnRanks, PlacesOfALostRankAreNamed) {

@@ -205,7 +205,7 @@ TEST(StudyCommand, SaysThatAPartLargerThanTheMachineIsOutOfReach) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err,
                 AllOf(HasSubstr("cannot reach the whole part from any position in the search range (a "),
-                      HasSubstr(" cannot be reached: axis Y would have to go to "),
+                      HasSubstr(" cannot be reached: axis Y would have to move to "),
                       HasSubstr("make the part smaller")));
     EXPECT_EQ(ended.out, "");
     EXPECT_FALSE(std::filesystem::exists(scratch / "out")) << "no map of nothing";
@@ -222,7 +222,7 @@ TEST(StudyCommand, TellsOfAStartAndOfPlacesOfTheMapThatAreOutOfReach) {
                 AllOf(HasSubstr("\nthe start is out of reach: path point "),
                       HasSubstr(" cannot be reached: axis "),
                       HasSubstr("\nout of reach: "),
-                      HasSubstr(" of 25 places of the map\n")));
+                      HasSubstr(" of 25 positions of the map\n")));
 }
 
 TEST(StudyCommand, MapsTheSetUpAndWritesTheProjectThere) {

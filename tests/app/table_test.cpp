@@ -210,7 +210,7 @@ TEST(TableCommand, PointsWaitForTheirAnswers) {
     const Ended unheard = run(words);
     EXPECT_EQ(unheard.exit_code, 1);
     EXPECT_THAT(unheard.err, HasSubstr("the table did not answer point 1 within 1 s"));
-    EXPECT_THAT(silent.stop().out, HasSubstr("1 record obeyed"));
+    EXPECT_THAT(silent.stop().out, HasSubstr("1 record executed"));
 }
 
 TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
@@ -328,7 +328,7 @@ TEST(TableCommand, AnAnswerThatComesTwiceEndsTheJobBeforeTheNextRecord) {
     const Ended ended = run(send_words(program, port, folder));
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.out + ended.err, HasSubstr("the machine sent 'ok' before record 5 was sent"));
-    EXPECT_THAT(table.stop().out, HasSubstr("4 records obeyed"));
+    EXPECT_THAT(table.stop().out, HasSubstr("4 records executed"));
 }
 
 // Z is told with the velocity that is too high for it, and which option lowers it.

@@ -38,7 +38,7 @@ constexpr std::array<widgets::Option, 3> frames{
      {"tool", "Tool", {}, "Jog the tip along x, y and z of the tool frame"}}};
 constexpr std::array<double, 4> arm_jog_steps{0.0, 0.1, 1.0, 10.0};
 constexpr std::array<widgets::Option, 4> arm_jog_step_options{
-    {{"hold", "Cont.", {}, "Continuous: moves while the button is held"},
+    {{"hold", "Hold", {}, "Continuous: moves while the button is held"},
      {"0_1", "0.1"},
      {"1", "1"},
      {"10", "10"}}};

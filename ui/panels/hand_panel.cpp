@@ -28,7 +28,7 @@ using widgets::Rank;
 
 constexpr std::array<double, 5> jog_steps{0.0, 0.01, 0.1, 1.0, 10.0};
 constexpr std::array<widgets::Option, 5> jog_step_options{
-    {{"hold", "Cont.", {}, "Continuous: moves while the button is held"},
+    {{"hold", "Hold", {}, "Continuous: moves while the button is held"},
      {"0_01", "0.01"},
      {"0_1", "0.1"},
      {"1", "1"},

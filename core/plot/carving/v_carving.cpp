@@ -303,7 +303,8 @@ void note_left(const CarvingSettings& settings, Carving& made) {
     if (made.floor_left > 0.0) {
         note(fmt::format(
                  "{:.4g} mm2 of the floor at {:.3f} mm are not cleared", made.floor_left, made.deepest),
-             "clear them with a flat end mill, or with the bit: without --leave-floor (with Clear floor)");
+             "clear them with a flat end mill, or with the bit: leave out --leave-floor (Clear floor in the "
+             "window)");
     } else if (made.floor_area > 0.0) {
         note(fmt::format("outlines are too wide for the bit at {:.3f} mm: the bit clears {:.4g} mm2 of "
                          "floor, with ridges of up to {:.3f} mm between passes",

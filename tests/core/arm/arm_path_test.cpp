@@ -68,7 +68,7 @@ TEST(ArmPath, TellsWhereItsReachEnds) {
     ASSERT_EQ(path.findings.size(), 1U);
     const ArmFinding& finding = path.findings.front();
     EXPECT_EQ(finding.trouble, ArmTrouble::out_of_reach);
-    EXPECT_THAT(finding.why, HasSubstr("the arm reaches 291.924 to 1450.000"));
+    EXPECT_THAT(finding.why, HasSubstr("the arm reaches from 291.924 to 1450.000"));
     EXPECT_NEAR(1000.0 + 1000.0 * path.points[finding.first].share, 1450.0, 0.5);
     EXPECT_EQ(finding.last, path.points.size() - 1);
 }
@@ -121,7 +121,7 @@ TEST(ArmPath, NamesTheLimitWhereNoBranchIsLeft) {
         follow_path_well(ArmModel(narrow), {test::line_way(a, b, straight_down)}, rest(), {}, {});
     ASSERT_FALSE(path.whole());
     EXPECT_EQ(path.findings.front().trouble, ArmTrouble::joint_limit);
-    EXPECT_THAT(path.findings.front().why, HasSubstr("joint 2 would have to go to"));
+    EXPECT_THAT(path.findings.front().why, HasSubstr("joint 2 would have to move to"));
 }
 
 TEST(ArmPath, TurnsTheToolAxisAsFarAsItMay) {

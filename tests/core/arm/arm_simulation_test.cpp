@@ -47,7 +47,7 @@ TEST(ArmMotionFileS1, SaysWhereItIsWrong) {
     EXPECT_THAT(why("X1 ;\nY2 Q3 ;"), HasSubstr("a.mot:2:4: 'Q' is not a word"));
     EXPECT_THAT(why("X ;"), HasSubstr("a.mot:1:3: X needs a number"));
     EXPECT_THAT(why("X1 X2 ;"), HasSubstr("a.mot:1:4: X occurs twice"));
-    EXPECT_THAT(why("X1"), HasSubstr("no ';'"));
+    EXPECT_THAT(why("X1"), HasSubstr("the ';' after the last block is missing"));
     EXPECT_THAT(why("G4 X1 ;"), HasSubstr("a.mot:1:1: G needs a whole number from 1 to 3"));
     EXPECT_THAT(why("G2 X1 ;"), HasSubstr("either its centre (I J K) or its radius (R)"));
     EXPECT_THAT(why("A0 B0 C0 ;"), HasSubstr("no direction"));

@@ -110,7 +110,7 @@ TEST(IntelHex, IsReadWithItsPlacesOfErrors) {
     EXPECT_THAT(fault(":0300000002000BF0\nQ\n"), HasSubstr("a.ihx:2:1: a record of Intel HEX must start"));
     EXPECT_THAT(fault(":0300000002000B\n"), HasSubstr("does not match its length byte"));
     EXPECT_THAT(fault(":03000000020G0BF0\n"), HasSubstr("two hexadecimal digits"));
-    EXPECT_THAT(fault(":020000040001F9\n"), HasSubstr("record kind 04"));
+    EXPECT_THAT(fault(":020000040001F9\n"), HasSubstr("record type 04"));
     EXPECT_THAT(fault(":0300000002000BF0\n"), HasSubstr("ends without its end record"));
     EXPECT_THAT(fault(""), HasSubstr("ends without"));
 }

@@ -31,7 +31,7 @@ TEST(PlcAssembler, NamesLineAndColumnOfEveryMistake) {
                        "I0\n)\n)\n)\n)\n)\n)\n)\n)\n)",
                        9,
                        2,
-                       "more than 8 parentheses"},
+                       "nested more than 8 deep"},
          }) {
         const auto errors = assemble_plc(wrong.text, "wrong.plc").errors;
         ASSERT_FALSE(errors.empty()) << wrong.text;

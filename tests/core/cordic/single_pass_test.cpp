@@ -153,7 +153,7 @@ TEST(SinglePass, RefusesWhatTheFormatCannotHold) {
     EXPECT_THAT(pass_refusal(format, thesis_sequence(linear), {Mode::rotation, 2.5, 0.0, 0.5}),
                 HasSubstr("2.5 does not fit into q2.22"));
     EXPECT_THAT(pass_refusal(format, thesis_sequence(), {Mode::rotation, 1e-9, 0.0, 0.5}),
-                HasSubstr("is less than q2.22 can tell"));
+                HasSubstr("is below the resolution of q2.22"));
 }
 
 TEST(SinglePass, VectoringAddsToTheZItBeginsWith) {

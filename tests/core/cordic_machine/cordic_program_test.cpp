@@ -335,7 +335,7 @@ TEST(CordicCompiler, WarnsOfMovesWithoutLengthAndShorterThanTheFormatCanTell) {
     EXPECT_EQ(program.warnings[0].place.line, 2);
     EXPECT_THAT(program.warnings[0].message, HasSubstr("of zero length"));
     EXPECT_EQ(program.warnings[1].place.line, 3);
-    EXPECT_THAT(program.warnings[1].message, HasSubstr("less than q16.8 can tell"));
+    EXPECT_THAT(program.warnings[1].message, HasSubstr("below the resolution of q16.8"));
     EXPECT_EQ(run(program).published().size(), 2U);
 }
 

@@ -247,7 +247,7 @@ TEST_F(CadBodies, OfAFileWithoutAFaceIsToldWhatItHolds) {
     builder.MakeCompound(nothing);
     EXPECT_THAT(
         refusal(nothing, false),
-        ::testing::MatchesRegex("the file contains no face: 1 product without shape / an assembly .*"));
+        ::testing::MatchesRegex("the file contains no face: 1 product without shape / .*an assembly .*"));
     TopoDS_Compound frame;
     builder.MakeCompound(frame);
     builder.Add(frame, BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Shape());

@@ -260,7 +260,8 @@ TEST_F(CadFile, AUnitOfNoLengthIsRefusedWithItsLine) {
 TEST_F(CadFile, AUnitThatIsWrittenOtherwiseIsToldWithoutALine) {
     std::string text = dome_in("UNIT_HERE = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MYRIA.,.METRE.) );");
     text = std::regex_replace(text, std::regex("#106 ="), "#0106 =");
-    EXPECT_THAT(read_text(text, "zero.step").notes, ElementsAre(HasSubstr("unit of length #106 is not")));
+    EXPECT_THAT(read_text(text, "zero.step").notes,
+                ElementsAre(HasSubstr("unit of length #106 cannot be read")));
 }
 
 // Given one by one, each face costs the library a look at all that came before, and makes a part of its own.

@@ -136,7 +136,7 @@ TEST(GridSurface, RefusesPointsThatLieInOnePlace) {
         grid.points[static_cast<std::size_t>(4 * i + 2)] = grid.points[static_cast<std::size_t>(4 * i + 1)];
     }
     EXPECT_THAT(test::reason([&] { (void)surface_through(grid, {}, {}); }),
-                HasSubstr("in every row points 2 and 3 are in one place"));
+                HasSubstr("in every row, points 2 and 3 coincide"));
     const PointGrid long_one = grid_of(2, 1001, [](double, double) { return 0.0; });
     EXPECT_THAT(test::reason([&] { (void)surface_through(long_one, {}, {}); }), HasSubstr("1001 points"));
 }

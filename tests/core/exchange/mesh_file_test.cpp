@@ -299,7 +299,7 @@ TEST(MeshFile, SaysWhatIsWrongAndWhere) {
                 HasSubstr("part.obj:2: a face refers to point 2, but there are only 1"));
     EXPECT_THAT(refusal("v 0 0 0\nf 1 0 1\n", "part.obj"),
                 HasSubstr("part.obj:2: '0' is not a valid corner"));
-    EXPECT_THAT(refusal("v 0 0 0\nf 1 1\n", "part.obj"), HasSubstr("part.obj:2: a face has 2 corners"));
+    EXPECT_THAT(refusal("v 0 0 0\nf 1 1\n", "part.obj"), HasSubstr("part.obj:2: a face has only 2 corners"));
     EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 0\n", "part.ply"), HasSubstr("no end_header"));
     EXPECT_THAT(refusal("ply\nformat ascii 1.0\nelement vertex 300000000\n", "part.ply"),
                 HasSubstr("part.ply:3: '300000000' is not a valid number of elements for this file"));

@@ -61,7 +61,7 @@ TEST(MeasuredPoints, SayWhereTheFileIsWrong) {
     EXPECT_THAT(why_no_points("1 2 3\n1 2\n"),
                 HasSubstr("probe.csv:2: this line has 2 numbers, but needs three"));
     EXPECT_THAT(why_no_points("1 2 3\n1 2 3 4\n"),
-                HasSubstr("probe.csv:2: 4 this line has numbers, but the lines before have 3"));
+                HasSubstr("probe.csv:2: this line has 4 numbers, but the lines before have 3"));
     EXPECT_THAT(why_no_points("3\n1 2 3\n1 2 4\n"),
                 HasSubstr("probe.csv:1: the file declares 3 points, but contains 2"));
     EXPECT_THAT(why_no_points("# nothing\n\n"), HasSubstr("probe.csv: the file contains no points"));

@@ -145,9 +145,10 @@ TEST(CutPrograms, ACutFromWhereXOrYIsNotKnownHasNoPlace) {
               "part.ngc:3: this cut starts before the program has stated where X and Y are (add a rapid move "
               "with X and Y before the first cut)\n");
     EXPECT_THAT(unplaced("G0 Z5\nG1 Z-1 F100\nG1 X50 Y50\n"), HasSubstr("part.ngc:3: this cut starts"));
-    EXPECT_THAT(unplaced("G0 X0 Z5\nG1 Z-1 F100\nG1 X50\n"), HasSubstr("what Y is (name Y in"));
+    EXPECT_THAT(unplaced("G0 X0 Z5\nG1 Z-1 F100\nG1 X50\n"),
+                HasSubstr("where Y is (add a rapid move with Y"));
     EXPECT_THAT(unplaced("G0 Y0\nG0 Z-1\nG1 X50 F100\n"), HasSubstr("part.ngc:4: this cut starts"));
-    EXPECT_THAT(unplaced("G1 X50 Y50 Z-1 F100\n"), HasSubstr("what X and Y are"));
+    EXPECT_THAT(unplaced("G1 X50 Y50 Z-1 F100\n"), HasSubstr("where X and Y are"));
     EXPECT_EQ(unplaced("G0 X0 Y0\nZ5\nG1 Z-1 F100\nX50\n"), "") << "named, though at zero";
     EXPECT_EQ(unplaced("G1 Z5 F900\nG0 X0 Y0\nX3\nG1 Z-1 F100\nX50\n"), "") << "cuts nothing on its way up";
     EXPECT_EQ(unplaced("G0 Z5\nG1 X1 Y1 F900\nG0 X3\nG1 Z-1 F100\nX50\n"), "") << "in the air";

@@ -86,7 +86,7 @@ TEST(Placement, AnArcBeginsWhereTheProgramHasSaid) {
                 ElementsAre(HasSubstr("part.ngc:2:1: an arc starts")));
     EXPECT_THAT(unplaced("G21 G90 F100\nG0 X0 Y0\nG2 X10 Y0 I5\nM2\n"), IsEmpty());
     EXPECT_THAT(unplaced("G21 G90 F100\nG0 X0 Y0\nG2 X10 Y0 I5 Z-1\nM2\n"),
-                ElementsAre(HasSubstr("what Z is")));
+                ElementsAre(HasSubstr("the position of Z")));
     EXPECT_THAT(unplaced("G21 G90 F100\nG81 X1 Y1 Z-2 R3\nM2\n"),
                 ElementsAre(HasSubstr("Z moves from its present position")));
     EXPECT_THAT(unplaced("G21 G90 F100\nG0 Z9\nG81 X1 Y1 Z-2 R3\nM2\n"), IsEmpty());
@@ -203,7 +203,7 @@ TEST(Placement, TheOffsetOfASystemIsKnownForEachAxis) {
     file.parameters = {{5221, 10.0}, {5222, 20.0}, {5210, 0.0}};
     EXPECT_THAT(unplaced(down, file), ElementsAre(without_z));
     EXPECT_THAT(unplaced("G21 G90\nG10 L2 P1 X1 Y2\nG0 X1 Y1 Z50\nG53 G0 Z0\nM2\n"),
-                ElementsAre(HasSubstr("is not known in Z")));
+                ElementsAre(HasSubstr("is unknown in Z")));
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z50\nG10 L20 P1 Z0\nG53 G0 Z0\nM2\n"),
                 ElementsAre(HasSubstr("G53 moves to a machine position"))); // the place itself is unknown
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z50\nG53 G0 X0 Y0\nM2\n", flat), IsEmpty());
@@ -223,7 +223,7 @@ TEST(Placement, AStoredG92OffsetIsKnownForEachAxis) {
     ReaderSettings stored = with_origin(Vec3(1, 2, 3));
     stored.parameters.insert(stored.parameters.end(), {{5210, 1.0}, {5211, 4.0}, {5212, 0.0}});
     EXPECT_THAT(unplaced("G21 G90\nG0 X1 Y1 Z5\nG53 X0\nG53 Z0\nM2\n", stored),
-                ElementsAre(HasSubstr("part.ngc:4:1: G53 goes")));
+                ElementsAre(HasSubstr("part.ngc:4:1: G53 moves")));
     EXPECT_THAT(unplaced("G21 G90\nG92.1\nG0 X1 Y1 Z5\nG53 Z0\nM2\n", stored), IsEmpty());
     EXPECT_THAT(
         unplaced("G21 G90\nG0 X1 Y1 Z5\nG92.3\nG0 Z5\nM2\n", with_origin(Vec3(1, 2, 3))),
@@ -300,7 +300,7 @@ TEST(Placement, AStoredReferenceIsKnownForEachAxis) {
     ReaderSettings stored = with_origin(Vec3(0, 0, 20));
     stored.parameters.insert(stored.parameters.end(), {{5161, 1.0}, {5162, 1.0}});
     EXPECT_THAT(unplaced("G90 G21\nG0 X0 Y0 Z10\nG28 G91 Z0\nM2\n", stored),
-                ElementsAre(HasSubstr("G28 would take Z from 30.000 to 0.000, towards the part")));
+                ElementsAre(HasSubstr("G28 would move Z from 30.000 to 0.000, towards the part")));
 }
 
 // The usual end of a Fusion 360 program became a rapid to Z0 of the work, the spindle turning.
@@ -310,8 +310,9 @@ TEST(Placement, MachinePositionsNeedToKnowWhereTheWorkLies) {
                 ElementsAre(HasSubstr("part.ngc:6:1: G28 moves to a machine position, but the program zero "
                                       "in machine coordinates is unknown (give the program zero")));
     EXPECT_THAT(unplaced("G90 G21\nG53 G0 Z0\nX1 Y1 Z2\nM2\n"),
-                ElementsAre(HasSubstr("part.ngc:2:1: G53 goes")));
-    EXPECT_THAT(unplaced("G90 G21 G0 X1 Y1 Z2\nG30\nM2\n"), ElementsAre(HasSubstr("part.ngc:2:1: G30 goes")));
+                ElementsAre(HasSubstr("part.ngc:2:1: G53 moves")));
+    EXPECT_THAT(unplaced("G90 G21 G0 X1 Y1 Z2\nG30\nM2\n"),
+                ElementsAre(HasSubstr("part.ngc:2:1: G30 moves")));
     EXPECT_THAT(unplaced(end_of_fusion, with_origin(Vec3(5, 5, -40))), IsEmpty());
     const program::Block last = placed(end_of_fusion, with_origin(Vec3(5, 5, -40))).program.blocks[4];
     EXPECT_EQ(last.target, kinematics::AxisPositions(Vec3(15, 15, -15))); // Y X Z, in machine positions
@@ -321,7 +322,7 @@ TEST(Placement, ARetractToWhereNobodyStoredAPositionDoesNotGoDown) {
     const std::string program = "G90 G21\nG0 X0 Y0 Z10\nG28 G91 Z0\nM2\n";
     EXPECT_THAT(
         unplaced(program, with_origin(Vec3(0, 0, 20))),
-        ElementsAre(HasSubstr("part.ngc:3:1: G28 would take Z from 30.000 to 0.000, towards the part")));
+        ElementsAre(HasSubstr("part.ngc:3:1: G28 would move Z from 30.000 to 0.000, towards the part")));
     EXPECT_THAT(unplaced(program, with_origin(Vec3(0, 0, -20))), IsEmpty());
     ReaderSettings stored = with_origin(Vec3(0, 0, 20));
     stored.parameters.emplace_back(5163, 5.0); // somebody did

@@ -95,7 +95,7 @@ TEST(FileJob, OfPositionsThatNobodyCanKnowIsRefused) {
         (void)file_job(file, model, {.origin = gcode::WorkOrigin(5.0, 0.0)});
         ADD_FAILURE();
     } catch (const Error& error) {
-        EXPECT_THAT(error.diagnostic().message, HasSubstr("is not known in Z"));
+        EXPECT_THAT(error.diagnostic().message, HasSubstr("is unknown in Z"));
     }
     EXPECT_NO_THROW((void)file_job(written(folder / "step.ngc", "G21 G91\nG0 X5\nM2\n"),
                                    model,

@@ -110,7 +110,7 @@ TEST(ArmMotion, RefusesJointsBeyondTheirLimits) {
     } catch (const Error& error) {
         EXPECT_THAT(
             to_text(error.diagnostic()),
-            HasSubstr("joint 2 would have to go to 70.000 deg, but its limits are -200.000 and 60.000"));
+            HasSubstr("joint 2 would have to move to 70.000 deg, but its limits are -200.000 and 60.000"));
     }
 }
 

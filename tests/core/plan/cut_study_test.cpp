@@ -295,7 +295,7 @@ TEST(CutStudy, WhereAllIsCutTheHighestThatIsLeftIsTold) {
     const Plan plan = studied_cut(project, ball_tool);
     ASSERT_EQ(plan.cut->scallops.not_cut, 0.0);
     EXPECT_FALSE(left_at_least(plan));
-    EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("at most "));
+    EXPECT_THAT(left_text(project, plan), ::testing::StartsWith("max. "));
     EXPECT_THAT(left_text(project, plan), ::testing::EndsWith("; 0.00 % not machined"));
 }
 

@@ -98,7 +98,7 @@ TEST_F(ImportedPoints, SayWhatIsWrongWithFileAndLine) {
         AllOf(HasSubstr("probe.csv:4: row 2 has 1 point, but the first row has 2"), HasSubstr("as a cloud")));
     EXPECT_THAT(why_not("0 0 0\n1 1 1\n2 2 2\n3 3 3\n"), HasSubstr("probe.csv: the points lie on a line"));
     EXPECT_THAT(why_not("0 0 0\n1 1 1\n"), HasSubstr("probe.csv: 2 distinct points are too few"));
-    EXPECT_THAT(why_not("0 0 0\n0 1e9 0\n\n1 0 0\n1 1 0\n"), HasSubstr("more than 100000 mm"));
+    EXPECT_THAT(why_not("0 0 0\n0 1e9 0\n\n1 0 0\n1 1 0\n"), HasSubstr("farther than 100000 mm"));
     EXPECT_THAT(why_not("0 0 0\n0 1e-9 0\n\n1e-9 0 0\n1e-9 1e-9 0\n"), HasSubstr("check the unit"));
 }
 

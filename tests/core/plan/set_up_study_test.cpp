@@ -72,7 +72,7 @@ TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
         EXPECT_THAT(error.diagnostic().message,
                     AllOf(HasSubstr("from any position in the search range (a -1060.0 ... -940.0 mm, b "),
                           HasSubstr("; at the current position, path point "),
-                          HasSubstr(" cannot be reached: axis Y would have to go to "),
+                          HasSubstr(" cannot be reached: axis Y would have to move to "),
                           HasSubstr(", outside -500.000 ... 500.000 mm")));
         EXPECT_NE(error.diagnostic().hint, "");
     }

@@ -156,9 +156,10 @@ TEST(SpeedsNotReached, TellTheFirstAndHowManyThereAre) {
     }
     const auto found = speeds_not_reached(path, machine);
     ASSERT_TRUE(found);
-    EXPECT_EQ(found->message,
-              "1440 mm/min is faster than forming table can move: its axis X is limited to 600 mm/min; the "
-              "same applies to 7 moves more");
+    EXPECT_EQ(
+        found->message,
+        "1440 mm/min exceeds the maximum speed of forming table: its axis X is limited to 600 mm/min; the "
+        "same applies to 7 moves more");
     // Along the diagonal each axis takes its part of 14 mm/s.
     EXPECT_FALSE(speeds_not_reached({{.at = {0, 0, 0}}, {.at = {5, 5, 0}, .speed = 14.0}}, machine));
     EXPECT_TRUE(speeds_not_reached({{.at = {0, 0, 0}}, {.at = {5, 5, 0}, .speed = 14.2}}, machine));

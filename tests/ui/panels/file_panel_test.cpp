@@ -319,7 +319,7 @@ TEST(AskedFile, SaysWhichKindsThereAre) {
     for (const char* ending : {".step", ".glb", ".stl", ".obj", ".ply"}) {
         EXPECT_NE(kinds.find(ending), std::string::npos) << ending;
     }
-    EXPECT_EQ(ending_text(about(actions::FileQuestion::save_as)), "Ends in .json.");
+    EXPECT_EQ(ending_text(about(actions::FileQuestion::save_as)), "Extension: .json.");
 }
 
 TEST_F(FileDialog, AFolderIsNotTakenForAFileToReplace) {

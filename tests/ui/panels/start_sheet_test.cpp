@@ -204,8 +204,8 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
     person.wait_idle(); // the sample moves two rotary axes, too
     person.frames(3);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"),
-                testing::AllOf(HasSubstr("The program moves A and B, and "),
-                               HasSubstr("the connected machine has X, Y and Z. Connect a machine")));
+                testing::AllOf(HasSubstr("The program moves A and B, but "),
+                               HasSubstr("the connected machine has only X, Y and Z. Connect a machine")));
     EXPECT_FALSE(scene_of(person.workshop().look()).layers.machine); // that of another machine
     EXPECT_TRUE(person.sees("inspector/job/axes"));
     person.keep("machine-other-axes");

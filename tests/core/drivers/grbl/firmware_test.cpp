@@ -367,8 +367,7 @@ TEST(GrblFirmware, AProgramForAxesThatTheMachineLacksIsRefused) {
     ASSERT_THAT(found(four).errors, Not(IsEmpty()));
     EXPECT_EQ(found(four).errors.front().message,
               "the program moves B, but the machine has only X, Y, Z and A");
-    EXPECT_EQ(found(four).errors.back().message,
-              "this Grbl has the axes XYZA and does not support B words (error 20)");
+    EXPECT_EQ(found(four).errors.size(), 1U);
     std::vector<program::ProgramAxis> five = four;
     five.push_back({'B', AxisKind::rotary});
     EXPECT_THAT(found(five).errors, IsEmpty());

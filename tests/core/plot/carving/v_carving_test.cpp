@@ -228,7 +228,7 @@ TEST(VCarving, AFloorThatIsLeftIsMeasured) {
     const Carving carving = carved(square, settings);
     const double floor_side = 20.0 - 8.0 * half_tan;
     EXPECT_NEAR(carving.floor_left, floor_side * floor_side, 1e-3);
-    EXPECT_THAT(all_notices(carving), HasSubstr("of the floor at 4.000 mm are left"));
+    EXPECT_THAT(all_notices(carving), HasSubstr("of the floor at 4.000 mm are not cleared"));
     for (const CutPoint& point : carving.path) { // along the edge of the floor, not on it
         const bool within = brute_clearance(square, point.at.head<2>()) > 4.0 * half_tan + 0.01;
         EXPECT_FALSE(within && point.at.z() < 0.0);

@@ -106,7 +106,7 @@ TEST(HpglLineEnds, AFileThatDoesNotShowItIsRefused) {
     const std::string text = "SP1;PU0,0;PD40\n0,4\n00;PU;"; // 40 0, 4 0 or 400, 400
     EXPECT_THAT(
         refusal_of(text),
-        HasSubstr("a.plt byte 14: the file not clear from the file whether line ends between two digits"));
+        HasSubstr("a.plt byte 14: it is not clear from the file whether line ends between two digits"));
     EXPECT_THAT(refusal_of(text), HasSubstr("--line-ends separate or join"));
     ReaderSettings chosen;
     chosen.line_ends = LineEnds::separate;

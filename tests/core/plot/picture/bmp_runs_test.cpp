@@ -157,8 +157,9 @@ TEST(BmpRuns, SayWhereTheyAreWrong) {
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 5, 1, 0, 1}))),
                 HasSubstr("the run at byte 1082 of the BMP ends at column 5, beyond the width of 4"));
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 5, 1, 2, 3, 4, 5, 0}))),
-                HasSubstr("ends at column 5 of 4"));
-    EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 2, 9, 0}))), HasSubstr("ends at column 9 of 4"));
+                HasSubstr("ends at column 5, beyond the width of 4"));
+    EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({0, 2, 9, 0}))),
+                HasSubstr("ends at column 9, beyond the width of 4"));
     EXPECT_THAT(bmp_error(codes_bmp(4, 2, 8, of_bytes({4, 1, 0, 0, 3}))),
                 HasSubstr("the BMP is cut off at byte 1083, before the end code"));
     EXPECT_THAT(bmp_error(codes_bmp(4, -2, 8, of_bytes({4, 1, 0, 1}))), HasSubstr("stored top-down"));

@@ -298,7 +298,7 @@ TEST(PictureReader, SaysWhatIsWrong) {
     EXPECT_THAT(picture_error("GIF89a"),
                 HasSubstr("the picture format is not supported (use a PNG, JPEG, BMP, PGM or PPM"));
     EXPECT_THAT(picture_error(png.substr(0, 12)),
-                HasSubstr("the PNG ends too early, after 12 bytes: its head is incomplete"));
+                HasSubstr("the PNG ends too early, after 12 bytes: its header is incomplete"));
     EXPECT_THAT(picture_error(png.substr(0, png.size() / 2)), HasSubstr("the PNG ends too early, after"));
     EXPECT_THAT(picture_error(jpeg.substr(0, 30)), HasSubstr("the JPEG cannot be read at its header"));
     EXPECT_THAT(picture_error(jpeg.substr(0, jpeg.size() / 2)), HasSubstr("the JPEG cannot be read at row"));

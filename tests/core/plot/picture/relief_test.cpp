@@ -357,7 +357,7 @@ TEST(Relief, NamesTheSettingThatIsWrong) {
     };
     using testing::HasSubstr;
     EXPECT_THAT(error_of([](ReliefSettings& s) { s.cutting = 0.0; }), HasSubstr("the cutting speed is 0"));
-    EXPECT_THAT(error_of([](ReliefSettings& s) { s.step_over = -1.0; }), HasSubstr("a step-over of -1"));
+    EXPECT_THAT(error_of([](ReliefSettings& s) { s.step_over = -1.0; }), HasSubstr("the step-over is -1"));
     EXPECT_THAT(error_of([](ReliefSettings& s) { s.step_over = 1e-9; }),
                 HasSubstr("more than 100 million points"));
     EXPECT_THAT(error_of([](ReliefSettings& s) { s.merge_tolerance = std::nan(""); }),
@@ -450,7 +450,7 @@ TEST(ReliefPlan, TellsWhatARoundTipLeavesOfAFrameOrHowDeepItGoes) {
     EXPECT_NE(frame_notice(plan)->message.find("a flange of up to 3.000 mm"), std::string::npos);
     plan.through = true;
     EXPECT_DOUBLE_EQ(bottom(plan), 6.0);
-    EXPECT_NE(frame_notice(plan)->message.find("goes to 6.000 mm, 3.000 mm below the plate"),
+    EXPECT_NE(frame_notice(plan)->message.find("is cut to 6.000 mm, 3.000 mm below the plate"),
               std::string::npos);
     double highest_tab = -10.0; // they stand 1 mm above the underside
     for (const CutPoint& point : relief_path(field, plan)) {

@@ -52,7 +52,7 @@ TEST(PmacFileF1, WarnsOfEachProtectionThatIsOff) {
     EXPECT_THAT(all, HasSubstr("I125 bit 20: motor 1: a fault of its amplifier"));
     EXPECT_EQ(file.warnings.size(), 4u);
     ASSERT_EQ(file.omissions.size(), 3u);
-    EXPECT_THAT(to_text(file.omissions.front()), HasSubstr("I3=1 is left out"));
+    EXPECT_THAT(to_text(file.omissions.front()), HasSubstr("I3=1 is skipped"));
     EXPECT_EQ(file.left_out, 0);
     EXPECT_TRUE(read_pmac_file("I125=$C000\nI111=0\nI111=32000\n", "safe.ini").warnings.empty());
 }

@@ -233,7 +233,7 @@ TEST(PmacSession, HomingEndsWhereThereCanBeNoFlagAnyMore) {
     wire.session.home(wire.now);
     ASSERT_TRUE(wire.run_to_end(120.0));
     EXPECT_EQ(wire.state(), drivers::DriverState::stopped);
-    EXPECT_THAT(wire.session.status().message, HasSubstr("motor 1 went 2"));
+    EXPECT_THAT(wire.session.status().message, HasSubstr("motor 1 moved 2"));
     EXPECT_TRUE(wire.standing());
     EXPECT_LT(std::abs(wire.card.position(1)) / 120.0, 260.0);
 }

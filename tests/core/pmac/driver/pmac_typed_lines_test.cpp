@@ -169,7 +169,7 @@ TEST(PmacTypedLinesF2, NoneGivesAKilledMotorPower) {
             << lines.front();
         // The window has a button of that name; options are the command line's business.
         EXPECT_THAT(refusal([&] { (void)wire.session.command(lines, false); }),
-                    ::testing::EndsWith("(look at the machine, then give the motors power)"));
+                    ::testing::EndsWith("(inspect the machine, then enable its motors)"));
     }
     (void)wire.session.command({"#4->150A", "OPEN PROG 2", "ABS X10A", "HOME1", "CLOSE", "#1HMZ"}, false);
     ASSERT_TRUE(line_is_answered(wire));

@@ -220,7 +220,7 @@ TEST(PmacHostPortP1, SaysThatNoCardIsThereOrThatItTakesNothing) {
     busy.write("P1\r");
     EXPECT_FALSE(busy.lost());
     busy.wait(0.6);
-    EXPECT_THAT(busy.lost().value_or(""), HasSubstr("takes no characters"));
+    EXPECT_THAT(busy.lost().value_or(""), HasSubstr("accepts no characters"));
 }
 
 TEST(PmacHostPortP1, AnAddressNamesIt) {

@@ -60,7 +60,7 @@ TEST(OffsetFinderC2, GivesUpWithoutPowerLeftOn) {
     fast.bias = 5000.0;
     test::PmacCard away({.plants = {fast}});
     EXPECT_THAT(reason([&] { (void)find_offset(talk_to(away), 1, {.most_way = 3000.0}); }),
-                HasSubstr("counts, and 3000 were allowed"));
+                HasSubstr("counts, but only 3000 were allowed"));
     EXPECT_FALSE(away.card.enabled(1));
     EXPECT_EQ(away.ask("I129"), "0");
 }
@@ -74,7 +74,7 @@ TEST(OffsetFinderC2, DoesNotChaseAMotorWhoseEncoderCountsTheOtherWay) {
             test::PmacCard pmac({.plants = {wrong}});
             const OffsetSearch search{.glance = glance};
             EXPECT_THAT(reason([&] { (void)find_offset(talk_to(pmac), 1, search); }),
-                        HasSubstr("counts, and 10000 were allowed"))
+                        HasSubstr("counts, but only 10000 were allowed"))
                 << bias;
             const double coasts = wrong.coast_time * 200.0 * 2.0 * 996.0;
             EXPECT_LT(std::abs(pmac.card.position(1)), 1.25 * search.most_way + coasts) << bias;

@@ -88,9 +88,9 @@ TEST(ScaleCalibrationC1, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(why("1.5 0 0\n"), HasSubstr("a.csv:1:1"));
     EXPECT_THAT(why("1 0\n"), HasSubstr("a.csv:1:4: the measured angle"));
     EXPECT_THAT(why("1 0 nan\n"), HasSubstr("the measured angle"));
-    EXPECT_THAT(why("1 0 1 2\n"), HasSubstr("a.csv:1:7: nothing more"));
-    EXPECT_THAT(why("1 0 0\n"), HasSubstr("motor 1: two readings"));
-    EXPECT_THAT(why("1 0 5\n1 10 5\n"), HasSubstr("motor 1: two readings"));
+    EXPECT_THAT(why("1 0 1 2\n"), HasSubstr("a.csv:1:7: the line has extra text"));
+    EXPECT_THAT(why("1 0 0\n"), HasSubstr("motor 1: at least two readings"));
+    EXPECT_THAT(why("1 0 5\n1 10 5\n"), HasSubstr("motor 1: at least two readings"));
 }
 
 } // namespace
