@@ -96,6 +96,18 @@ NamedTool named_tool(const std::string& text, SimulatedWork& work) {
             std::make_shared<const kinematics::MachineModel>(project::machine_with(input, work.machine))};
 }
 
+void expect_different_numbers(const std::vector<NamedTool>& tools) {
+    for (std::size_t n = 1; n < tools.size(); ++n) {
+        const auto end = tools.begin() + static_cast<std::ptrdiff_t>(n);
+        if (tools[n].number && std::any_of(tools.begin(), end, [&](const NamedTool& earlier) {
+                return earlier.number == tools[n].number;
+            })) {
+            throw UsageError(
+                fmt::format("tool {} is named twice", *tools[n].number), {}, "name each tool once");
+        }
+    }
+}
+
 /// The tool for T `number`: the one of that number, or the only one if it has none.
 const NamedTool* tool_for(const std::vector<NamedTool>& tools, int number, bool only_call) {
     for (const NamedTool& tool : tools) {
@@ -233,6 +245,7 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     for (const std::string& text : options.tools) {
         tools.push_back(named_tool(text, work));
     }
+    expect_different_numbers(tools);
     take_stock(options.stock, work, progress);
     gcode::MachineProgramSettings making;
     making.chord_tolerance = 0.5 * simulation::tip_tolerance;
@@ -256,6 +269,12 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     }
     work.program = std::move(made.program);
     take_tools(recorder, tools, work);
+    for (const NamedTool& tool : tools) {
+        if (tool.number &&
+            std::ranges::find(work.tools, *tool.number, &ToolUse::number) == work.tools.end()) {
+            work.warnings.push_back(fmt::format("the program never changes to tool {}", *tool.number));
+        }
+    }
     return work;
 }
 

@@ -149,6 +149,17 @@ std::vector<std::string> warnings_of(const SimulatedWork& work, const simulation
                                            found.skipped->last_feed_line),
                                "position all axes with rapid moves first"}));
     }
+    const double cell = found.field->cell().maxCoeff();
+    for (const simulation::ToolUse& tool : work.tools) {
+        if (tool.body && 2.0 * tool.body->shape().radius < 2.0 * cell) {
+            warnings.push_back(
+                fmt::format("a tool of {:.3g} mm is narrower than two lines at a resolution of "
+                            "{:.3g} mm: what it cuts can be missed",
+                            2.0 * tool.body->shape().radius,
+                            cell));
+            break;
+        }
+    }
     const auto is_off = [](const Finding& finding) { return finding.kind == FindingKind::spindle_off; };
     const auto first = std::ranges::find_if(found.findings, is_off);
     if (first != found.findings.end()) {

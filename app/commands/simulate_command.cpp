@@ -40,7 +40,9 @@ constexpr std::string_view simulation_kind = "simulation";
 constexpr double usual_cells = 400.0;
 
 std::size_t most_field_bytes(const SimulateOptions& options) {
-    const auto wanted = static_cast<std::size_t>(options.memory_mb * bytes_in_megabyte);
+    constexpr double most_bytes =
+        1e15; // beyond it a number of bytes is not exact, and no memory is that large
+    const auto wanted = static_cast<std::size_t>(std::min(options.memory_mb * bytes_in_megabyte, most_bytes));
     constexpr std::size_t share = 5; // of the memory that is free four fifths
     const std::optional<std::size_t> free = free_memory();
     return free ? std::min(wanted, *free / share * (share - 1)) : wanted;
@@ -157,6 +159,8 @@ int simulate(const SimulateOptions& options) {
     }
     if (!mesh.points.empty()) {
         add_picture(set, "cut.png", {.points = mesh.points, .triangles = mesh.triangles, .colors = colors});
+    } else {
+        set.absent.emplace_back("cut.png");
     }
     if (compared) {
         add_part(set, *work.part, *compared);

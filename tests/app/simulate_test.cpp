@@ -342,6 +342,22 @@ TEST(SimulateCommand, ChangesToolsAtM6Only) {
     EXPECT_THAT(kept.out, HasSubstr("removed 1440.0 of"));
 }
 
+TEST(SimulateCommand, WarnsOfToolsThatAreTooNarrowOrNeverUsedAndRefusesTwoOfANumber) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const Ended narrow = simulate(
+        program, scratch / "out", {"--tool", "1=flat:0.9", "--tool", "7=flat:3", "--memory", "1e300"});
+    EXPECT_EQ(narrow.exit_code, 0) << narrow.err;
+    EXPECT_THAT(narrow.err, HasSubstr("a tool of 0.9 mm is narrower than two lines"));
+    EXPECT_THAT(narrow.err, HasSubstr("the program never changes to tool 7"));
+    const Ended wide = simulate(program, scratch / "out", {"--tool", "1=flat:6"});
+    EXPECT_THAT(wide.err, Not(HasSubstr("narrower")));
+    EXPECT_THAT(wide.err, Not(HasSubstr("never changes")));
+    const Ended twice = simulate(program, scratch / "out", {"--tool", "1=flat:6", "--tool", "1=flat:4"});
+    EXPECT_NE(twice.exit_code, 0);
+    EXPECT_THAT(twice.err, HasSubstr("tool 1 is named twice"));
+}
+
 TEST(SimulateCommand, EndsWithCodeOneForFeedsThatAreNotSimulated) {
     const ScratchFolder scratch;
     const fs::path program = program_in(
