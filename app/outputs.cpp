@@ -213,6 +213,32 @@ void OutputFolder::remove_empty() const {
     }
 }
 
+void expect_inputs_kept(const fs::path& typed,
+                        const std::vector<std::string>& names,
+                        std::string_view kind,
+                        const std::vector<fs::path>& inputs) {
+    const fs::path folder = without_ups(typed);
+    const WrittenFiles written;
+    std::vector<fs::path> removed = written.of_kind(kind, folder);
+    for (const std::string& name : names) {
+        for (const fs::path& input : inputs) {
+            expect_replaceable(folder / name, input);
+        }
+        for (fs::path& other : written.written_with(folder / name)) {
+            removed.push_back(std::move(other));
+        }
+    }
+    for (const fs::path& input : inputs) {
+        const auto is_input = [&](const fs::path& file) {
+            std::error_code missing;
+            return fs::equivalent(file, input, missing);
+        };
+        if (std::ranges::any_of(removed, is_input)) {
+            throw Error("would be removed, but is an input file", input, "choose another folder");
+        }
+    }
+}
+
 void write_outputs(const fs::path& typed, const OutputSet& set, const fs::path& source) {
     const fs::path folder = without_ups(typed);
     make_folder(folder);
@@ -226,7 +252,11 @@ void write_outputs(const fs::path& typed, const OutputSet& set, const fs::path& 
         places.push_back(drafts.back()->target());
     }
     WrittenFiles written;
-    const std::set<fs::path> others = unfitting(folder, set, places, written);
+    std::set<fs::path> others = unfitting(folder, set, places, written);
+    std::erase_if(others, [&](const fs::path& other) {
+        std::error_code missing;
+        return !source.empty() && fs::equivalent(other, source, missing);
+    });
     SecondNames kept; // before any file loses its own: we may be killed at any time
     for (std::size_t n = 0; n < places.size(); ++n) {
         std::error_code missing;

@@ -46,6 +46,13 @@ struct OutputSet {
 /// Of sets that are about one program.
 inline constexpr std::string_view program_kind = "program";
 
+/// Throws Error if writing files `names` of a set of `kind` into `folder` would replace or remove one of
+/// `inputs`. For before the work; those that are missing do not count.
+void expect_inputs_kept(const std::filesystem::path& folder,
+                        const std::vector<std::string>& names,
+                        std::string_view kind,
+                        const std::vector<std::filesystem::path>& inputs);
+
 /// Writes all beside their places first and exchanges them then, while no other program of ours does so in
 /// this folder. A file there that is not as a command wrote it last gets another name, and that is said on
 /// standard error. Where a file of another set is replaced by other bytes or is to be absent, the rest of

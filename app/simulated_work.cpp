@@ -49,21 +49,21 @@ public:
     void command(const gcode::Command& command, const gcode::SourceLine& now) override {
         builder_.command(command, now);
         if (command.kind == gcode::CommandKind::select_tool) {
-            selected_ = command.index;
-            selected_line_ = command.source.line;
+            selections_.push_back({builder_.block_count(), command.index, command.source.line});
         } else if (command.kind == gcode::CommandKind::change_tool) {
-            changes_.push_back({builder_.block_count(), selected_, command.source.line});
+            changes_.push_back({builder_.block_count(),
+                                selections_.empty() ? 0 : selections_.back().number,
+                                command.source.line});
         }
     }
     [[nodiscard]] const std::vector<ToolChange>& changes() const { return changes_; }
-    /// The last T word, where no M6 follows; 0: there is none.
-    [[nodiscard]] int selected() const { return selected_; }
-    [[nodiscard]] int selected_line() const { return selected_line_; }
+    /// All T words.
+    [[nodiscard]] const std::vector<ToolChange>& selections() const { return selections_; }
 
 private:
     gcode::MachineProgramBuilder& builder_;
     std::vector<ToolChange> changes_;
-    int selected_ = 0, selected_line_ = 0;
+    std::vector<ToolChange> selections_;
 };
 
 /// A tool that a person named.
@@ -71,11 +71,18 @@ struct NamedTool {
     std::optional<int> number;
     toolpath::Profile body;
     std::string text;
+    std::shared_ptr<const kinematics::MachineModel> machine{}; ///< with its gauge length; null: as it is
 };
 
-NamedTool named_tool(const std::string& text) {
+NamedTool named_tool(const std::string& text, SimulatedWork& work) {
     simulation::ToolText parsed = simulation::parse_tool(text);
     if (parsed.body) {
+        if (work.machine.swings_tool()) {
+            work.warnings.push_back(fmt::format(
+                "{}: the head tilts the tool, whose gauge length is taken from the machine file; name a "
+                "tool file for another one",
+                printable(text)));
+        }
         return {parsed.number, *parsed.body, text};
     }
     const project::ToolInput input = project::read_tool(parsed.file);
@@ -83,7 +90,22 @@ NamedTool named_tool(const std::string& text) {
     if (!tool.cutter) {
         throw Error("the tool is a point, which removes nothing", parsed.file, "give it a cutter");
     }
-    return {parsed.number, *tool.cutter, project::tool_text(input)};
+    return {parsed.number,
+            *tool.cutter,
+            project::tool_text(input),
+            std::make_shared<const kinematics::MachineModel>(project::machine_with(input, work.machine))};
+}
+
+void expect_different_numbers(const std::vector<NamedTool>& tools) {
+    for (std::size_t n = 1; n < tools.size(); ++n) {
+        const auto end = tools.begin() + static_cast<std::ptrdiff_t>(n);
+        if (tools[n].number && std::any_of(tools.begin(), end, [&](const NamedTool& earlier) {
+                return earlier.number == tools[n].number;
+            })) {
+            throw UsageError(
+                fmt::format("tool {} is named twice", *tools[n].number), {}, "name each tool once");
+        }
+    }
 }
 
 /// The tool for T `number`: the one of that number, or the only one if it has none.
@@ -103,11 +125,28 @@ const NamedTool* tool_for(const std::vector<NamedTool>& tools, int number, bool 
                            fmt::format("add --tool {}=SPEC, such as {}=flat:6", number, number)});
 }
 
+/// The tool of a program without M6, from its first block on: T alone changes nothing.
+ToolChange tool_without_change(const std::vector<ToolChange>& selections, const fs::path& file) {
+    if (selections.empty()) {
+        return {};
+    }
+    const ToolChange& first = selections.front();
+    for (const ToolChange& other : selections) {
+        if (other.number != first.number) {
+            throw Error(Diagnostic{
+                {file, other.line, 0, -1},
+                fmt::format("T{} is selected after T{}, and no M6 changes to it", other.number, first.number),
+                "add M6 where the tool changes"});
+        }
+    }
+    return {0, first.number, first.line};
+}
+
 /// Which of `tools` is in the spindle from which block on.
 void take_tools(const ToolChangeRecorder& found, const std::vector<NamedTool>& tools, SimulatedWork& work) {
     std::vector<ToolChange> changes = found.changes();
     if (changes.empty()) {
-        changes.push_back({0, found.selected(), found.selected_line()});
+        changes.push_back(tool_without_change(found.selections(), work.file));
     }
     const bool same = std::ranges::all_of(changes, [&](const ToolChange& change) {
         return change.number == 0 ||
@@ -129,7 +168,7 @@ void take_tools(const ToolChangeRecorder& found, const std::vector<NamedTool>& t
         if (tool == nullptr) {
             throw_no_tool(work.file, change.number, change.line);
         }
-        work.tools.push_back({change.first_block, change.number, tool->body});
+        work.tools.push_back({change.first_block, change.number, tool->body, tool->machine});
         const std::string text =
             change.number == 0 ? tool->text : fmt::format("T{}: {}", change.number, tool->text);
         if (std::ranges::find(work.tool_texts, text) == work.tool_texts.end()) {
@@ -191,10 +230,6 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
                          options.file,
                          "add --machine NAME, --stock SPEC and --tool SPEC");
     }
-    std::vector<NamedTool> tools;
-    for (const std::string& text : options.tools) {
-        tools.push_back(named_tool(text));
-    }
     SimulatedWork work{.file = options.file,
                        .program_file = options.file,
                        .program_text = {},
@@ -206,6 +241,11 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
                        .stock = simulation::BoxStock{},
                        .stock_text = {},
                        .warnings = {}};
+    std::vector<NamedTool> tools;
+    for (const std::string& text : options.tools) {
+        tools.push_back(named_tool(text, work));
+    }
+    expect_different_numbers(tools);
     take_stock(options.stock, work, progress);
     gcode::MachineProgramSettings making;
     making.chord_tolerance = 0.5 * simulation::tip_tolerance;
@@ -229,6 +269,12 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     }
     work.program = std::move(made.program);
     take_tools(recorder, tools, work);
+    for (const NamedTool& tool : tools) {
+        if (tool.number &&
+            std::ranges::find(work.tools, *tool.number, &ToolUse::number) == work.tools.end()) {
+            work.warnings.push_back(fmt::format("the program never changes to tool {}", *tool.number));
+        }
+    }
     return work;
 }
 
@@ -301,6 +347,29 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
 }
 
 } // namespace
+
+std::vector<fs::path> input_files(const SimulateOptions& options) {
+    std::vector<fs::path> files{options.file};
+    if (!options.part.empty()) {
+        files.emplace_back(options.part);
+    }
+    if (!options.stock.empty()) {
+        const simulation::StockText stock = simulation::parse_stock(options.stock);
+        if (!stock.stock) {
+            files.emplace_back(stock.mesh_file);
+        }
+    }
+    for (const std::string& text : options.tools) {
+        const simulation::ToolText tool = simulation::parse_tool(text);
+        if (!tool.body) {
+            files.emplace_back(tool.file);
+        }
+    }
+    if (!options.machine.empty()) {
+        files.push_back(project::machine_path(options.machine, fs::current_path(), project::assets_folder()));
+    }
+    return files;
+}
 
 SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_token& stop) {
     const Progress progress({}, stop);

@@ -46,6 +46,9 @@ struct SimulatedWork {
     std::optional<PartSurface> part{}; ///< what is left is compared with
 };
 
+/// The files that the options name.
+[[nodiscard]] std::vector<std::filesystem::path> input_files(const SimulateOptions& options);
+
 /// Throws Error with the first thing that is wrong, UsageError for options that do not fit the file;
 /// Cancelled.
 [[nodiscard]] SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_token& stop);

@@ -49,6 +49,9 @@ ReportJson worst_json(const SimulatedWork& work, const std::optional<simulation:
         worst->block < 0 ? 0 : work.program.blocks[static_cast<std::size_t>(worst->block)].source_line;
     ReportJson json;
     json["deviation_mm"] = project::rounded(worst->height);
+    if (worst->at_least) {
+        json["at_least"] = true;
+    }
     json["line"] = line > 0 ? ReportJson(line) : ReportJson();
     json["position_mm"] = project::vector(worst->point);
     return json;
@@ -77,8 +80,9 @@ std::string worst_text(const SimulatedWork& work,
     }
     const int line =
         worst->block < 0 ? 0 : work.program.blocks[static_cast<std::size_t>(worst->block)].source_line;
-    return fmt::format("largest {} {} mm at {} {} {}{}",
+    return fmt::format("largest {} {}{} mm at {} {} {}{}",
                        kind,
+                       worst->at_least ? "(all material removed) at least " : "",
                        fixed(std::abs(worst->height), 4),
                        fixed(worst->point.x(), 3),
                        fixed(worst->point.y(), 3),
@@ -137,12 +141,24 @@ std::vector<std::string> warnings_of(const SimulatedWork& work, const simulation
     std::vector<std::string> warnings = work.warnings;
     if (found.skipped && found.skipped->feeds > 0) {
         warnings.push_back(
-            to_text(Diagnostic{{work.program_file, found.skipped->first_line, 0, -1},
-                               fmt::format("not simulated: {} before the program has positioned "
-                                           "every axis, up to line {}",
+            to_text(Diagnostic{{work.program_file, found.skipped->first_feed_line, 0, -1},
+                               fmt::format("not simulated: {} before the program has positioned every "
+                                           "axis that it uses, lines {} to {}",
                                            counted(found.skipped->feeds, "feed"),
-                                           found.skipped->last_line),
-                               {}}));
+                                           found.skipped->first_feed_line,
+                                           found.skipped->last_feed_line),
+                               "position all axes with rapid moves first"}));
+    }
+    const double cell = found.field->cell().maxCoeff();
+    for (const simulation::ToolUse& tool : work.tools) {
+        if (tool.body && 2.0 * tool.body->shape().radius < 2.0 * cell) {
+            warnings.push_back(
+                fmt::format("a tool of {:.3g} mm is narrower than two lines at a resolution of "
+                            "{:.3g} mm: what it cuts can be missed",
+                            2.0 * tool.body->shape().radius,
+                            cell));
+            break;
+        }
     }
     const auto is_off = [](const Finding& finding) { return finding.kind == FindingKind::spindle_off; };
     const auto first = std::ranges::find_if(found.findings, is_off);
@@ -188,6 +204,7 @@ std::string simulation_report_text(const SimulatedWork& work,
     json["moves"]["simulated"] = found.moves;
     json["moves"]["cutting"] = found.cutting_moves;
     json["moves"]["skipped"] = found.skipped ? found.skipped->rapids + found.skipped->feeds : 0;
+    json["moves"]["skipped_feeds"] = found.skipped ? found.skipped->feeds : 0;
     json["rapid_in_stock"] = rapid_count(found);
     json["findings"] = findings_json(found);
     if (compared) {

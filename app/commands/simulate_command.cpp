@@ -22,6 +22,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace millwright::app {
@@ -32,11 +33,16 @@ constexpr double bytes_in_megabyte = 1e6;
 constexpr std::size_t most_triangles = 400'000;
 constexpr render::PixelSize simulation_picture_size{1280, 800};
 
+/// Of the files of a simulation, of which a folder has one set.
+constexpr std::string_view simulation_kind = "simulation";
+
 /// So many cells along the longest edge of the stock, where nothing is said.
 constexpr double usual_cells = 400.0;
 
 std::size_t most_field_bytes(const SimulateOptions& options) {
-    const auto wanted = static_cast<std::size_t>(options.memory_mb * bytes_in_megabyte);
+    constexpr double most_bytes =
+        1e15; // beyond it a number of bytes is not exact, and no memory is that large
+    const auto wanted = static_cast<std::size_t>(std::min(options.memory_mb * bytes_in_megabyte, most_bytes));
     constexpr std::size_t share = 5; // of the memory that is free four fifths
     const std::optional<std::size_t> free = free_memory();
     return free ? std::min(wanted, *free / share * (share - 1)) : wanted;
@@ -115,6 +121,11 @@ std::optional<ComparedPart> compared_part(const SimulatedWork& work,
 
 int simulate(const SimulateOptions& options) {
     const Interrupt interrupt;
+    expect_inputs_kept(
+        options.out,
+        {"simulation.json", "cut.stl", "cut.ply", "cut.png", "part.ply", "part.png", "program.ngc"},
+        simulation_kind,
+        input_files(options));
     const OutputFolder folder(options.out);
     const SimulatedWork work = simulated_work(options, interrupt.token());
     ProgressPrinter printer;
@@ -142,12 +153,14 @@ int simulate(const SimulateOptions& options) {
                    {"cut.stl", simulation::stl_of(mesh)},
                    {"cut.ply", simulation::ply_of(mesh.points, mesh.triangles, colors)}},
                   {},
-                  "simulation"};
+                  std::string(simulation_kind)};
     if (!work.program_text.empty()) {
         set.files.push_back({"program.ngc", work.program_text});
     }
     if (!mesh.points.empty()) {
         add_picture(set, "cut.png", {.points = mesh.points, .triangles = mesh.triangles, .colors = colors});
+    } else {
+        set.absent.emplace_back("cut.png");
     }
     if (compared) {
         add_part(set, *work.part, *compared);
@@ -155,7 +168,8 @@ int simulate(const SimulateOptions& options) {
     write_outputs(options.out, set, options.file);
     print_simulation(work, found, compared, cost);
     const bool gouged = compared && compared->summary.gouged > 0.0;
-    return rapid_count(found) == 0 && !gouged ? 0 : 1;
+    const bool complete = !found.skipped || found.skipped->feeds == 0;
+    return rapid_count(found) == 0 && !gouged && complete ? 0 : 1;
 }
 
 } // namespace

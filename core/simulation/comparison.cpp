@@ -2,12 +2,15 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/kinematics/forward.h"
+#include "core/simulation/internal/block_sweep.h"
+#include "core/simulation/internal/material_probe.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <variant>
 #include <vector>
 
 namespace millwright::simulation {
@@ -15,70 +18,8 @@ namespace millwright::simulation {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-
-/// The way of one block's tool.
-class BlockSweep {
-public:
-    BlockSweep(const SimulationInput& input, int block, const toolpath::Profile& body)
-        : body_(&body), way_(input.machine,
-                             program::position_before(input.program, block),
-                             input.program.blocks[static_cast<std::size_t>(block)].target) {
-        double length = 0.0;
-        geometry::ToolPose last = way_.at(0.0);
-        constexpr int coarse = 8;
-        for (int n = 1; n <= coarse; ++n) {
-            const geometry::ToolPose next = way_.at(static_cast<double>(n) / coarse);
-            length += (next.tip - last.tip).norm() + body.shape().top * angle_between(last.axis, next.axis);
-            last = next;
-        }
-        const double step = 0.25 * body.shape().radius; // between two looks
-        constexpr double least = 12.0, most = 2000.0;
-        looks_ = static_cast<int>(std::clamp(std::ceil(length / step), least, most));
-    }
-
-    /// The least height over `at` along its normal; infinite where the tool does not come over it.
-    [[nodiscard]] double height(const PartPoint& at) const {
-        return least(
-            [&](double f) { return toolpath::height_over(*body_, way_.at(f), at.point, at.normal); });
-    }
-    /// How deep the point is in the tool, whatever the direction; below 0: outside.
-    [[nodiscard]] double depth(const Vec3& point) const {
-        return -least([&](double f) { return toolpath::distance(*body_, way_.at(f), point); });
-    }
-
-private:
-    /// Of a function of the move's fraction: the least of many looks, and a golden section around it.
-    template <class Value> [[nodiscard]] double least(const Value& value) const {
-        int best = 0;
-        double lowest = never;
-        for (int n = 0; n <= looks_; ++n) {
-            const double here = value(static_cast<double>(n) / looks_);
-            if (here < lowest) {
-                lowest = here;
-                best = n;
-            }
-        }
-        if (!(lowest < never)) {
-            return never;
-        }
-        double low = std::max(best - 1.0, 0.0) / looks_;
-        double high = std::min(best + 1.0, static_cast<double>(looks_)) / looks_;
-        constexpr double golden = 0.6180339887498949;
-        constexpr int most_steps = 32;
-        for (int n = 0; n < most_steps; ++n) {
-            const double a = high - golden * (high - low);
-            const double b = low + golden * (high - low);
-            const double at_a = value(a), at_b = value(b);
-            lowest = std::min({lowest, at_a, at_b});
-            (at_a < at_b ? high : low) = at_a < at_b ? b : a;
-        }
-        return lowest;
-    }
-
-    const toolpath::Profile* body_;
-    kinematics::StraightForward way_;
-    int looks_ = 1;
-};
+/// Material beside a point counts where it is nearer than this share of the distance along the normal.
+constexpr double much_nearer = 0.5;
 
 /// Blocks that made the ends of material near a place.
 class NearBlocks {
@@ -151,41 +92,141 @@ double height_of_box(const Box3& box, const PartPoint& at) {
     return height;
 }
 
-const toolpath::Profile* tool_of(const SimulationInput& input, int block) {
-    const toolpath::Profile* found = nullptr;
+/// The same for a cylinder or a tube.
+double height_of_cylinder(const CylinderStock& stock, const PartPoint& at) {
+    const int k = stock.axis, u = (k + 1) % 3, v = (k + 2) % 3;
+    const Vec3 from = at.point - stock.base;
+    const Vec2 across(from[u], from[v]), slope(at.normal[u], at.normal[v]);
+    const double outer = 0.5 * stock.diameter, inner = 0.5 * stock.bore;
+    const double beside = std::max({across.norm() - outer, inner - across.norm(), 0.0});
+    const double beyond = std::max({-from[k], from[k] - stock.length, 0.0});
+    if (beside > 0.0 || beyond > 0.0) {
+        return -std::hypot(beside, beyond);
+    }
+    double height = never;
+    if (std::abs(at.normal[k]) > 0.0) {
+        height = ((at.normal[k] > 0.0 ? stock.length : 0.0) - from[k]) / at.normal[k];
+    }
+    const double square = slope.squaredNorm();
+    if (square > 0.0) {
+        const double half = across.dot(slope) / square;
+        const auto root = [&](double radius) {
+            return half * half - (across.squaredNorm() - radius * radius) / square;
+        };
+        height = std::min(height, -half + std::sqrt(std::max(root(outer), 0.0)));
+        const double bore = root(inner);
+        if (inner > 0.0 && bore >= 0.0 && half <= 0.0) {
+            height = std::min(height, std::max(-half - std::sqrt(bore), 0.0));
+        }
+    }
+    return height;
+}
+
+/// Of the uncut stock, along the normal; infinite where only moves can have made the end. Of a mesh by the
+/// lines of the field.
+double height_of_stock(const Stock& stock, const MaterialProbe& probe, const PartPoint& at) {
+    if (const auto* box = std::get_if<BoxStock>(&stock)) {
+        return height_of_box(Box3(box->low, box->high), at);
+    }
+    if (const auto* cylinder = std::get_if<CylinderStock>(&stock)) {
+        return height_of_cylinder(*cylinder, at);
+    }
+    const std::optional<MaterialEnd> end = probe.end(at.point, at.normal);
+    return end && end->move == stock_surface ? end->way : never;
+}
+
+const ToolUse* tool_of(const SimulationInput& input, int block) {
+    const ToolUse* found = nullptr;
     for (const ToolUse& tool : input.tools) {
         if (tool.first_block <= block) {
-            found = tool.body ? &*tool.body : nullptr;
+            found = tool.body ? &tool : nullptr;
         }
     }
     return found;
 }
 
-Deviation deviation_at(const SimulationInput& input, const DexelField& field, const PartPoint& at) {
-    Deviation deviation{height_of_box(field.box(), at), -1};
+/// By the moves that made the ends near the point.
+Deviation deviation_by_moves(const SimulationInput& input,
+                             const DexelField& field,
+                             const MaterialProbe& probe,
+                             const PartPoint& at) {
+    Deviation deviation{height_of_stock(input.stock, probe, at), -1};
     if (deviation.height < 0.0) {
         return deviation;
     }
     const NearBlocks near(field, at.point);
     double deepest = 0.0; // in any tool, whatever the direction
     for (const int block : near.blocks()) {
-        const toolpath::Profile* tool = tool_of(input, block);
+        const ToolUse* tool = tool_of(input, block);
         if (tool == nullptr) {
             continue;
         }
         const BlockSweep sweep(input, block, *tool);
-        const double height = sweep.height(at);
+        const double height = sweep.height(at.point, at.normal);
         if (height < 0.0) {
-            deepest = std::max(deepest, sweep.depth(at.point));
+            deepest = std::max(deepest, sweep.depth(at.point, at.normal));
         }
         if (height < deviation.height) {
             deviation = {height, block};
         }
     }
     // At an edge of the part the normal can run along a cut that is hardly touched.
-    constexpr double much_nearer = 0.5;
     if (deviation.height < 0.0 && deepest < -much_nearer * deviation.height) {
         deviation.height = -deepest;
+    }
+    return deviation;
+}
+
+/// Of a point that has no material within a cell: down to the next material, or to that beside the point
+/// where it is much nearer.
+Deviation deviation_of_void(const DexelField& field, const MaterialProbe& probe, const PartPoint& at) {
+    const Vec3 inwards = -at.normal;
+    const double outside = std::sqrt(field.box().squaredExteriorDistance(at.point));
+    const double least = std::max(outside, field.cell().minCoeff());
+    Deviation deviation;
+    const std::optional<MaterialEnd> below = probe.next(at.point, inwards);
+    deviation.height = -std::max(below ? below->way : probe.way_out(at.point, inwards), least);
+    deviation.block = below ? below->move : -1;
+    const std::optional<MaterialEnd> beside = probe.nearest_on_lines(at.point);
+    if (beside && beside->way < (below ? -much_nearer : -1.0) * deviation.height) {
+        deviation.height = -std::max(beside->way, least);
+        deviation.block = beside->move;
+    }
+    deviation.at_least = !below && !beside;
+    return deviation;
+}
+
+/// Of a point outside of the stock: whether the stock's nearest point still has material.
+bool is_uncut_beside(const Stock& stock, const MaterialProbe& probe, const PartPoint& at) {
+    constexpr double apart = 1e-4; // mm, of the differences
+    const auto outside = [&](const Vec3& point) {
+        return std::min(height_of_stock(stock, probe, {point, at.normal, 0.0}), 0.0);
+    };
+    Vec3 towards = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 step = apart * Vec3::Unit(axis);
+        towards[axis] = outside(at.point + step) - outside(at.point - step);
+    }
+    const double length = towards.norm();
+    return length > 0.0 && probe.is_near(at.point - outside(at.point) / length * towards);
+}
+
+Deviation deviation_at(const SimulationInput& input, const DexelField& field, const PartPoint& at) {
+    const MaterialProbe probe(field);
+    Deviation deviation = deviation_by_moves(input, field, probe, at);
+    const double uncertain = 2.0 * field.cell().norm();
+    if (deviation.height < 0.0 && deviation.block < 0 && is_uncut_beside(input.stock, probe, at)) {
+        return deviation;
+    }
+    if (!probe.is_near(at.point)) {
+        const Deviation missing = deviation_of_void(field, probe, at);
+        if (deviation.height >= 0.0 || missing.at_least || missing.height < deviation.height - uncertain) {
+            const double known = std::min(deviation.height, missing.height);
+            deviation = {known, missing.block >= 0 ? missing.block : deviation.block, missing.at_least};
+        }
+    } else if (!(deviation.height < never)) {
+        const std::optional<MaterialEnd> end = probe.end(at.point, at.normal);
+        deviation = end ? Deviation{end->way, end->move} : Deviation{0.0, -1};
     }
     return deviation;
 }
@@ -197,12 +238,17 @@ std::vector<Deviation> deviations(const SimulationInput& input,
                                   std::span<const PartPoint> points,
                                   const Progress& progress) {
     std::vector<Deviation> result(points.size());
-    constexpr std::ptrdiff_t points_a_chunk = 16;
-    parallel_for(std::ssize(result), points_a_chunk, [&](std::ptrdiff_t n) {
-        progress.check();
-        result[static_cast<std::size_t>(n)] =
-            deviation_at(input, *found.field, points[static_cast<std::size_t>(n)]);
-    });
+    constexpr std::ptrdiff_t points_a_chunk = 16, points_a_report = 1024;
+    const std::ptrdiff_t count = std::ssize(result);
+    for (std::ptrdiff_t first = 0; first < count; first += points_a_report) {
+        parallel_for(std::min(points_a_report, count - first), points_a_chunk, [&](std::ptrdiff_t n) {
+            progress.check();
+            const auto at = static_cast<std::size_t>(first + n);
+            result[at] = deviation_at(input, *found.field, points[at]);
+        });
+        progress.report(static_cast<double>(std::min(first + points_a_report, count)) /
+                        static_cast<double>(count));
+    }
     return result;
 }
 
@@ -214,14 +260,14 @@ summary_of(std::span<const PartPoint> points, std::span<const Deviation> deviati
         const Deviation& here = deviations[n];
         const double area = points[n].area;
         summary.area += area;
-        if (std::abs(here.height) <= tolerance) {
+        if (std::abs(here.height) <= tolerance && !here.at_least) {
             summary.within += area;
         } else {
             (here.height < 0.0 ? summary.gouged : summary.in_excess) += area;
         }
         auto& worst = here.height < 0.0 ? summary.gouge : summary.excess;
         if (!worst || std::abs(here.height) > std::abs(worst->height)) {
-            worst = WorstDeviation{here.height, here.block, points[n].point};
+            worst = WorstDeviation{here.height, here.block, points[n].point, here.at_least};
         }
     }
     if (summary.area > 0.0) {

@@ -23,12 +23,13 @@ struct Deviation {
     /// Along the normal: above 0 excess, below 0 gouge. Of a gouge whose side is less than half as far away,
     /// as at an edge of the part, the distance to that.
     double height = 0.0;
-    int block = -1; ///< of the program, that cuts deepest there; -1: none, the stock is as it was
+    int block = -1;        ///< of the program, that cuts deepest there; -1: none, or not known
+    bool at_least = false; ///< all material around was removed: the gouge may be deeper than the stock was
 };
 
-/// One a point. Where no move comes near, the height is that of the stock's box along the normal; a point
-/// outside of that box has its distance to it, below 0. `found` is what simulate() gave for `input`. Throws
-/// Cancelled.
+/// One a point. Where no move comes near, the height is that of the stock along the normal; a point outside
+/// of it has its distance to it, below 0. A point without material within a cell of the field is a gouge, at
+/// least as deep as the next material is far. `found` is what simulate() gave for `input`. Throws Cancelled.
 [[nodiscard]] std::vector<Deviation> deviations(const SimulationInput& input,
                                                 const Simulation& found,
                                                 std::span<const PartPoint> points,
@@ -39,6 +40,7 @@ struct WorstDeviation {
     double height = 0.0;
     int block = -1;
     Vec3 point = Vec3::Zero();
+    bool at_least = false; ///< as of Deviation
 };
 
 struct ComparisonSummary {

@@ -60,6 +60,7 @@ public:
         : input_(input), progress_(progress), known_(input.program) {
         result_.field = std::make_unique<DexelField>(
             input.stock, input.resolution, input.most_bytes, progress.part(0.0, 0.05));
+        uncut_ = result_.field->volume();
         removal_.emplace(*result_.field);
         for (const ToolUse& tool : input.tools) {
             auto& body = bodies_.emplace_back();
@@ -102,8 +103,14 @@ private:
         }
         known_.take(block);
         auto& skipped = result_.skipped;
-        skipped = skipped.value_or(SkippedStart{0, 0, block.source_line, block.source_line});
-        ++(block.kind == program::BlockKind::rapid ? skipped->rapids : skipped->feeds);
+        skipped = skipped.value_or(SkippedStart{0, 0, block.source_line, block.source_line, 0, 0});
+        if (block.kind == program::BlockKind::rapid) {
+            ++skipped->rapids;
+        } else {
+            skipped->first_feed_line = skipped->feeds == 0 ? block.source_line : skipped->first_feed_line;
+            skipped->last_feed_line = block.source_line;
+            ++skipped->feeds;
+        }
         skipped->last_line = block.source_line;
     }
 
@@ -118,8 +125,9 @@ private:
             return;
         }
         const CuttingBody& body = *bodies_[next_tool_ - 1];
+        const auto& own = input_.tools[next_tool_ - 1].machine;
         const kinematics::StraightForward way(
-            input_.machine, program::position_before(input_.program, n), block.target);
+            own ? *own : input_.machine, program::position_before(input_.program, n), block.target);
         const double parts = parts_of(way);
         constexpr double most_parts = 200'000;
         if (!(parts <= most_parts)) {
@@ -185,7 +193,8 @@ private:
             }
         }
         result_.stock_volume = volume(input_.stock);
-        result_.left_volume = result_.field->volume();
+        const double share = uncut_ > 0.0 ? std::min(result_.field->volume() / uncut_, 1.0) : 0.0;
+        result_.left_volume = share * result_.stock_volume;
         progress_.report(1.0);
     }
 
@@ -199,6 +208,7 @@ private:
     std::vector<CutStep> steps_;
     std::size_t next_tool_ = 0;
     double done_ = 0.05;
+    double uncut_ = 0.0; // volume of the field, mm^3
     bool spindle_ = false;
 };
 

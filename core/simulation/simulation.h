@@ -28,6 +28,8 @@ struct ToolUse {
     int first_block = 0;
     int number = 0;                        ///< of T; 0: none is called
     std::optional<toolpath::Profile> body; ///< nullopt: nothing, and only rapid moves are allowed
+    std::shared_ptr<const kinematics::MachineModel>
+        machine{}; ///< with its gauge length; null: that of the input
 };
 
 struct SimulationInput {
@@ -58,12 +60,13 @@ struct SkippedStart {
     int rapids = 0;
     int feeds = 0; ///< these might have cut
     int first_line = 0, last_line = 0;
+    int first_feed_line = 0, last_feed_line = 0;
 };
 
 struct Simulation {
     std::unique_ptr<DexelField> field; ///< ends are named by the blocks that made them
     double stock_volume = 0.0;         ///< mm^3, in closed form
-    double left_volume = 0.0;          ///< mm^3
+    double left_volume = 0.0;          ///< mm^3: the share of the field's volume that is left, of the stock's
     int moves = 0;                     ///< simulated blocks
     int cutting_moves = 0;             ///< that removed material
     std::vector<Finding> findings;     ///< in the order of the blocks

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -224,6 +225,191 @@ TEST(SimulateCommand, CutsAClosedMeshOfAFile) {
     EXPECT_NEAR(report.at("volume_mm3").at("removed").get<double>(),
                 60.0 * 2.0 * 3.14159,
                 12.0); // edges of the mesh are broken
+}
+
+/// A box as an STL file.
+fs::path box_mesh(const fs::path& file, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    constexpr std::array<std::array<unsigned, 3>, 12> triangles{{{0, 2, 3},
+                                                                 {0, 3, 1},
+                                                                 {4, 5, 7},
+                                                                 {4, 7, 6},
+                                                                 {0, 1, 5},
+                                                                 {0, 5, 4},
+                                                                 {2, 6, 7},
+                                                                 {2, 7, 3},
+                                                                 {0, 4, 6},
+                                                                 {0, 6, 2},
+                                                                 {1, 3, 7},
+                                                                 {1, 7, 5}}};
+    std::ofstream out(file);
+    out << "solid box\n";
+    for (const auto& triangle : triangles) {
+        out << "facet normal 0 0 0\nouter loop\n";
+        for (const unsigned corner : triangle) {
+            out << "vertex";
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                out << ' ' << ((corner >> axis & 1U) != 0 ? high : low)[axis];
+            }
+            out << '\n';
+        }
+        out << "endloop\nendfacet\n";
+    }
+    out << "endsolid box\n";
+    return file;
+}
+
+TEST(SimulateCommand, APartThatIsMilledAwayIsGouged) {
+    const ScratchFolder scratch;
+    std::string text = "G21 G90 G17\nT1 M6\nM3 S8000\nG0 X-10 Y-10 Z5\nG1 Z-12 F600\n";
+    for (int row = 0; row <= 12; ++row) {
+        text += "G1 Y" + std::to_string(5 * row - 10) + "\nG1 X" + (row % 2 == 0 ? "70" : "-10") + "\n";
+    }
+    const fs::path part = box_mesh(scratch / "wanted.stl", {0, 0, -10}, {60, 40, -2});
+    const Ended ended = simulate(
+        program_in(scratch, text + "G0 Z5\nM2\n"), scratch / "out", {"--tool", "flat:6", "--part", part});
+    EXPECT_EQ(ended.exit_code, 1) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("0.0 mm^3 left"));
+    EXPECT_THAT(ended.out, HasSubstr("0.0 % within 0.1 mm, 100.0 % gouged, 0.0 % in excess"));
+    EXPECT_THAT(ended.out, HasSubstr("largest gouge (all material removed) at least"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/simulation.json"));
+    EXPECT_EQ(report.at("comparison").at("largest_gouge").at("at_least"), true);
+}
+
+TEST(SimulateCommand, NeverReplacesOrRemovesWhatItReads) {
+    const ScratchFolder scratch;
+    const fs::path out = scratch / "out";
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    ASSERT_EQ(simulate(program, out, {"--tool", "flat:6"}).exit_code, 0);
+    const auto refuses = [&](const fs::path& file, const std::vector<std::string>& arguments) {
+        const std::string before = content_of(file);
+        std::vector<std::string> all{"simulate"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        all.insert(all.end(), {"--resolution", "1", "--out", out});
+        const Ended ended = run(all);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr(file.filename().string()));
+        EXPECT_THAT(ended.err, HasSubstr("is an input file"));
+        EXPECT_EQ(content_of(file), before);
+        EXPECT_THAT(ended.out, IsEmpty());
+    };
+    const std::vector<std::string> usual{program, "--machine", "router-xyz", "--tool", "flat:6"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), usual.begin(), usual.end());
+        return more;
+    };
+    refuses(out / "cut.stl", with({"--stock", (out / "cut.stl").string() + "@0,-8,0"}));
+    refuses(out / "cut.ply", with({"--stock", "box:60,40,10", "--part", out / "cut.ply"}));
+    fs::copy_file("assets/tools/ball-6.json", out / "part.ply");
+    fs::copy_file("assets/machines/router-xyz.json", out / "part.png");
+    refuses(out / "part.png",
+            {program, "--machine", out / "part.png", "--tool", "flat:6", "--stock", "box:60,40,10"});
+    fs::remove(out / "part.ply");
+    fs::remove(out / "part.png");
+    fs::copy_file("assets/tools/ball-6.json", out / "simulation.json", fs::copy_options::overwrite_existing);
+    // The program of a project belongs to the files of its simulation.
+    const fs::path project = small_project(scratch.path(), "dome");
+    const Ended first =
+        run({"simulate", project, "--tool", "assets/tools/ball-6.json", "--resolution", "4", "--out", out});
+    ASSERT_LE(first.exit_code, 1) << first.err;
+    refuses(out / "program.ngc",
+            {out / "program.ngc",
+             "--machine",
+             "rotary-tilt-listing",
+             "--tool",
+             "flat:6",
+             "--stock",
+             "box:60,40,10"});
+}
+
+TEST(SimulateCommand, ChangesToolsAtM6Only) {
+    const ScratchFolder scratch;
+    const std::string two = "G21 G90\nT1\nM3 S8000\nG0 X-10 Y20 Z5\nG0 Z-2\nG1 X70 F600\nG0 Z5\n"
+                            "T2\nG0 X-10 Y10\nG0 Z-2\nG1 X70\nG0 Z5\nM2\n";
+    const Ended refused =
+        simulate(program_in(scratch, two), scratch / "out", {"--tool", "1=flat:6", "--tool", "2=flat:2"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("part.ngc:8: T2 is selected after T1, and no M6 changes to it"));
+    // One T: in the spindle from the start. After an M6 a T alone changes nothing.
+    std::string one = two;
+    one.erase(one.find("T2\n"), 3);
+    const Ended alone = simulate(program_in(scratch, one), scratch / "out", {"--tool", "1=flat:6"});
+    EXPECT_THAT(alone.out, HasSubstr("removed 1440.0 of"));
+    std::string preselected = two;
+    preselected.replace(preselected.find("T1\n"), 3, "T1 M6\n");
+    const Ended kept = simulate(
+        program_in(scratch, preselected), scratch / "out", {"--tool", "1=flat:6", "--tool", "2=flat:2"});
+    EXPECT_EQ(kept.exit_code, 0) << kept.err;
+    EXPECT_THAT(kept.out, HasSubstr("removed 1440.0 of"));
+}
+
+TEST(SimulateCommand, WarnsOfToolsThatAreTooNarrowOrNeverUsedAndRefusesTwoOfANumber) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const Ended narrow = simulate(
+        program, scratch / "out", {"--tool", "1=flat:0.9", "--tool", "7=flat:3", "--memory", "1e300"});
+    EXPECT_EQ(narrow.exit_code, 0) << narrow.err;
+    EXPECT_THAT(narrow.err, HasSubstr("a tool of 0.9 mm is narrower than two lines"));
+    EXPECT_THAT(narrow.err, HasSubstr("the program never changes to tool 7"));
+    const Ended wide = simulate(program, scratch / "out", {"--tool", "1=flat:6"});
+    EXPECT_THAT(wide.err, Not(HasSubstr("narrower")));
+    EXPECT_THAT(wide.err, Not(HasSubstr("never changes")));
+    const Ended twice = simulate(program, scratch / "out", {"--tool", "1=flat:6", "--tool", "1=flat:4"});
+    EXPECT_NE(twice.exit_code, 0);
+    EXPECT_THAT(twice.err, HasSubstr("tool 1 is named twice"));
+}
+
+TEST(SimulateCommand, EndsWithCodeOneForFeedsThatAreNotSimulated) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(
+        scratch, "G21 G90\nT1 M6\nM3 S8000\nG0 Z5\nG1 X10 F300\nG1 X20\nG0 Y20\nG1 Z-2\nG0 Z5\nM2\n");
+    const Ended ended = simulate(program, scratch / "out", {"--tool", "flat:6"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err,
+                HasSubstr("part.ngc:5: not simulated: 2 feeds before the program has positioned every axis "
+                          "that it uses, lines 5 to 6"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/simulation.json"));
+    EXPECT_EQ(report.at("moves").at("skipped_feeds"), 2);
+    EXPECT_EQ(report.at("moves").at("skipped"), 4);
+}
+
+// A head that tilts swings the tip about the gauge line: a longer tool cuts elsewhere.
+TEST(SimulateCommand, TiltsAToolOfAFileByItsGaugeLength) {
+    const ScratchFolder scratch;
+    const fs::path program =
+        program_in(scratch, "G21 G90\nT1 M6\nM3 S8000\nG0 X0 Y0 Z0 B30 C0\nG1 X1 F300\nM2\n");
+    const auto removed_by = [&](const std::string& length) {
+        const fs::path file = scratch / "long.json";
+        const std::string text = content_of("assets/tools/ball-6.json");
+        auto tool = nlohmann::json::parse(text);
+        tool["tool"]["gauge_length_mm"] = std::stod(length);
+        std::ofstream(file) << tool.dump();
+        const Ended ended = run({"simulate",
+                                 program,
+                                 "--machine",
+                                 "bc-table-head",
+                                 "--stock",
+                                 "box:400,400,400@-200,-200,-200",
+                                 "--tool",
+                                 file,
+                                 "--resolution",
+                                 "4",
+                                 "--out",
+                                 scratch / "out"});
+        EXPECT_THAT(ended.err, Not(HasSubstr("gauge length"))) << ended.err;
+        return content_of(scratch / "out/cut.stl");
+    };
+    EXPECT_NE(removed_by("80"), removed_by("140"));
+    const Ended spec = run({"simulate",
+                            program,
+                            "--machine",
+                            "bc-table-head",
+                            "--stock",
+                            "box:40,40,40",
+                            "--tool",
+                            "flat:6",
+                            "--out",
+                            scratch / "spec"});
+    EXPECT_THAT(spec.err, HasSubstr("flat:6: the head tilts the tool"));
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace millwright::simulation {
 namespace {
@@ -167,6 +168,174 @@ TEST(Comparison, AgreesWithTheSweepOverThePatch) {
     const std::vector<Deviation> deviation = deviations(input, found, points, Progress());
     for (std::size_t n = 0; n < points.size(); ++n) {
         EXPECT_NEAR(deviation[n].height, expected[n], 2e-3) << n;
+    }
+}
+
+/// Moves of a flat end mill back and forth along X from `from` to `to`, at each Y of the range.
+void clear(WrittenProgram& writer, const Vec3& from, const Vec3& to, double pitch) {
+    writer.go(BlockKind::rapid, {{'X', from.x()}, {'Y', from.y()}, {'Z', 5.0}})
+        .go(BlockKind::feed, {{'Z', from.z()}});
+    bool forth = true;
+    for (double y = from.y(); y <= to.y(); y += pitch) {
+        writer.go(BlockKind::feed, {{'Y', y}}).go(BlockKind::feed, {{'X', forth ? to.x() : from.x()}});
+        forth = !forth;
+    }
+}
+
+toolpath::Profile compared_flat(double diameter) {
+    return *toolpath::body_of({.kind = toolpath::CutterKind::flat, .diameter = diameter, .length = 50.0});
+}
+
+TEST(Comparison, WhereAllMaterialIsGoneThePartIsGouged) {
+    WrittenProgram writer(compared_router());
+    writer.add(BlockKind::spindle_on);
+    clear(writer, {-10.0, -10.0, -12.0}, {70.0, 50.0, -12.0}, 2.5);
+    const SimulationInput input{.program = writer.program(),
+                                .machine = compared_router(),
+                                .tools = {{0, 1, compared_flat(6.0)}},
+                                .stock = BoxStock{{0.0, 0.0, -10.0}, {60.0, 40.0, 0.0}},
+                                .resolution = 1.0};
+    const Simulation found = simulate(input, Progress());
+    ASSERT_NEAR(found.left_volume, 0.0, 1e-9);
+    const std::vector<PartPoint> points{{Vec3(30.0, 20.0, -2.0), Vec3::UnitZ(), 1.0},
+                                        {Vec3(30.0, 20.0, -10.0), -Vec3::UnitZ(), 1.0},
+                                        {Vec3(0.0, 20.0, -6.0), -Vec3::UnitX(), 1.0},
+                                        {Vec3(60.0, 40.0, -6.0), Vec3::UnitY(), 1.0},
+                                        {Vec3(30.0, 20.0, 0.05), Vec3::UnitZ(), 1.0}};
+    const std::vector<Deviation> deviation = deviations(input, found, points, Progress());
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        EXPECT_TRUE(deviation[n].at_least) << n;
+    }
+    EXPECT_NEAR(deviation[0].height, -8.0, 1e-9);
+    EXPECT_NEAR(deviation[1].height, -10.0, 1e-9);
+    EXPECT_NEAR(deviation[2].height, -60.0, 1e-9);
+    EXPECT_NEAR(deviation[3].height, -40.0, 1e-9);
+    const ComparisonSummary summary = summary_of(points, deviation, 100.0);
+    EXPECT_DOUBLE_EQ(summary.gouged, 1.0); // whatever the tolerance
+}
+
+// The last pass along the walls makes all ends of the lines that pass through the middle.
+TEST(Comparison, InTheMiddleOfAPocketThatWasFinishedAlongItsWallsThePartIsGouged) {
+    WrittenProgram writer(compared_router());
+    writer.add(BlockKind::spindle_on);
+    clear(writer, {11.0, 11.0, -12.0}, {49.0, 31.0, -12.0}, 1.5);
+    writer.go(BlockKind::feed, {{'X', 10.0}, {'Y', 32.0}})
+        .go(BlockKind::feed, {{'Y', 10.0}})
+        .go(BlockKind::feed, {{'X', 50.0}})
+        .go(BlockKind::feed, {{'Y', 32.0}})
+        .go(BlockKind::feed, {{'X', 10.0}});
+    const SimulationInput input{.program = writer.program(),
+                                .machine = compared_router(),
+                                .tools = {{0, 1, compared_flat(6.0)}},
+                                .stock = BoxStock{{0.0, 0.0, -10.0}, {60.0, 42.0, 0.0}},
+                                .resolution = 1.0};
+    const Simulation found = simulate(input, Progress());
+    const std::vector<PartPoint> points{{Vec3(30.0, 21.0, -2.0), Vec3::UnitZ(), 1.0},
+                                        {Vec3(20.0, 21.0, -5.0), -Vec3::UnitX(), 1.0},
+                                        {Vec3(0.0, 21.0, -5.0), -Vec3::UnitX(), 1.0},
+                                        {Vec3(30.0, 3.0, 0.0), Vec3::UnitZ(), 1.0}};
+    const std::vector<Deviation> deviation = deviations(input, found, points, Progress());
+    EXPECT_NEAR(deviation[0].height, -8.0, 1e-9);
+    EXPECT_LT(deviation[1].height, -12.0); // to the nearest wall, 13 mm
+    EXPECT_GT(deviation[1].height, -34.0);
+    EXPECT_NEAR(deviation[2].height, 0.0, 1e-9); // untouched faces of the stock
+    EXPECT_NEAR(deviation[3].height, 0.0, 1e-9);
+}
+
+TEST(Comparison, WithoutAnyCutTheStockItselfCounts) {
+    WrittenProgram writer(compared_router());
+    writer.add(BlockKind::spindle_on).go(BlockKind::rapid, {{'X', 0.0}, {'Y', 0.0}, {'Z', 50.0}});
+    const auto compare = [&](const Stock& stock, const std::vector<PartPoint>& points) {
+        const SimulationInput input{.program = writer.program(),
+                                    .machine = compared_router(),
+                                    .tools = {{0, 1, compared_flat(6.0)}},
+                                    .stock = stock,
+                                    .resolution = 0.5};
+        return deviations(input, simulate(input, Progress()), points, Progress());
+    };
+    const Vec3 diagonal = Vec3(1.0, 1.0, 0.0).normalized();
+    const std::vector<PartPoint> points{{9.5 * Vec3(1.0, 1.0, 0.0) - 5.0 * Vec3::UnitZ(), diagonal, 1.0},
+                                        {6.0 * diagonal - 5.0 * Vec3::UnitZ(), diagonal, 1.0},
+                                        {1.0 * diagonal - 5.0 * Vec3::UnitZ(), diagonal, 1.0},
+                                        {6.0 * diagonal - 4.0 * Vec3::UnitZ(), Vec3::UnitZ(), 1.0},
+                                        {6.0 * diagonal - 4.0 * Vec3::UnitZ(), -diagonal, 1.0}};
+    const std::vector<Deviation> tube =
+        compare(CylinderStock{Vec3(0.0, 0.0, -10.0), 2, 20.0, 8.0, 10.0}, points);
+    EXPECT_NEAR(tube[0].height, -(9.5 * std::sqrt(2.0) - 10.0), 1e-9);
+    EXPECT_NEAR(tube[1].height, 4.0, 1e-9);
+    EXPECT_NEAR(tube[2].height, -3.0, 1e-9); // in the bore
+    EXPECT_NEAR(tube[3].height, 4.0, 1e-9);
+    EXPECT_NEAR(tube[4].height, 2.0, 1e-9);
+    // A mesh in place of it: a pyramid with its top at Z 0; to a cell.
+    auto mesh = std::make_shared<MeshStock>();
+    mesh->points = {{-10, -10, -10}, {10, -10, -10}, {10, 10, -10}, {-10, 10, -10}, {0, 0, 0}};
+    mesh->triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    const std::vector<Deviation> pyramid = compare(std::shared_ptr<const MeshStock>(mesh),
+                                                   {{Vec3(6.0, 6.0, -1.0), Vec3::UnitZ(), 1.0},
+                                                    {Vec3(5.0, 0.0, -7.0), Vec3::UnitZ(), 1.0},
+                                                    {Vec3(5.0, 0.0, -5.2), Vec3::UnitZ(), 1.0}});
+    EXPECT_NEAR(pyramid[0].height, -5.0, 0.5);
+    EXPECT_NEAR(pyramid[1].height, 2.0, 0.5);
+    EXPECT_NEAR(pyramid[2].height, 0.2, 0.5);
+}
+
+TEST(Comparison, LooksAtAllOfLongMovesAndOfSeveralTurns) {
+    WrittenProgram along(compared_router());
+    along.add(BlockKind::spindle_on)
+        .go(BlockKind::rapid, {{'X', -1.0}, {'Y', 0.5}, {'Z', 5.0}})
+        .go(BlockKind::feed, {{'Z', -0.08}})
+        .go(BlockKind::feed, {{'X', 2501.0}});
+    const SimulationInput straight{.program = along.program(),
+                                   .machine = compared_router(),
+                                   .tools = {{0, 1, compared_flat(0.1)}},
+                                   .stock = BoxStock{{1200.0, 0.0, -1.0}, {1202.0, 1.0, 0.0}},
+                                   .resolution = 0.02};
+    const Simulation cut = simulate(straight, Progress());
+    std::vector<PartPoint> points;
+    for (double x = 1200.1; x < 1201.9; x += 0.0173) {
+        points.push_back({Vec3(x, 0.5, 0.0), Vec3::UnitZ(), 1.0});
+    }
+    for (const Deviation& deviation : deviations(straight, cut, points, Progress())) {
+        EXPECT_NEAR(deviation.height, -0.08, 1e-6);
+    }
+
+    const kinematics::MachineModel machine = kinematics::read_machine("assets/machines/ac-table.json");
+    WrittenProgram around(machine);
+    around.add(BlockKind::spindle_on)
+        .go(BlockKind::rapid, {{'X', 20.0}, {'Y', 0.0}, {'Z', 10.0}, {'A', 0.0}, {'C', 0.0}})
+        .go(BlockKind::feed, {{'Z', 0.0}});
+    const geometry::ToolPose start =
+        kinematics::forward(machine, around.program().blocks.back().target); // on the part's coordinates
+    around.go(BlockKind::feed, {{'C', 16.0 * pi}});
+    const geometry::ToolPose quarter = [&] {
+        kinematics::AxisPositions turned = around.program().blocks.back().target;
+        turned[machine.axis_index('C')] = 0.5 * pi;
+        return kinematics::forward(machine, turned);
+    }();
+    // The middle of the circle: equally far from two places a right angle apart, on the side of the axis.
+    const kinematics::AxisPositions half = [&] {
+        kinematics::AxisPositions turned = around.program().blocks.back().target;
+        turned[machine.axis_index('C')] = pi;
+        return turned;
+    }();
+    const Vec3 middle = 0.5 * (start.tip + kinematics::forward(machine, half).tip);
+    ASSERT_NEAR((quarter.tip - middle).norm(), (start.tip - middle).norm(), 1e-6);
+    const double radius = (start.tip - middle).norm();
+    const SimulationInput turning{.program = around.program(),
+                                  .machine = machine,
+                                  .tools = {{0, 1, compared_flat(4.0)}},
+                                  .stock = BoxStock{middle - Vec3(radius + 5.0, radius + 5.0, 5.0),
+                                                    middle + Vec3(radius + 5.0, radius + 5.0, 1.0)},
+                                  .resolution = 1.0};
+    const Simulation ring = simulate(turning, Progress());
+    points.clear();
+    for (double angle = 0.1; angle < 6.2; angle += 0.37) {
+        points.push_back({middle + radius * Vec3(std::cos(angle), std::sin(angle), 0.0) + 0.5 * Vec3::UnitZ(),
+                          Vec3::UnitZ(),
+                          1.0});
+    }
+    for (const Deviation& deviation : deviations(turning, ring, points, Progress())) {
+        EXPECT_NEAR(deviation.height, -0.5, 1e-6);
     }
 }
 

@@ -225,5 +225,34 @@ TEST(Simulation, FollowsTheMachineBetweenBlocks) {
     EXPECT_LT(worst, 2e-3);
 }
 
+TEST(Simulation, RemovesNothingFromARoundStockThatNoMoveMeets) {
+    WrittenProgram writer = positioned();
+    writer.go(BlockKind::feed, {{'X', 20.0}});
+    const Stock cylinder = CylinderStock{Vec3(0.0, 0.0, -10.0), 2, 20.0, 0.0, 10.0};
+    const Simulation untouched = run(writer, {{0, 1, flat(6.0)}}, cylinder, 1.0);
+    EXPECT_DOUBLE_EQ(untouched.removed_volume(), 0.0);
+    EXPECT_DOUBLE_EQ(untouched.left_volume, 1000.0 * pi);
+    const Simulation gone = [&] {
+        writer.go(BlockKind::feed, {{'X', 0.0}, {'Y', 0.0}}).go(BlockKind::feed, {{'Z', -11.0}});
+        return run(writer, {{0, 1, flat(21.0)}}, cylinder, 1.0);
+    }();
+    EXPECT_DOUBLE_EQ(gone.left_volume, 0.0);
+}
+
+TEST(Simulation, NamesTheFeedsBeforeEveryAxisIsPositioned) {
+    WrittenProgram writer(router());
+    writer.add(BlockKind::spindle_on)
+        .go(BlockKind::rapid, {{'Z', 5.0}})
+        .go(BlockKind::feed, {{'X', 10.0}})
+        .go(BlockKind::feed, {{'X', 12.0}})
+        .go(BlockKind::rapid, {{'Y', 20.0}})
+        .go(BlockKind::feed, {{'Z', -3.0}});
+    const Simulation found = run(writer, {{0, 1, flat(6.0)}});
+    ASSERT_TRUE(found.skipped.has_value());
+    EXPECT_EQ(found.skipped->feeds, 2);
+    EXPECT_EQ(found.skipped->first_feed_line, 12);
+    EXPECT_EQ(found.skipped->last_feed_line, 13);
+}
+
 } // namespace
 } // namespace millwright::simulation
