@@ -177,19 +177,23 @@ void Person::bring_into_sight(std::string_view path) {
     constexpr int most_notches = 200;
     for (int n = 0; n < most_notches; ++n) {
         const widgets::Rect before = place(path);
-        if (visible()) {
+        const widgets::Rect pane = place(path.substr(0, path.find('/')));
+        const float splitter = 12.0F * scale_; // which takes the mouse at the lower edge of a pane
+        const float below = pane.bottom() - before.centre().y;
+        if (visible() && (below < 0.0F || below > splitter)) {
             return;
         }
-        const widgets::Rect pane = place(path.substr(0, path.find('/')));
         // Beside its widgets, some of which keep the wheel, and off the splitter at its edge.
         hover({pane.x + 3.0F * scale_, pane.centre().y});
         input_.wheel = before.centre().y < pane.centre().y ? 1.0F : -1.0F;
         frames(3);
-        if (place(path) == before && !visible()) {
+        if (place(path) == before) {
             break;
         }
     }
-    throw Error("widget '" + std::string(path) + "' cannot be scrolled into sight");
+    if (!visible()) {
+        throw Error("widget '" + std::string(path) + "' cannot be scrolled into sight");
+    }
 }
 
 void Person::choose(const std::string& path, const std::string& option) {
