@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/simulation/internal/block_index.h"
 #include "core/simulation/internal/block_sweep.h"
 #include "core/simulation/internal/material_probe.h"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -135,19 +137,32 @@ double height_of_stock(const Stock& stock, const MaterialProbe& probe, const Par
     return end && end->move == stock_surface ? end->way : never;
 }
 
-const ToolUse* tool_of(const SimulationInput& input, int block) {
-    const ToolUse* found = nullptr;
-    for (const ToolUse& tool : input.tools) {
-        if (tool.first_block <= block) {
-            found = tool.body ? &tool : nullptr;
+/// Of blocks around a point: all long moves, and of the short ones those that are lowest at a glance.
+std::vector<int>
+promising(const SimulationInput& input, const std::vector<int>& blocks, const PartPoint& at) {
+    std::vector<std::pair<double, int>> seen;
+    for (const int block : blocks) {
+        const double height = BlockSweep(input, block, *tool_of(input, block)).glance(at.point, at.normal);
+        if (height < never) {
+            seen.emplace_back(height, block);
         }
     }
-    return found;
+    std::ranges::sort(seen);
+    constexpr int most_short_moves = 6;
+    int short_moves = 0;
+    std::vector<int> chosen;
+    for (const auto& [height, block] : seen) {
+        if (!(height > -never) || ++short_moves <= most_short_moves) {
+            chosen.push_back(block);
+        }
+    }
+    return chosen;
 }
 
-/// By the moves that made the ends near the point.
+/// By the moves that made the ends near the point, and those whose tool passed it.
 Deviation deviation_by_moves(const SimulationInput& input,
                              const DexelField& field,
+                             const BlockIndex& index,
                              const MaterialProbe& probe,
                              const PartPoint& at) {
     Deviation deviation{height_of_stock(input.stock, probe, at), -1};
@@ -155,6 +170,8 @@ Deviation deviation_by_moves(const SimulationInput& input,
         return deviation;
     }
     const NearBlocks near(field, at.point);
+    std::vector<int> passing;
+    index.add_around(at.point, passing);
     double deepest = 0.0; // in any tool, whatever the direction
     for (const int block : near.blocks()) {
         const ToolUse* tool = tool_of(input, block);
@@ -166,6 +183,21 @@ Deviation deviation_by_moves(const SimulationInput& input,
         if (height < 0.0) {
             deepest = std::max(deepest, sweep.depth(at.point, at.normal));
         }
+        if (height < deviation.height) {
+            deviation = {height, block};
+        }
+    }
+    for (const int block : promising(input, passing, at)) {
+        if (std::ranges::binary_search(near.blocks(), block)) {
+            continue;
+        }
+        const BlockSweep sweep(input, block, *tool_of(input, block));
+        const double depth = sweep.depth(at.point, at.normal);
+        if (!(depth > 0.0)) {
+            continue;
+        }
+        deepest = std::max(deepest, depth);
+        const double height = sweep.height(at.point, at.normal);
         if (height < deviation.height) {
             deviation = {height, block};
         }
@@ -211,9 +243,12 @@ bool is_uncut_beside(const Stock& stock, const MaterialProbe& probe, const PartP
     return length > 0.0 && probe.is_near(at.point - outside(at.point) / length * towards);
 }
 
-Deviation deviation_at(const SimulationInput& input, const DexelField& field, const PartPoint& at) {
+Deviation deviation_at(const SimulationInput& input,
+                       const DexelField& field,
+                       const BlockIndex& index,
+                       const PartPoint& at) {
     const MaterialProbe probe(field);
-    Deviation deviation = deviation_by_moves(input, field, probe, at);
+    Deviation deviation = deviation_by_moves(input, field, index, probe, at);
     const double uncertain = 2.0 * field.cell().norm();
     if (deviation.height < 0.0 && deviation.block < 0 && is_uncut_beside(input.stock, probe, at)) {
         return deviation;
@@ -238,13 +273,14 @@ std::vector<Deviation> deviations(const SimulationInput& input,
                                   std::span<const PartPoint> points,
                                   const Progress& progress) {
     std::vector<Deviation> result(points.size());
+    const BlockIndex index(input, found.first_block);
     constexpr std::ptrdiff_t points_a_chunk = 16, points_a_report = 1024;
     const std::ptrdiff_t count = std::ssize(result);
     for (std::ptrdiff_t first = 0; first < count; first += points_a_report) {
         parallel_for(std::min(points_a_report, count - first), points_a_chunk, [&](std::ptrdiff_t n) {
             progress.check();
             const auto at = static_cast<std::size_t>(first + n);
-            result[at] = deviation_at(input, *found.field, points[at]);
+            result[at] = deviation_at(input, *found.field, index, points[at]);
         });
         progress.report(static_cast<double>(std::min(first + points_a_report, count)) /
                         static_cast<double>(count));

@@ -102,6 +102,7 @@ private:
             return;
         }
         known_.take(block);
+        result_.first_block = n + 1;
         auto& skipped = result_.skipped;
         skipped = skipped.value_or(SkippedStart{0, 0, block.source_line, block.source_line, 0, 0});
         if (block.kind == program::BlockKind::rapid) {

@@ -67,6 +67,7 @@ struct Simulation {
     std::unique_ptr<DexelField> field; ///< ends are named by the blocks that made them
     double stock_volume = 0.0;         ///< mm^3, in closed form
     double left_volume = 0.0;          ///< mm^3: the share of the field's volume that is left, of the stock's
+    int first_block = 0;               ///< from which on moves were simulated
     int moves = 0;                     ///< simulated blocks
     int cutting_moves = 0;             ///< that removed material
     std::vector<Finding> findings;     ///< in the order of the blocks

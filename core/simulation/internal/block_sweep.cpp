@@ -37,6 +37,19 @@ double BlockSweep::depth(const Vec3& at, const Vec3& normal) const {
     return -least({at, normal}, [&](double f) { return toolpath::distance(*body_, way_.at(f), at); });
 }
 
+double BlockSweep::glance(const Vec3& at, const Vec3& normal) const {
+    const geometry::ToolPose first = way_.at(0.0), last = way_.at(1.0), middle = way_.at(0.5);
+    const double motion = 0.5 * (last.tip - first.tip).norm() + 0.25 * bend_.tip +
+                          reach_ * (0.5 * (last.axis - first.axis).norm() + 0.25 * bend_.axis);
+    constexpr double share_of_radius = 0.25;
+    if (!(motion <= share_of_radius * body_->shape().radius)) {
+        return -no_contact;
+    }
+    return toolpath::distance(*body_, middle, at) > motion
+               ? no_contact
+               : toolpath::height_over(*body_, middle, at, normal);
+}
+
 /// Whether no point of the body comes to the line while each moves by no more than `motion`: seen along the
 /// line the body lies around the segment of its axis.
 bool BlockSweep::misses(const geometry::ToolPose& pose, double motion, const Look& look) const {

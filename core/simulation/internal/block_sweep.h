@@ -17,6 +17,10 @@ public:
     /// How deep the point is in the tool, whatever the direction; below 0 or infinitely so: outside.
     [[nodiscard]] double depth(const Vec3& at, const Vec3& normal) const;
 
+    /// height() at the middle of the move; infinite where the tool never contains the point, and below all
+    /// where the move is too long for one look.
+    [[nodiscard]] double glance(const Vec3& at, const Vec3& normal) const;
+
 private:
     struct Look;
     template <class Value> [[nodiscard]] double least(const Look& look, const Value& value) const;

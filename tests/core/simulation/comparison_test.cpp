@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 
 namespace millwright::simulation {
 namespace {
@@ -337,6 +338,72 @@ TEST(Comparison, LooksAtAllOfLongMovesAndOfSeveralTurns) {
     for (const Deviation& deviation : deviations(turning, ring, points, Progress())) {
         EXPECT_NEAR(deviation.height, -0.5, 1e-6);
     }
+}
+
+// Whether a point is still material is known in closed form here: the moves are level and the cutter is flat.
+TEST(Comparison, FindsEveryPointThatAnyMoveHasTaken) {
+    std::mt19937 random(7);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 32>(random);
+    };
+    constexpr double radius = 3.0;
+    int taken = 0, left = 0;
+    for (int round = 0; round < 12; ++round) {
+        WrittenProgram writer(compared_router());
+        writer.add(BlockKind::spindle_on).go(BlockKind::rapid, {{'X', 0.0}, {'Y', 0.0}, {'Z', 5.0}});
+        struct Cut {
+            Vec2 from, to;
+            double z;
+        };
+        std::vector<Cut> cuts;
+        for (int n = 0; n < 8 + 4 * round; ++n) {
+            const Vec2 from(between(-5.0, 45.0), between(-5.0, 45.0));
+            const Vec2 to(between(-5.0, 45.0), between(-5.0, 45.0));
+            const double z = n % 3 == 0 ? -12.0 : between(-9.0, -1.0);
+            writer.go(BlockKind::rapid, {{'X', from.x()}, {'Y', from.y()}, {'Z', 5.0}})
+                .go(BlockKind::feed, {{'Z', z}})
+                .go(BlockKind::feed, {{'X', to.x()}, {'Y', to.y()}})
+                .go(BlockKind::rapid, {{'Z', 5.0}});
+            cuts.push_back({from, to, z});
+        }
+        const SimulationInput input{.program = writer.program(),
+                                    .machine = compared_router(),
+                                    .tools = {{0, 1, compared_flat(2.0 * radius)}},
+                                    .stock = BoxStock{{0.0, 0.0, -10.0}, {40.0, 40.0, 0.0}},
+                                    .resolution = 1.0};
+        const Simulation found = simulate(input, Progress());
+        std::vector<PartPoint> points;
+        std::vector<double> depths; // in the deepest tool; below 0: outside of all
+        for (int n = 0; n < 400; ++n) {
+            const Vec3 at(between(0.2, 39.8), between(0.2, 39.8), between(-9.8, -0.2));
+            Vec3 normal = Vec3::Unit(n % 3);
+            if (n % 2 == 0) {
+                normal = Vec3(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)).normalized();
+            }
+            double depth = -1e9;
+            for (const Cut& cut : cuts) {
+                const Vec2 way = cut.to - cut.from;
+                const Vec2 away = at.head<2>() - cut.from;
+                const double f = std::clamp(away.dot(way) / way.squaredNorm(), 0.0, 1.0);
+                depth = std::max(depth, std::min(radius - (away - f * way).norm(), at.z() - cut.z));
+            }
+            points.push_back({at, normal, 1.0});
+            depths.push_back(depth);
+        }
+        const std::vector<Deviation> deviation = deviations(input, found, points, Progress());
+        constexpr double margin = 0.02;
+        for (std::size_t n = 0; n < points.size(); ++n) {
+            if (depths[n] > margin) {
+                ++taken;
+                EXPECT_LT(deviation[n].height, -0.999 * depths[n]) << points[n].point.transpose();
+            } else if (depths[n] < -margin) {
+                ++left;
+                EXPECT_GT(deviation[n].height, 0.0) << points[n].point.transpose();
+            }
+        }
+    }
+    EXPECT_GT(taken, 1000);
+    EXPECT_GT(left, 400);
 }
 
 } // namespace
