@@ -56,14 +56,12 @@ std::string refusals(const std::vector<double>& too_wide,
                      const std::vector<double>& worse_elsewhere,
                      double taken,
                      double gap_allowance) {
-    const std::string wide = counted_below(too_wide,
-                                           taken,
-                                           "because tracks are more than " + shortest(100.0 * gap_allowance) +
-                                               " % farther apart than in the start grid");
-    const std::string worse = counted_below(worse_elsewhere,
-                                            taken,
-                                            "because the error or the tool-axis deviation is larger "
-                                            "somewhere on the path than in the start grid");
+    const std::string wide =
+        counted_below(too_wide,
+                      taken,
+                      "because tracks are more than " + shortest(100.0 * gap_allowance) + " % farther apart");
+    const std::string worse =
+        counted_below(worse_elsewhere, taken, "because of a larger error or tool-axis deviation somewhere");
     if (wide.empty() && worse.empty()) {
         return {};
     }

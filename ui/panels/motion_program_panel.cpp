@@ -25,10 +25,8 @@ void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (now.arm.program().busy()) {
         ui.words("Simulating \u2026", widgets::Tone::muted);
     } else {
-        fault_line(ui,
-                   faults,
-                   "Commands of the card: LINEAR, ABS, TM500, X10 Y-5 \u2026, angles in degrees; a semicolon "
-                   "starts a comment.");
+        fault_line(
+            ui, faults, "Card commands: LINEAR, ABS, TM500, X10 Y-5 \u2026 in degrees; ; starts a comment.");
     }
     editor_.draw(ui, now, ask, faults);
 }

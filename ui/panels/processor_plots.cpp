@@ -105,7 +105,7 @@ void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place
     const Rect inside = below_title(ui, place, pass_title(trace));
     (void)widgets::canvas(ui, "vector", inside, 0);
     if (trace.points.empty()) {
-        return say(ui, inside, "Step until a CORDIC pass starts.");
+        return say(ui, inside, "Step until a pass starts.");
     }
     const widgets::Palette& colours = ui.colours();
     Sketch sketch(ui, inside);

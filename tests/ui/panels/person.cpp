@@ -173,16 +173,21 @@ void Person::hover(widgets::Point at) {
 }
 
 void Person::bring_into_sight(std::string_view path) {
+    const std::string_view root = path.substr(0, path.find('/'));
     const auto visible = [&] { return desktop_->ui().places().find(path)->visible; };
+    // The splitter at the lower edge of a pane takes the mouse.
+    const auto is_at_splitter = [&] {
+        const auto* const pane = desktop_->ui().places().find(root);
+        const float below = pane == nullptr ? -1.0F : pane->rect.bottom() - place(path).centre().y;
+        return below >= 0.0F && below < 12.0F * scale_;
+    };
     constexpr int most_notches = 200;
     for (int n = 0; n < most_notches; ++n) {
         const widgets::Rect before = place(path);
-        const widgets::Rect pane = place(path.substr(0, path.find('/')));
-        const float splitter = 12.0F * scale_; // which takes the mouse at the lower edge of a pane
-        const float below = pane.bottom() - before.centre().y;
-        if (visible() && (below < 0.0F || below > splitter)) {
+        if (visible() && !is_at_splitter()) {
             return;
         }
+        const widgets::Rect pane = place(root);
         // Beside its widgets, some of which keep the wheel, and off the splitter at its edge.
         hover({pane.x + 3.0F * scale_, pane.centre().y});
         input_.wheel = before.centre().y < pane.centre().y ? 1.0F : -1.0F;
