@@ -195,7 +195,8 @@ bool EllipticAdaptation::advance(const Progress& progress) {
         at_.state.reached = at_.state.current;
     }
     at_.state.done = more ? std::max(at_.state.done, share_done(at_)) : 1.0;
-    progress.report(std::min(at_.state.done, adaptation_judged), at_.state.note);
+    const std::string_view note = at_.state.note;
+    progress.report(std::min(at_.state.done, adaptation_judged), note.substr(0, note.find(". ")));
     return more;
 }
 
