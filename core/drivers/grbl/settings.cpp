@@ -9,8 +9,7 @@ namespace {
 
 constexpr std::array known_settings = {
     GrblSetting{0, "Step pulse time", "us", "duration of a step pulse; at least 3"},
-    GrblSetting{
-        1, "Step idle delay", "ms", "delay before the motors turn off after a motion; 255: never"},
+    GrblSetting{1, "Step idle delay", "ms", "delay before the motors turn off after a motion; 255: never"},
     GrblSetting{2, "Step pulse invert", "mask", "axes with active-low step outputs; 1: X, 2: Y, 4: Z"},
     GrblSetting{3, "Direction invert", "mask", "axes with reversed direction; 1: X, 2: Y, 4: Z"},
     GrblSetting{4, "Step enable invert", "0/1", "the enable output is active high"},
