@@ -30,7 +30,7 @@ struct GridMethodRow {
     /// Whether both make the same grid of the same surface, but for the numbers
     /// of nodes.
     bool (*same_settings)(const project::GridInput& a, const project::GridInput& b);
-    /// Bytes that making it takes, at most; null: nobody knows.
+    /// Bytes that making it takes, at most; null if unknown.
     std::size_t (*memory)(const project::GridInput& input) = nullptr;
     std::string_view grid_name = {}; ///< of what takes that memory
     /// Null for the uniform grid, which is not improved. Throws Error where the

@@ -12,7 +12,7 @@
 
 namespace millwright::simulation {
 
-/// A point of the part's surface, and the area that it stands for.
+/// A point of the surface of the part, and the area that it represents.
 struct PartPoint {
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ(); ///< unit, out of the material

@@ -1,5 +1,5 @@
 // Any text is a stock or a tool: it gives one without a fault, a file to read, or an error that says what can
-// be written; never a crash or a number that is none.
+// be written; never a crash or NaN.
 #include "core/base/error.h"
 #include "core/simulation/spec_text.h"
 
