@@ -60,8 +60,7 @@ Vec3 position_of(const geometry::Surface& surface, const ControlPointId& id) {
 /// Sorted, each once, those of the surface only.
 std::vector<ControlPointId> tidied(std::vector<ControlPointId> points) {
     std::ranges::sort(points);
-    const auto repeated = std::ranges::unique(points);
-    points.erase(repeated.begin(), repeated.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
 }
 
