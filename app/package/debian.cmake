@@ -1,6 +1,9 @@
 # The Debian package of the suite that this runs on.
 cmake_host_system_information(RESULT suite QUERY DISTRIB_VERSION_CODENAME)
 set(maintainer "Millwright maintainers <maintainers@millwright.invalid>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL}) # as Debian's own tools take them
+    set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
 
 # Debian's changelog has the version of the package in its first line, and its date.
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC) # of SOURCE_DATE_EPOCH, where it is set

@@ -2,6 +2,7 @@
 
 #include "core/base/numbers.h"
 #include "core/gcode/internal/losses.h"
+#include "core/gcode/modal_state.h"
 #include "core/gcode/programmed_feed.h"
 #include "core/program/retract.h"
 
