@@ -339,6 +339,9 @@ void Controller::expect_tool_changes(const jobs::Job& job) const {
                            ? std::vector<jobs::ToolCall>()
                            : jobs::tool_calls(job.listing->text);
     if (!calls.empty()) {
+        if (const auto found = survey_of(job); found && !found->missing_axes.empty()) {
+            throw Error(found->errors.front()); // which no way to change tools helps
+        }
         throw Error(Diagnostic{
             {job.project, calls.front().line, calls.front().column, -1},
             "the program changes tools (M6), which Grbl refuses (error 20)",
@@ -385,6 +388,15 @@ void Controller::show_warnings(const jobs::Job& job) const {
     }
 }
 
+/// In which the check of the travel begins, for a program that does not name its own.
+void Controller::say_modes(const jobs::Job& job) const {
+    const std::string modes = driver_->status().modes;
+    if (driver_->capabilities().dialect && !modes.empty()) {
+        fmt::print("{}: travel is checked from the modes of the controller: {}\n", job.project, modes);
+        std::fflush(stdout);
+    }
+}
+
 /// Of a motion program, on an emulated card: whether the joints would leave their limits.
 void Controller::check_joints(const jobs::Job& job, const std::stop_token& stop) const {
     const arm::ArmModel arm = arm_of(choice_.arm);
@@ -416,6 +428,7 @@ jobs::JobOutcome Controller::run(const jobs::Job& wanted, const Interrupt& inter
     const jobs::Job job = choice_.trace_box ? box_of(wanted) : wanted;
     ask_for_tool(job, interrupt.token());
     show_warnings(job);
+    say_modes(job);
     if (choice_.driver == "pmac") {
         check_joints(job, interrupt.token());
     }

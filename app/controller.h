@@ -84,6 +84,7 @@ public:
 
 private:
     void expect_rest() const;
+    void say_modes(const jobs::Job& job) const;
     void expect_axes() const;
     void prepare(bool at_a_line, const std::stop_token& stop);
     void wait_for(const std::function<bool(const drivers::DriverStatus&)>& done, const std::stop_token& stop);

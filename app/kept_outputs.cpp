@@ -52,13 +52,15 @@ bool named_twice(const fs::path& file, const fs::path& name) {
     return !failure || fs::copy_file(file, name, failure);
 }
 
-void say_kept(const fs::path& file, const fs::path& name) {
-    fmt::print(stderr,
-               "millwright: {}\n",
-               to_text(Diagnostic{{file, 0, 0, -1},
-                                  "was changed since Millwright wrote it; the changed file is now " +
-                                      name.filename().string(),
-                                  {}}));
+void say_kept(const fs::path& file, const fs::path& name, bool was_written) {
+    fmt::print(
+        stderr,
+        "millwright: {}\n",
+        to_text(Diagnostic{{file, 0, 0, -1},
+                           (was_written ? "was changed since Millwright wrote it; the changed file is now "
+                                        : "was not written by Millwright; the old file is now ") +
+                               name.filename().string(),
+                           {}}));
 }
 
 void say_taken_away(const fs::path& file) {
@@ -73,20 +75,21 @@ void say_taken_away(const fs::path& file) {
 KeptOutputs::KeptOutputs(std::vector<fs::path> files) : files_(std::move(files)) {
     for (const fs::path& file : files_) {
         const fs::path real = file_to_lose(file);
-        if (real.empty() || WrittenFiles().holds(real)) {
+        const WrittenFiles written;
+        if (real.empty() || written.holds(real)) {
             continue;
         }
         fs::path name = kept_name(real);
         if (!named_twice(real, name)) {
             name.clear(); // nothing can be written there either
         }
-        kept_.emplace_back(real, std::move(name));
+        kept_.push_back({real, std::move(name), written.knows(real)});
     }
 }
 
 KeptOutputs::~KeptOutputs() {
     std::vector<fs::path> not_ours;
-    for (const auto& [file, name] : kept_) {
+    for (const auto& [file, name, was_written] : kept_) {
         if (name.empty()) {
             not_ours.push_back(file);
         } else if (is_untouched(file, name)) {
@@ -94,7 +97,7 @@ KeptOutputs::~KeptOutputs() {
             fs::remove(name, ignored);
             not_ours.push_back(file);
         } else {
-            say_kept(file, name);
+            say_kept(file, name, was_written);
         }
     }
     std::vector<fs::path> written;

@@ -14,8 +14,8 @@ namespace millwright::app {
 /// cannot have one.
 [[nodiscard]] bool named_twice(const std::filesystem::path& file, const std::filesystem::path& name);
 
-/// On standard error.
-void say_kept(const std::filesystem::path& file, const std::filesystem::path& name);
+/// On standard error. `was_written`: a command has written `file` once.
+void say_kept(const std::filesystem::path& file, const std::filesystem::path& name, bool was_written);
 
 /// On standard error: of a file that no longer fits the others in its folder.
 void say_taken_away(const std::filesystem::path& file);
@@ -33,7 +33,11 @@ public:
 private:
     std::vector<std::filesystem::path> files_;
     /// Of others, each with its second name; empty where it cannot have one.
-    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> kept_;
+    struct Kept {
+        std::filesystem::path file, name;
+        bool was_written = false; ///< a command has written it once
+    };
+    std::vector<Kept> kept_;
 };
 
 } // namespace millwright::app

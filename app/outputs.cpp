@@ -70,28 +70,32 @@ public:
     SecondNames(const SecondNames&) = delete;
     SecondNames& operator=(const SecondNames&) = delete;
     ~SecondNames() {
-        for (const auto& [file, name] : names_) {
+        for (const auto& [file, name, was_written] : names_) {
             std::error_code ignored;
             fs::remove(name, ignored);
         }
     }
 
-    void add(const fs::path& file) {
+    void add(const fs::path& file, bool was_written) {
         const fs::path name = kept_name(file);
         if (!named_twice(file, name)) {
             throw Error("cannot be kept as " + name.filename().string(), file, "choose another folder");
         }
-        names_.emplace_back(file, name);
+        names_.push_back({file, name, was_written});
     }
     void stay() {
-        for (const auto& [file, name] : names_) {
-            say_kept(file, name);
+        for (const auto& [file, name, was_written] : names_) {
+            say_kept(file, name, was_written);
         }
         names_.clear();
     }
 
 private:
-    std::vector<std::pair<fs::path, fs::path>> names_;
+    struct Named {
+        fs::path file, name;
+        bool was_written = false; ///< a command has written it once
+    };
+    std::vector<Named> names_;
 };
 
 /// Files in `folder` of older sets of the same kind, but for those with which a file of `set` was written as
@@ -160,7 +164,7 @@ void take_away(const fs::path& file, const WrittenFiles& written) {
     const fs::path name = kept_name(file);
     fs::rename(file, name, failure);
     if (!failure) {
-        say_kept(file, name);
+        say_kept(file, name, written.knows(file));
     }
 }
 
@@ -262,7 +266,7 @@ void write_outputs(const fs::path& typed, const OutputSet& set, const fs::path& 
         std::error_code missing;
         if (fs::exists(places[n], missing) && !written.holds(places[n]) &&
             !has_bytes(places[n], set.files[n].bytes)) {
-            kept.add(places[n]);
+            kept.add(places[n], written.knows(places[n]));
         }
     }
     try {

@@ -24,6 +24,10 @@ CLI::Option& add_post_options(CLI::App& command, PostChoice& choice) {
 
 namespace {
 
+/// At the top of a program for tip control, whose own header is about the axes.
+constexpr const char* tip_remark = "X Y Z are positions of the tool tip, for any tool length; a distance "
+                                   "in this header is without tip control";
+
 /// Of a canned cycle: the program has not asked for its path mode.
 bool is_of_cycle(const program::Block& block) {
     return block.path && block.path->of_cycle;
@@ -66,13 +70,17 @@ PostedText posted(const program::Program& program,
     const std::filesystem::path file =
         project::post_path(choice.post, std::filesystem::current_path(), project::assets_folder());
     PostedText result{posts::read_post(file), {}, path_mode_changes(program)};
+    std::string top = remark;
+    if (top.empty() && result.format.positions == posts::PositionsOf::tip) {
+        top = tip_remark;
+    }
     result.text = posts::release(program,
                                  machine,
                                  result.format,
                                  {.text = {.name = posts::text_name(name),
                                            .line_numbers = choice.line_numbers,
                                            .path_tolerance = path_tolerance_of(program),
-                                           .remark = remark},
+                                           .remark = top},
                                   .arc_tolerance = choice.arc_tolerance,
                                   .tip_tolerance = choice.tip_tolerance,
                                   .file = name + "." + result.format.extension});

@@ -264,8 +264,8 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     gcode::MachineProgram made = builder.take();
     throw_first_of(made.faults);
     throw_first_of(made.lost);
-    for (const Diagnostic& unplaced : made.unplaced) {
-        work.warnings.push_back(to_text(unplaced));
+    for (const Diagnostic& unknown : made.unknown_positions()) {
+        work.warnings.push_back(to_text(unknown));
     }
     work.program = std::move(made.program);
     take_tools(recorder, tools, work);

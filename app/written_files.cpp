@@ -90,6 +90,10 @@ bool WrittenFiles::holds(const fs::path& file) const {
     }
 }
 
+bool WrittenFiles::knows(const fs::path& file) const {
+    return entries_.contains(lasting_path(file));
+}
+
 bool WrittenFiles::had_other_bytes(const fs::path& file, std::string_view bytes) const {
     const auto found = entries_.find(lasting_path(file));
     return found != entries_.end() && jobs::program_hash(bytes) != found->second.hash;

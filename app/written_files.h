@@ -21,6 +21,8 @@ public:
 
     /// Whether `file` still has the bytes that a command wrote there last.
     [[nodiscard]] bool holds(const std::filesystem::path& file) const;
+    /// Whether a command has written `file` once, whatever is there now.
+    [[nodiscard]] bool knows(const std::filesystem::path& file) const;
     /// False for what cannot be read.
     [[nodiscard]] static bool same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
     /// Whether a command wrote `file` last, with other bytes than these.

@@ -115,7 +115,7 @@ std::vector<ArmWay> ways_of(const ArmReachOptions& options) {
         fault.hint = options.machine.empty() ? "name the machine of the program with --machine" : "";
         throw Error(fault);
     }
-    print_warnings(found.unplaced);
+    print_warnings(found.unknown_positions());
     auto ways =
         program::arm_ways(std::make_shared<const program::Program>(std::move(found.program)), machine, frame);
     if (ways.empty()) {

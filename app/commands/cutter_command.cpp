@@ -43,10 +43,11 @@ struct CutterOptions {
 void print_cutter_summary(const plan::Plan& plan, const project::Project& project) {
     const plan::Evaluation& chosen = *plan.program_path(project);
     const plan::CutStudy& study = *plan.cut;
-    fmt::print("cutter error: at most {} mm, {} mm on average; tool axis at most {} deg off\n",
+    fmt::print("cutter error: at most {} mm, {} mm on average; tool axis at most {} deg off ({})\n",
                fixed(chosen.closest.max, 4),
                fixed(chosen.closest.mean, 4),
-               fixed(to_degrees(chosen.closest.axis_max), 2));
+               fixed(to_degrees(chosen.closest.axis_max), 2),
+               plan::checked_face_text(project));
     fmt::print("scallop height: {}\n", plan::left_text(project, plan));
     fmt::print("tracks: {}; a scallop height of {} mm allows {}\n",
                chosen.track_gap ? "at most " + fixed(*chosen.track_gap, 3) + " mm apart"

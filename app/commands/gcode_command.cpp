@@ -383,7 +383,7 @@ EstimatedTime estimated_time(const GcodeOptions& options) {
     for (const program::Block& block : rest.program.blocks) {
         estimate.add(block);
     }
-    std::vector<Diagnostic> warnings = rest.unplaced;
+    std::vector<Diagnostic> warnings = rest.unknown_positions();
     warnings.insert(warnings.end(), rest.beyond_travel.begin(), rest.beyond_travel.end());
     return {estimate.finish(), rest.length, count, std::move(warnings)};
 }
@@ -410,7 +410,7 @@ int time(const GcodeOptions& options) {
 
 int pulses(const GcodeOptions& options) {
     const MachineRun run = machine_run(options);
-    print_warnings(run.found.unplaced);
+    print_warnings(run.found.unknown_positions());
     const motion::Trajectory trajectory =
         motion::plan(run.found.program, run.machine, planner_settings(options), Progress());
     return report_pulses(trajectory, run.found.program, options.pulses, options.file, options.json);

@@ -200,6 +200,12 @@ void print_path(std::string_view name,
 
 /// The path of the chosen grid beside the one of the nearest angles with no point added.
 void print_sequencing(const plan::Plan& plan, const project::Project& project) {
+    if (plan.unsequenced_failure) {
+        fmt::print(stderr,
+                   "note: the program with nearest angles, to compare with, could not be computed: {}\n",
+                   to_text(*plan.unsequenced_failure));
+        return;
+    }
     if (!plan.unsequenced) {
         return;
     }

@@ -271,7 +271,9 @@ void Interpreter::Parts::end_of_text() {
     stopped = true;
     run.out.begin({files.place(), {}});
     try {
-        if (flow.in_subroutine()) {
+        // after a return that was refused, what is missing behind it is no further fault
+        const bool is_lost = flow.return_refused();
+        if (flow.in_subroutine() && !is_lost) {
             internal::refuse(
                 1,
                 fmt::format("the file ends inside a subroutine called in line {}", flow.called_from().line));
@@ -283,7 +285,7 @@ void Interpreter::Parts::end_of_text() {
         if (!seen_text) {
             internal::refuse(1, "the program is empty");
         }
-        if (!is_grbl() && !end_refused) {
+        if (!is_grbl() && !end_refused && !is_lost) {
             if (!settings.may_lack_end) {
                 internal::refuse(1, "the program has no end: M2, M30 or % is missing");
             }
@@ -413,6 +415,7 @@ void Interpreter::Parts::execute_words(Cursor& cursor) {
     send_reads();
     constexpr int m99 = 99;
     if (line.block.code(internal::MGroup::stopping) == m99 && flow.in_subroutine()) {
+        flow.refuse_return();
         internal::refuse(line.block.column_of(internal::MGroup::stopping),
                          "M99 in a subprogram must be the only word in its line");
     }

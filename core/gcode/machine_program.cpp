@@ -413,6 +413,14 @@ private:
     }
 };
 
+std::vector<Diagnostic> MachineProgram::unknown_positions() const {
+    std::vector<Diagnostic> found = unplaced;
+    if (start_notice) {
+        found.push_back(*start_notice);
+    }
+    return found;
+}
+
 program::Listing listing_of(std::string_view text, const program::Program& program) {
     program::Listing listing;
     listing.text = with_newlines(std::string(text));

@@ -40,7 +40,7 @@ struct MachineProgram {
     /// What blocks say in another way or not at all, the first of each kind: mist (flood), work systems
     /// whose offset nobody told (it is zero), outputs, override switches.
     std::vector<Diagnostic> simplified;
-    /// That axes move while the program has not named others yet, which it does later.
+    /// That axes move while others have no known position: the program sets these later or never.
     std::optional<Diagnostic> start_notice;
     /// What depends on where the axes are at the start, or on where the work lies on the machine, while the
     /// program has said neither, the first of each kind: increments, arcs and cutter compensation from there,
@@ -50,6 +50,9 @@ struct MachineProgram {
     std::vector<Diagnostic> unplaced;
     double first_rpm = 0.0; ///< the first S above zero, also where the spindle is never switched on
     double length = 0.0;    ///< of the ways of X Y Z, rapids too, mm
+
+    /// unplaced and start_notice: what zero was taken for.
+    [[nodiscard]] std::vector<Diagnostic> unknown_positions() const;
 };
 
 /// The lines of a G-code file with the blocks that were read from them.

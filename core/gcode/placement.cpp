@@ -7,6 +7,7 @@
 #include "core/program/retract.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -433,7 +434,15 @@ void Placement::note_first_move(const Move& move, const std::vector<int>& moving
     if (first_move_.line > 0 || known_ == program::AxisSet::all(machine_.axis_count())) {
         return;
     }
+    if (move.kind == MoveKind::traverse && !machine_.linear_axes().empty()) {
+        program::AxisSet height;
+        height.insert(program::retract_axis(machine_).axis);
+        if (named_ == height) {
+            return; // to a safe height first, from wherever it is
+        }
+    }
     first_move_ = move.source;
+    known_at_first_move_ = known_;
     for (int n = 0; n < machine_.axis_count(); ++n) {
         if (named_.contains(n) || std::ranges::find(moving, n) != moving.end()) {
             first_moving_.push_back(n);
@@ -441,19 +450,48 @@ void Placement::note_first_move(const Move& move, const std::vector<int>& moving
     }
 }
 
+/// "sets Y and Z for the first time in line 3, A in line 5, never sets C".
+std::string Placement::when_set(const std::vector<int>& unknown) const {
+    std::vector<std::pair<int, std::vector<int>>> lines; // in the order of the program
+    std::vector<int> never = unknown;
+    for (const auto& [axis, line] : named_later_) {
+        if (lines.empty() || lines.back().first != line) {
+            lines.emplace_back(line, std::vector<int>());
+        }
+        lines.back().second.push_back(axis);
+        std::erase(never, axis);
+    }
+    std::vector<std::string> parts;
+    for (const auto& [line, axes] : lines) {
+        parts.push_back(parts.empty()
+                            ? fmt::format("sets {} for the first time in line {}", letters_of(axes), line)
+                            : fmt::format("{} in line {}", letters_of(axes), line));
+    }
+    if (!never.empty()) {
+        parts.push_back("never sets " + letters_of(never));
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::optional<Diagnostic> Placement::start_notice() const {
-    if (named_later_.empty()) {
+    if (first_move_.line == 0) {
         return std::nullopt;
     }
-    const auto [axis, line] = named_later_.front();
+    std::vector<int> unknown;
+    for (int n = 0; n < machine_.axis_count(); ++n) {
+        if (!known_at_first_move_.contains(n)) {
+            unknown.push_back(n);
+        }
+    }
+    const bool several = unknown.size() > 1;
     return Diagnostic{{file_, first_move_.line, 0, -1},
-                      fmt::format("the start position of {} is unknown: {} {} here, but the program sets {} "
-                                  "for the first time in line {}",
-                                  letter_of(axis),
+                      fmt::format("the start {} of {} {} unknown: {} {} here, but the program {}",
+                                  several ? "positions" : "position",
+                                  letters_of(unknown),
+                                  several ? "are" : "is",
                                   letters_of(first_moving_),
                                   first_moving_.size() > 1 ? "move" : "moves",
-                                  letter_of(axis),
-                                  line),
+                                  when_set(unknown)),
                       "move the tool clear of obstacles before the start"};
 }
 

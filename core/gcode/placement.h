@@ -38,7 +38,8 @@ public:
 
     /// What depends on a position that was not said, the first of each kind.
     [[nodiscard]] std::vector<Diagnostic> take_unplaced() { return std::move(unplaced_); }
-    /// That axes move while others have not been named yet; none where all are named first.
+    /// That axes move while others have no known position yet, all of them in one sentence, with the line
+    /// that sets each; nothing where the first move names all, be it behind rapid moves to a safe height.
     [[nodiscard]] std::optional<Diagnostic> start_notice() const;
 
 private:
@@ -86,6 +87,7 @@ private:
     void
     look_at_reference(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line);
     void note_first_move(const Move& move, const std::vector<int>& moving);
+    [[nodiscard]] std::string when_set(const std::vector<int>& unknown) const;
     [[nodiscard]] char letter_of(int axis) const { return machine_.axis(axis).letter; }
     [[nodiscard]] std::string letters_of(const std::vector<int>& axes) const;
 
@@ -108,7 +110,8 @@ private:
     std::vector<std::optional<Frame>> frame_used_; ///< of each axis by the moves so far
     std::set<Kind> refused_;
     std::vector<Diagnostic> unplaced_;
-    SourcePlace first_move_;
+    SourcePlace first_move_; ///< that begins while an axis has no known position
+    program::AxisSet known_at_first_move_;
     std::vector<int> first_moving_;
     std::vector<std::pair<int, int>> named_later_; ///< than the first move: axis, line
 };

@@ -1,29 +1,11 @@
 #include "core/plan/internal/derivation.h"
 
 #include "core/plan/internal/failure.h"
-#include "core/project/assets.h"
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 namespace millwright::plan {
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// The least there is of a machine that is not found.
-fs::file_time_type machine_written(const project::Project& project, const Folders& folders) {
-    std::error_code failure;
-    try {
-        return fs::last_write_time(project::machine_path(project, folders.project, folders.assets), failure);
-    } catch (const Error&) { // reported where the machine is read
-        return fs::file_time_type::min();
-    }
-}
-
-} // namespace
 
 void Derivation::derive(const project::Project& project,
                         const Folders& folders,
@@ -55,10 +37,9 @@ Plan Derivation::finish(const project::Project& project,
 
 void Derivation::begin(const project::Project& project, const Folders& folders, const Scope& scope) {
     keep_earlier_grids();
-    const std::optional<Source> before =
-        std::exchange(source_, Source{project, folders, machine_written(project, folders)});
+    const std::optional<Source> before = std::exchange(source_, source_of(project, folders));
     const std::vector<Entry> last = std::exchange(entries_, {});
-    for (Stage& stage : stages_of(project, scope)) {
+    for (Stage& stage : stages_of_(project, scope)) {
         entries_.push_back({std::move(stage)});
     }
     for (GridResult& grid : plan_.grids) {
@@ -117,8 +98,8 @@ void Derivation::run(Quality quality, const Publish& publish, const Progress& pr
     }
 }
 
-/// A fault of a compared grid is its own. What is not exact yet is only a help meanwhile: the exact result
-/// comes to a fault again, and with a program first.
+/// A fault of a compared grid is its own. What is made coarsely, or of something coarse, is only a help
+/// meanwhile, and so is its fault: if the exact result has it, too, it is found there.
 void Derivation::make(std::size_t n, Quality quality, const Progress& progress) {
     Entry& entry = entries_[n];
     if (const auto owner = entry.stage.fault_of) {
@@ -133,8 +114,7 @@ void Derivation::make(std::size_t n, Quality quality, const Progress& progress) 
     try {
         make_result(entry, quality, progress);
     } catch (const Error&) {
-        const bool is_guess = quality == Quality::carried && entry.stage.graded;
-        if (!is_guess) {
+        if (quality == Quality::exact || !is_guess(entry)) {
             throw;
         }
     }
@@ -142,6 +122,10 @@ void Derivation::make(std::size_t n, Quality quality, const Progress& progress) 
 
 void Derivation::make_result(Entry& entry, Quality quality, const Progress& progress) {
     progress.check();
+    const auto is_missing = [&](const StageKey& key) { return find(key)->made == 0; };
+    if (quality == Quality::coarse && std::ranges::any_of(entry.stage.reads, is_missing)) {
+        return; // it failed, or there is none before the exact one
+    }
     const bool is_named = quality == Quality::exact || (quality == Quality::coarse && !entry.stage.fault_of);
     if (is_named && !entry.stage.title.empty()) {
         progress.report(0.0, entry.stage.title);
@@ -222,6 +206,12 @@ bool Derivation::is_exact(const Entry& entry) const {
                const Entry& read = *find(key);
                return read.made == 0 || is_exact(read);
            });
+}
+
+/// Made before its exact result, it may differ from that.
+bool Derivation::is_guess(const Entry& entry) const {
+    return entry.stage.graded ||
+           std::ranges::any_of(entry.stage.reads, [&](const StageKey& key) { return !is_exact(*find(key)); });
 }
 
 bool Derivation::all_exact() const {

@@ -234,6 +234,7 @@ private:
         job.listing = motion->listing;
         now.findings = jobs::preflight(job);
         now.unplaced = std::move(made.unplaced);
+        now.start_notice = std::move(made.start_notice);
         now.findings.insert(now.findings.end(), now.unplaced.begin(), now.unplaced.end());
         now.motion = std::move(motion);
     }

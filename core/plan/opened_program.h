@@ -18,6 +18,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,13 +61,14 @@ struct OpenedProgram {
     std::vector<Diagnostic> faults; ///< what the machine cannot do
     std::vector<Diagnostic>
         findings; ///< of the check before a job: limits, axes, a missing end; and unplaced
-    std::vector<Diagnostic> unplaced; ///< MachineProgram::unplaced: its motion takes 0 for it
-    std::string no_motion;            ///< why there is no motion, in a sentence; empty if there is or will be
-    double seconds = 0.0;             ///< as fast as programmed
-    double length = 0.0;              ///< of the tip's way, mm
-    bool finished = false;            ///< nothing more is coming
-    bool cancelled = false;           ///< a person stopped the reading
-    std::uint64_t revision = 0;       ///< grows with every publication
+    std::vector<Diagnostic> unplaced;       ///< MachineProgram::unplaced: its motion takes 0 for it
+    std::optional<Diagnostic> start_notice; ///< MachineProgram::start_notice
+    std::string no_motion;      ///< why there is no motion, in a sentence; empty if there is or will be
+    double seconds = 0.0;       ///< as fast as programmed
+    double length = 0.0;        ///< of the tip's way, mm
+    bool finished = false;      ///< nothing more is coming
+    bool cancelled = false;     ///< a person stopped the reading
+    std::uint64_t revision = 0; ///< grows with every publication
 
     /// Of the errors of the program itself, by line from 1; the first of a line.
     [[nodiscard]] std::map<int, const Diagnostic*> errors_by_line() const;

@@ -3,6 +3,7 @@
 #include "core/plan/internal/background.h"
 #include "core/plan/internal/derivation.h"
 #include "core/plan/internal/failure.h"
+#include "core/plan/internal/stages.h"
 
 #include <utility>
 
@@ -68,7 +69,8 @@ public:
 
     void start(project::GridMethod method, const project::Project& project, const Folders& folders) {
         background_.clear();
-        auto session = std::make_shared<Session>(Session{method, project, folders, nullptr, nullptr});
+        auto session =
+            std::make_shared<Session>(Session{method, source_of(project, folders), nullptr, nullptr});
         session_ = std::move(session); // the arguments may be the old one's
         set(session_.get(), {method, false, nullptr, 0, std::nullopt});
     }
@@ -99,7 +101,7 @@ public:
     }
     void reset() {
         if (session_) {
-            start(session_->method, session_->project, session_->folders);
+            start(session_->method, session_->source.project, session_->source.folders);
         }
     }
     void end() {
@@ -112,8 +114,8 @@ public:
 
     /// What the session, if there is one, is about.
     [[nodiscard]] bool is_about(const project::Project& project, const Folders& folders) const {
-        return session_ && session_->folders == folders && session_->project.surface == project.surface &&
-               session_->project.machine == project.machine && session_->project.grid == project.grid;
+        return session_ && session_->source.project.grid == project.grid &&
+               same_workpiece(session_->source, source_of(project, folders));
     }
     [[nodiscard]] std::shared_ptr<const WatchedAdaptation> watched() const {
         const std::scoped_lock lock(mutex_);
@@ -126,8 +128,7 @@ private:
     /// All that the worker needs; the improver refers to the error model.
     struct Session {
         project::GridMethod method;
-        project::Project project;
-        Folders folders;
+        Source source;
         std::unique_ptr<const toolpath::KinematicError> error;
         std::unique_ptr<grid::GridImprover> improver;
     };
@@ -138,8 +139,8 @@ private:
         const auto failure = failure_of([&] {
             if (!session.improver) {
                 session.error = std::make_unique<const toolpath::KinematicError>(
-                    workpiece_of(session.project, session.folders).error_model());
-                session.improver = make_improver(session.method, session.project.grid, *session.error);
+                    workpiece_of(session.source.project, session.source.folders).error_model());
+                session.improver = make_improver(session.method, session.source.project.grid, *session.error);
             }
             more = session.improver->advance(progress);
         });

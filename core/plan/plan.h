@@ -51,6 +51,7 @@ struct Plan {
     /// The program's path with the nearest angles and no point added, and its time; nothing where it is that.
     std::shared_ptr<const Evaluation> unsequenced;
     std::optional<double> unsequenced_time;
+    std::optional<Diagnostic> unsequenced_failure; ///< why it is missing; the program is there all the same
 
     [[nodiscard]] const GridResult& grid(project::GridMethod method) const {
         return grids[static_cast<std::size_t>(method)];

@@ -108,6 +108,7 @@ std::optional<double> estimated_time(const Evaluation& evaluation,
 void add_unsequenced(Plan& plan, const project::Project& project, const Progress& progress) {
     const auto& chosen = plan.program_path(project);
     plan.unsequenced = nullptr;
+    plan.unsequenced_time.reset();
     if (project.sequencing == project::SequencingInput{} || plan.workpiece->machine.rotary_axes().empty() ||
         !chosen) {
         return;

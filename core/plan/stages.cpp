@@ -1,11 +1,14 @@
 #include "core/plan/internal/stages.h"
 
 #include "core/plan/cut_study.h"
+#include "core/plan/internal/failure.h"
 #include "core/plan/internal/grid_stages.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/assets.h"
 #include "core/project/surface.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace millwright::plan {
@@ -13,6 +16,15 @@ namespace millwright::plan {
 namespace {
 
 using project::GridMethod;
+
+/// Whether both tools make the same path; by what the cut is judged may differ, and what the program calls
+/// them.
+bool same_cutter(project::ToolInput a, const project::ToolInput& b) {
+    a.scallop_mm = b.scallop_mm;
+    a.gouge_limit_mm = b.gouge_limit_mm;
+    a.number = b.number;
+    return a == b;
+}
 
 constexpr StageKey the_workpiece{StageKind::workpiece};
 constexpr StageKey the_program{StageKind::program};
@@ -48,23 +60,6 @@ Stage trims_stage() {
                 },
             .clear = [](Plan& plan) { plan.trims = nullptr; },
             .qualities = {Quality::carried, Quality::exact}};
-}
-
-/// Whether both tools make the same path; by what the cut is judged may differ, and what the program calls
-/// them.
-bool same_cutter(project::ToolInput a, const project::ToolInput& b) {
-    a.scallop_mm = b.scallop_mm;
-    a.gouge_limit_mm = b.gouge_limit_mm;
-    a.number = b.number;
-    return a == b;
-}
-
-bool same_workpiece(const Source& then, const Source& now) {
-    const project::Project &a = then.project, &b = now.project;
-    return a.surface == b.surface && a.machine == b.machine && same_cutter(a.tool, b.tool) &&
-           a.grid.direction == b.grid.direction && sequencing_settings(a) == sequencing_settings(b) &&
-           timing(a) == timing(b) && then.folders == now.folders &&
-           then.machine_written == now.machine_written;
 }
 
 /// Nothing holds, and nothing is made, of a project with faults but its surface.
@@ -245,18 +240,16 @@ Stage unsequenced_stage(const project::Project& project, const Scope& scope) {
                 },
             .make =
                 [](const StageWork& work) {
-                    try { // only compared with: without it there is a program all the same
-                        add_unsequenced(work.plan, work.project(), work.progress);
-                    } catch (const Error&) {
-                        work.plan.unsequenced = nullptr;
-                        work.plan.unsequenced_time.reset();
-                    }
+                    // only compared with: without it there is a program all the same
+                    work.plan.unsequenced_failure =
+                        failure_of([&] { add_unsequenced(work.plan, work.project(), work.progress); });
                     return true;
                 },
             .clear =
                 [](Plan& plan) {
                     plan.unsequenced = nullptr;
                     plan.unsequenced_time.reset();
+                    plan.unsequenced_failure.reset();
                 }};
 }
 
@@ -276,6 +269,26 @@ Stage compared_cut_stage(GridMethod method, const Scope& scope) {
 }
 
 } // namespace
+
+Source source_of(const project::Project& project, const Folders& folders) {
+    namespace fs = std::filesystem;
+    std::error_code failure;
+    auto written = fs::file_time_type::min(); // of a machine that is not found
+    try {
+        written =
+            fs::last_write_time(project::machine_path(project, folders.project, folders.assets), failure);
+    } catch (const Error&) { // reported where the machine is read
+    }
+    return {project, folders, written};
+}
+
+bool same_workpiece(const Source& then, const Source& now) {
+    const project::Project &a = then.project, &b = now.project;
+    return a.surface == b.surface && a.machine == b.machine && same_cutter(a.tool, b.tool) &&
+           a.grid.direction == b.grid.direction && sequencing_settings(a) == sequencing_settings(b) &&
+           timing(a) == timing(b) && then.folders == now.folders &&
+           then.machine_written == now.machine_written;
+}
 
 std::vector<Stage> stages_of(const project::Project& project, const Scope& scope) {
     const GridMethod of_program = program_grid(project);

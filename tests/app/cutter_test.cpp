@@ -29,6 +29,8 @@ TEST(CutterCommand, LeavesProgramReportAndMap) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("tool: bull-nose, diameter 10 mm, corner radius 2 mm"));
     EXPECT_THAT(ended.out, HasSubstr("a scallop height of 0.02 mm allows"));
+    EXPECT_THAT(ended.out,
+                testing::ContainsRegex("cutter error: .* deg off \\(only this face was checked\\)"));
     EXPECT_THAT(content_of(scratch / "out/program.ngc"), HasSubstr("G93"));
     EXPECT_THAT(content_of(scratch / "out/surface.csv"), StartsWith("u,v,x_mm"));
     const auto report = nlohmann::json::parse(content_of(scratch / "out/cut.json"));

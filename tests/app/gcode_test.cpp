@@ -202,7 +202,7 @@ TEST(Gcode, TimeIsThatOfThePlannedMotion) {
 TEST(Gcode, TimeWarnsOfWaysBeyondTheTravel) {
     const ScratchFolder folder;
     const auto file = folder.path() / "far.ngc";
-    write_content(file, "G21 G90\nG1 X1 F3000\nG1 Y1 X5000\nX6000\nM2\n");
+    write_content(file, "G21 G90\nG1 X1 Y0 Z0 F3000\nG1 Y1 X5000\nX6000\nM2\n");
     const Ended ended = run({"gcode", "time", file.string(), "--machine", "router-xyz", "--json"});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.err, HasSubstr("far.ngc:3:7: axis X would move to 5000.000, outside "));

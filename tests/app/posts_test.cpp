@@ -280,6 +280,19 @@ TEST_F(Posts, ConvertMovesNoAxisThatTheProgramHasNotNamed) {
     EXPECT_THAT(ended.err, HasSubstr("the start position of Z is unknown"));
 }
 
+TEST_F(Posts, EveryCommandNamesTheAxesWhoseStartIsUnknown) {
+    write_content(part, "G21 G90\nG0 X10\nG0 Y10\nG1 X11 F100\nM2\n");
+    const std::string said =
+        ":2: the start positions of Y and Z are unknown: X moves here, but the program sets Y "
+        "for the first time in line 3, never sets Z";
+    const Ended converted = convert("router-xyz", "grbl");
+    EXPECT_EQ(converted.exit_code, 0) << converted.err;
+    EXPECT_THAT(converted.err, HasSubstr(said));
+    const Ended timed = run({"gcode", "time", part, "--machine", "router-xyz"});
+    EXPECT_EQ(timed.exit_code, 0) << timed.err;
+    EXPECT_THAT(timed.err, HasSubstr(said));
+}
+
 /// A feed to where the axes may or may not be has no length: it was refused.
 TEST_F(Posts, ConvertWritesAFirstFeedForEveryControl) {
     write_content(part, "G21\nG1 X0 Y0 F300\nG1 X10\nM2\n");
@@ -398,6 +411,20 @@ TEST_F(Posts, PlanNamesTheProgramAfterItsControl) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_TRUE(fs::exists(fs::path(out) / "program.h"));
     EXPECT_FALSE(fs::exists(fs::path(out) / "program.ngc"));
+}
+
+/// Its control corrects the tip for any tool, and the figures of the header are those of axis moves.
+TEST_F(Posts, AProgramForTipControlSaysWhatItsHeaderDoesNotHoldFor) {
+    const auto project = small_project(scratch.path(), "dome", "rotary-tilt-listing", "bc-table-head");
+    const char* const note = "X Y Z are positions of the tool tip, for any tool length; a distance";
+    Ended ended = run({"plan", project, "--out", out, "--post", "heidenhain"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const std::string tip = content_of(fs::path(out) / "program.h");
+    EXPECT_THAT(tip, HasSubstr(note));
+    EXPECT_THAT(tip, HasSubstr("positions are valid for this length only"));
+    ended = run({"plan", project, "--out", out, "--post", "linuxcnc"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(content_of(fs::path(out) / "program.ngc"), testing::Not(HasSubstr(note)));
 }
 
 TEST_F(Posts, RunTakesAThreeAxisProjectToAnEmulatedController) {

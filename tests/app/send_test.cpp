@@ -527,6 +527,7 @@ TEST_F(Send, ChecksTheTravelInTheModesThatTheControllerIsIn) {
     const Ended inches = run(words());
     EXPECT_EQ(inches.exit_code, 1);
     EXPECT_THAT(inches.err, HasSubstr("254.000 mm, but its travel is only 200.000 mm"));
+    EXPECT_THAT(inches.out, HasSubstr("from the modes of the controller: G0 G54 G17 G20"));
 }
 
 /// A program that does not name G90, at a controller that begins in G91: 10, 20 and 10 mm are 40.

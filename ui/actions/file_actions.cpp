@@ -26,9 +26,8 @@ Permission has_listing(const Workbench& now) {
     if (!now.listing()) {
         return Permission::refused("There is no program yet.");
     }
-    const bool is_final = now.plan->program_exact || now.plan->failure;
-    return now.program_is_current() && is_final ? Permission{}
-                                                : Permission::refused("The program is still being computed.");
+    return now.program_is_final() ? Permission{}
+                                  : Permission::refused("The program is still being computed.");
 }
 
 Permission can_change_file(const Workbench& now) {

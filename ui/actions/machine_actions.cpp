@@ -257,7 +257,8 @@ Permission can_run_next(const Workbench& now) {
                                                 "the machine, then release or remove the job.");
     }
     const Permission suits = suits_machine(now, *next);
-    const Permission ready = suits.allowed ? machine_ready(now) : suits;
+    const Permission machine = suits.allowed ? machine_ready(now) : suits;
+    const Permission ready = machine.allowed ? next_check_passed(now) : machine;
     return ready.allowed ? position_ready(now, next->from_line) : ready;
 }
 

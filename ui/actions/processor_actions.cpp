@@ -37,7 +37,11 @@ Permission has_gcode_file(const Workbench& now) {
 }
 
 Permission has_program(const Workbench& now) {
-    return now.listing() ? Permission{} : Permission::refused("The project has no program yet.");
+    if (!now.listing()) {
+        return Permission::refused("The project has no program yet.");
+    }
+    return now.program_is_final() ? Permission{}
+                                  : Permission::refused("The program is still being computed.");
 }
 
 Permission in_processor(const Workbench& now) {

@@ -49,10 +49,8 @@ bool same_machine(const ControllerView& a, const ControllerView& b) {
            same_offsets(a.offsets, b.offsets);
 }
 
-} // namespace
-
-RunWish run_wish(const Workbench& now) {
-    RunWish wish{job_source(now), now.session.begin.on ? now.approach : nullptr, now.controller, {}};
+/// With the time of the macro.
+RunWish finished(RunWish wish) {
     if (const auto& change = wish.source.tool_change; change && !change->macro_file.empty()) {
         std::error_code failure; // of a file that is not there, which the check reports
         wish.macro_written = std::filesystem::last_write_time(change->macro_file, failure);
@@ -60,19 +58,50 @@ RunWish run_wish(const Workbench& now) {
     return wish;
 }
 
+jobs::Job job_of(const RunWish& wish) {
+    if (!wish.queued) {
+        return wish.approach ? wish.approach->job.value() : make_job(wish.source);
+    }
+    jobs::Job job = *wish.queued;
+    if (!job.tool_change) {
+        job.tool_change = wish.source.tool_change;
+    }
+    return job;
+}
+
+} // namespace
+
+RunWish run_wish(const Workbench& now) {
+    return finished(
+        {job_source(now), nullptr, now.session.begin.on ? now.approach : nullptr, now.controller, {}});
+}
+
+RunWish run_wish(const Workbench& now, std::shared_ptr<const jobs::Job> queued) {
+    JobSource source;
+    source.as_text = queued->program == nullptr;
+    if (source.as_text) {
+        source.tool_change = tool_change_plan(now.session.hand, now.controller);
+    }
+    return finished({std::move(source), std::move(queued), nullptr, now.controller, {}});
+}
+
 widgets::Permission run_check_passed(const Workbench& now) {
     return now.run_check ? refused_for(now.run_check->faults) : widgets::Permission{};
 }
 
+widgets::Permission next_check_passed(const Workbench& now) {
+    return now.next_check ? refused_for(now.next_check->faults) : widgets::Permission{};
+}
+
 bool asks_the_same(const RunWish& a, const RunWish& b) {
-    return a.source == b.source && a.approach == b.approach && a.macro_written == b.macro_written &&
-           same_machine(a.machine, b.machine);
+    return a.source == b.source && a.queued == b.queued && a.approach == b.approach &&
+           a.macro_written == b.macro_written && same_machine(a.machine, b.machine);
 }
 
 RunCheck check_run(const std::shared_ptr<const RunWish>& wish, const Progress& progress) {
     RunCheck check{wish, {}};
     try {
-        jobs::Job job = wish->approach ? wish->approach->job.value() : make_job(wish->source);
+        jobs::Job job = job_of(*wish);
         read_macro(job);
         const auto start = std::make_shared<const StartWish>(start_wish(std::move(job), {}, wish->machine));
         check.faults =

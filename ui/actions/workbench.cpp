@@ -138,8 +138,18 @@ std::shared_ptr<const program::Listing> Workbench::listing() const {
     return plan ? plan->plan.listing : nullptr;
 }
 
+project::Project design_of(project::Project project) {
+    project.plot = {};
+    project.arm = {};
+    return project;
+}
+
 bool Workbench::program_is_current() const {
-    return plan != nullptr && plan->project == project;
+    return plan != nullptr && plan->project == design_of(project);
+}
+
+bool Workbench::program_is_final() const {
+    return program_is_current() && (plan->program_exact || plan->failure);
 }
 
 std::string Workbench::gouge_warning() const {

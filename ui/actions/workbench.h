@@ -33,6 +33,9 @@ struct ProgramOfMachine {
     std::shared_ptr<const kinematics::MachineModel> machine; ///< that it is for
 };
 
+/// Without plot and arm, of which the plan has no use.
+[[nodiscard]] project::Project design_of(project::Project project);
+
 struct Workbench {
     const project::Project& project;
     const Session& session;
@@ -66,6 +69,7 @@ struct Workbench {
         queue_problem; ///< why its file is not open; nothing: it is, or there is none
     std::shared_ptr<const StartCheck> start_check; ///< of Session::start; null before the first
     std::shared_ptr<const RunCheck> run_check;     ///< of what Run would start now; null while not known
+    std::shared_ptr<const RunCheck> next_check;    ///< the same of the next job of the queue
 
     /// The connected controller moves an arm.
     [[nodiscard]] bool arm_connected() const {
@@ -100,6 +104,8 @@ struct Workbench {
     [[nodiscard]] std::shared_ptr<const program::Listing> listing() const;
     /// Whether that is of the project as it is now, not as it was before the last change.
     [[nodiscard]] bool program_is_current() const;
+    /// That, and no better one is to come.
+    [[nodiscard]] bool program_is_final() const;
     /// How the project's program gouges the part, or that this is not known yet, as a sentence; empty if it
     /// does not.
     [[nodiscard]] std::string gouge_warning() const;

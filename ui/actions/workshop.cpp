@@ -84,6 +84,7 @@ Workshop::Workshop(WorkshopOptions options)
     approach_ = std::make_unique<ApproachFinder>(wake);
     start_ = std::make_unique<StartChecker>(check_start, wake);
     run_check_ = std::make_unique<RunChecker>(check_run, wake);
+    next_check_ = std::make_unique<RunChecker>(check_run, wake);
     job_recovery_ = std::make_unique<JobRecovery>(options_.log_folder, wake);
     follow_project();
 }
@@ -91,8 +92,10 @@ Workshop::Workshop(WorkshopOptions options)
 Workshop::~Workshop() = default;
 
 Workbench Workshop::look() const {
-    auto checked = run_check_->answer();
-    const bool is_of_this = checked && run_wish_ && checked->wish == run_wish_;
+    const auto answer_of = [](const RunChecker& checker, const std::shared_ptr<const RunWish>& wish) {
+        auto found = checker.answer();
+        return found && wish && found->wish == wish ? found : nullptr;
+    };
     return {history_.current(),
             session_,
             document(),
@@ -126,16 +129,16 @@ Workbench Workshop::look() const {
             set_up_->latest(),
             queue_.problem(),
             start_->answer(),
-            is_of_this ? std::move(checked) : nullptr};
+            answer_of(*run_check_, run_wish_),
+            answer_of(*next_check_, next_wish_)};
 }
 
 void Workshop::follow_project() {
     drop_lost_selection(session_, history_.current());
     const auto& file = document().file;
     const auto folder = file.empty() ? std::filesystem::path{} : file.parent_path();
-    project::Project design = history_.current();
-    const project::PlotInput plot = std::exchange(design.plot, {}); // the plan has no use for it
-    design.arm = {};
+    const project::Project design = design_of(history_.current());
+    const project::PlotInput plot = history_.current().plot;
     want_plan();
     pipeline_->request(design, {folder, options_.assets});
     guarded([&] { machine_solids_.follow(design, {folder, options_.assets}); });
@@ -257,6 +260,7 @@ bool Workshop::advance(double seconds) {
     follow_begin();
     follow_run();
     follow_queue();
+    follow_next();
     arm_->news().follow(controller_->view(), controller_->driver(), session_);
     const bool armed = follow_arm(seconds);
     const bool processed = follow_processor(seconds) || armed;
@@ -302,6 +306,29 @@ void Workshop::follow_run() {
     if (RunWish wish = run_wish(now); !run_wish_ || !asks_the_same(*run_wish_, wish)) {
         run_wish_ = std::make_shared<const RunWish>(std::move(wish));
         run_check_->want(run_wish_);
+    }
+}
+
+/// The same of the job that the queue would begin with.
+void Workshop::follow_next() {
+    const Workbench now = look();
+    const auto next = std::ranges::find_if(
+        now.queue, [](const jobs::QueuedJob& job) { return job.state != jobs::QueueState::done; });
+    const bool waits =
+        next != now.queue.end() && next->state == jobs::QueueState::waiting && next->has_program;
+    if (now.session.workspace != Workspace::machine || now.job.running || !waits) {
+        if (std::exchange(next_wish_, nullptr)) {
+            next_check_->forget();
+        }
+        return;
+    }
+    if (now.controller.connected() && !at_rest(now.controller).allowed) {
+        return;
+    }
+    const auto job = queue_.open().program_of(next->id);
+    if (RunWish wish = run_wish(now, job); !next_wish_ || !asks_the_same(*next_wish_, wish)) {
+        next_wish_ = std::make_shared<const RunWish>(std::move(wish));
+        next_check_->want(next_wish_);
     }
 }
 
@@ -352,6 +379,8 @@ void Workshop::wait_idle() {
     approach_->wait_idle();
     follow_run();
     run_check_->wait_idle();
+    follow_next();
+    next_check_->wait_idle();
     start_->wait_idle();
     job_recovery_->wait_idle();
     arm_->wait_idle();

@@ -249,6 +249,7 @@ private:
     void follow_job();
     void follow_begin();
     void follow_run();
+    void follow_next();
     void follow_queue();
     [[nodiscard]] bool follow_processor(double seconds);
     void open_processor_text(const std::function<void()>& open);
@@ -285,8 +286,9 @@ private:
     std::unique_ptr<JobRunner> jobs_;
     std::unique_ptr<ApproachFinder> approach_;
     std::unique_ptr<StartChecker> start_;
-    std::unique_ptr<RunChecker> run_check_;
-    std::shared_ptr<const RunWish> run_wish_; ///< null while nothing could be run
+    std::unique_ptr<RunChecker> run_check_, next_check_;
+    std::shared_ptr<const RunWish> run_wish_;  ///< null while nothing could be run
+    std::shared_ptr<const RunWish> next_wish_; ///< null while no job of the queue could be run
     std::unique_ptr<JobRecovery> job_recovery_;
     std::optional<render::Gamepad> gamepad_;
     std::optional<jobs::QueuedJobId> loading_; ///< waits for the program that is being read

@@ -151,7 +151,7 @@ void Workshop::close_file() {
 void Workshop::cancel_work() {
     if (const plan::Activity ended = look().activity; ended.busy) {
         const auto made = pipeline_->latest();
-        const bool is_whole = made && made->exact && made->project == history_.current();
+        const bool is_whole = made && made->exact && made->project == design_of(history_.current());
         const bool planned = pipeline_->activity().busy && !is_whole; // not a watched adaptation alone
         tell(session_,
              widgets::Severity::info,

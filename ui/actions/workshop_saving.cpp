@@ -86,9 +86,13 @@ void Workshop::write_gouging_program() {
 }
 
 void Workshop::write_program(const fs::path& file) {
-    const auto listing = look().listing();
+    const Workbench now = look();
+    const auto listing = now.listing();
     if (!listing) {
         throw Error("there is no program yet");
+    }
+    if (!now.program_is_final()) { // the project has changed since the file was asked for
+        throw Error("the program is still being computed", {}, "write it again when it is there");
     }
     const fs::path whole = whole_path(file);
     write_file(whole, listing->text);

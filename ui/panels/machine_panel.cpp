@@ -125,6 +125,9 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
         return;
     }
     const auto& opened = *now.opened;
+    if (opened.start_notice && !now.controller.connected()) { // a connected machine knows where it is
+        ui.note(fmt::format("Line {}: {}.", opened.start_notice->place.line, opened.start_notice->message));
+    }
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
     if (found == 0) {
         ui.note(opened.motion && opened.machine ? checked_sentence(now, opened.machine->name())

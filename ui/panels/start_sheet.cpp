@@ -72,6 +72,13 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
                  {},
                  "Extents in machine coordinates from the current position, with the active work offset");
     }
+    if (const std::string& modes = check.wish->survey.modes; !modes.empty()) {
+        ui.value("modes",
+                 "Modes before start",
+                 modes,
+                 {},
+                 "The modes that the controller reports; the check of the extents begins in them");
+    }
     if (const std::string unread = jobs::unread_text(check.survey); !unread.empty()) {
         (void)widgets::banner(ui,
                               "unread",

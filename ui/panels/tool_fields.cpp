@@ -70,6 +70,11 @@ void bites_text(Ui& ui, const Project& project, const plan::CutStudy& cut) {
 void gain_text(Ui& ui, const Workbench& now) {
     const plan::Plan& plan = now.plan->plan;
     const auto after = plan.program_path(now.plan->project);
+    if (plan.unsequenced_failure) {
+        ui.note("The program with nearest angles, to compare with, could not be computed: " +
+                to_text(*plan.unsequenced_failure));
+        return;
+    }
     if (!plan.unsequenced || !after || !plan.trajectory) {
         return;
     }

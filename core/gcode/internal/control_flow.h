@@ -45,6 +45,9 @@ public:
     void call_fanuc(const ParsedLine& line);
     /// M99, with the cursor behind it; false in the main program.
     [[nodiscard]] bool return_fanuc(Cursor& cursor);
+    /// The M99 at hand is wrong: where the program goes on from here is not known.
+    void refuse_return() { return_refused_ = true; }
+    [[nodiscard]] bool return_refused() const { return return_refused_; }
 
     [[nodiscard]] bool in_subroutine() const { return !frames_.empty(); }
     /// Where the innermost subroutine was called; line 0 outside of any.
@@ -127,6 +130,7 @@ private:
     Run& run_;
     SourceFiles& files_;
     std::vector<Frame> frames_;
+    bool return_refused_ = false;
     std::vector<Open> open_;
     std::map<std::string, Bookmark, std::less<>> subroutines_; ///< behind their first line
     std::map<std::string, SourcePlace, std::less<>> defined_at_;

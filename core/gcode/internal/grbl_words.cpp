@@ -235,7 +235,8 @@ private:
                 column,
                 fmt::format("{} and {} both use axis words and cannot be in the same line in Grbl (error 24)",
                             axis_user_,
-                            text));
+                            text),
+                "write them in separate lines");
         }
         axis_user_ = text;
     }

@@ -158,6 +158,7 @@ bool ControlFlow::return_fanuc(Cursor& cursor) {
     if (!in_subroutine()) {
         return false;
     }
+    refuse_return(); // until it is known to be right
     if (cursor.peek() == 'P') {
         refuse(cursor.column(),
                "M99 with P continues at another line of the caller, which LinuxCNC does not support",
@@ -167,6 +168,7 @@ bool ControlFlow::return_fanuc(Cursor& cursor) {
     if (!frames_.back().fanuc) {
         refuse(1, "M99 ends a subprogram called by M98, but this one ends with endsub");
     }
+    return_refused_ = false;
     if (frames_.back().repeats-- > 0) {
         note_turn(outer_depth() - 1, frames_.back().called_from);
         files_.go_to(frames_.back().begin);

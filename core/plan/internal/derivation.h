@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace millwright::plan {
@@ -23,6 +24,10 @@ struct Publication {
 class Derivation {
 public:
     using Publish = std::function<void(const Publication&)>;
+    using Stages = std::function<std::vector<Stage>(const project::Project& project, const Scope& scope)>;
+
+    /// `stages`: as stages_of().
+    explicit Derivation(Stages stages = stages_of) : stages_of_(std::move(stages)) {}
 
     /// Coarse results first, then exact ones. Publishes one or several times. Throws Cancelled only.
     void derive(const project::Project& project,
@@ -63,10 +68,12 @@ private:
     [[nodiscard]] bool is_wanted(const Entry& entry, Quality quality) const;
     [[nodiscard]] bool is_due(const Entry& entry, Quality quality) const;
     [[nodiscard]] bool is_exact(const Entry& entry) const;
+    [[nodiscard]] bool is_guess(const Entry& entry) const;
     [[nodiscard]] bool all_exact() const;
     [[nodiscard]] double work_left(Quality quality) const;
     [[nodiscard]] std::optional<Diagnostic> first_failure() const;
 
+    Stages stages_of_;
     std::optional<Source> source_;
     Plan plan_;
     std::vector<Entry> entries_; ///< in the order of stages_of()

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace millwright::pmac {
@@ -17,8 +18,9 @@ constexpr int guard_plc = 31;
 struct Assignment {
     char letter = 'I';
     int first = 0, last = 0;
-    bool computed = false;       ///< the number of the variable is an expression
-    std::optional<double> value; ///< nothing: an expression, a default, or a definition
+    bool computed = false;         ///< the number of the variable is an expression
+    std::optional<double> value;   ///< nothing: an expression, a default, or a definition
+    std::string_view definition{}; ///< behind "->", with what follows it; else empty
 
     [[nodiscard]] bool covers(int from, int to) const { return !computed && first <= to && last >= from; }
 };
@@ -108,8 +110,9 @@ std::optional<Assignment> assignment_at(std::string_view rest) {
         return std::nullopt;
     }
     if (rest.starts_with("->")) {
-        return found.letter == 'M' && rest.size() > 2 ? std::optional(found)
-                                                      : std::nullopt; // else a question
+        found.definition = rest.substr(2);
+        return found.letter == 'M' && !found.definition.empty() ? std::optional(found)
+                                                                : std::nullopt; // else a question
     }
     if (!rest.starts_with('=')) {
         return std::nullopt;
@@ -199,30 +202,61 @@ constexpr std::array<MemoryPart, 3> set_up_memory{
     MemoryPart{'X', 0x783, 0x787},    // where the computer finds the dual-ported memory
     MemoryPart{'*', 0xD000, 0xDFFF}}; // that memory
 
+/// Where M-variables may point besides.
+constexpr std::array<MemoryPart, 2> registers{
+    MemoryPart{'X', 0x0, 0x3},        // the servo counter and the card's status
+    MemoryPart{'*', 0xC000, 0xCFFF}}; // encoders, outputs and flags of the channels
+
+constexpr std::array<std::string_view, 7> memory_words{"X", "Y", "L", "DP", "D", "F", "TWS"};
+
+bool is_within(std::span<const MemoryPart> parts, std::string_view word, int first, std::ptrdiff_t last) {
+    return std::ranges::any_of(parts, [&](const MemoryPart& part) {
+        return (part.word == '*' || word == std::string_view(&part.word, 1)) && first >= part.first &&
+               last <= part.last;
+    });
+}
+
+/// At the front of `rest`, which loses it; empty if there is none.
+std::string_view take_memory_word(std::string_view& rest) {
+    const auto* const found =
+        std::ranges::find_if(memory_words, [&](std::string_view name) { return rest.starts_with(name); });
+    if (found == memory_words.end()) {
+        return {};
+    }
+    rest.remove_prefix(found->size());
+    return *found;
+}
+
 /// Behind WX, WY, WL ...: `:$786,$D,$43`, the address and a value for each word from there on.
-bool writes_set_up(char word, std::string_view rest) {
+bool writes_set_up(std::string_view word, std::string_view rest) {
     rest.remove_prefix(rest.starts_with(':') ? 1 : 0);
     const auto first = take_index(rest);
     const bool has_values = first && rest.starts_with(',');
     const auto count = has_values ? std::ranges::count(rest, ',') : 1;
-    return first && std::ranges::any_of(set_up_memory, [&](const MemoryPart& part) {
-               return (part.word == word || part.word == '*') && *first >= part.first &&
-                      *first + count - 1 <= part.last;
-           });
+    return first && is_within(set_up_memory, word, *first, *first + count - 1);
+}
+
+/// `L:$13E8`, `X:$C000,12,4`: whether values of such a variable could go where programs and variables are.
+bool points_into_memory(std::string_view definition) {
+    if (definition.starts_with('*')) {
+        return false; // a number of its own
+    }
+    const std::string_view word = take_memory_word(definition);
+    definition.remove_prefix(definition.starts_with(':') ? 1 : 0);
+    const auto address = take_index(definition);
+    return word.empty() || !address ||
+           (!is_within(set_up_memory, word, *address, *address) &&
+            !is_within(registers, word, *address, *address));
 }
 
 /// WX:$786,$D,$43; no WHILE, no WAIT, no move of the axis W.
 bool writes_memory(std::string_view text) {
-    constexpr std::array<std::string_view, 7> kinds{"X", "Y", "L", "DP", "D", "F", "TWS"};
     for (std::size_t at = text.find('W'); at != std::string_view::npos; at = text.find('W', at + 1)) {
         std::string_view rest = text.substr(at + 1);
-        const auto* const kind =
-            std::ranges::find_if(kinds, [&](std::string_view name) { return rest.starts_with(name); });
-        if (kind == kinds.end()) {
+        const std::string_view word = take_memory_word(rest);
+        if (word.empty()) {
             continue;
         }
-        const char word = rest.front();
-        rest.remove_prefix(kind->size());
         const bool is_address = rest.starts_with(':') || rest.starts_with('$') || rest.starts_with('(') ||
                                 (!rest.empty() && is_digit_of(rest.front(), false));
         if (is_address && !writes_set_up(word, rest)) {
@@ -242,9 +276,8 @@ std::string guard_refusal(std::string_view line) {
     }
     if (writes_memory(text)) {
         return "what it writes into the card's memory could be the guard's program or its variables: only "
-               "the "
-               "encoder table (WY:$720 to $73F), WX:$783 to $787 and the dual-ported memory ($D000 to $DFFF) "
-               "may be written by W commands";
+               "the encoder table (WY:$720 to $73F), WX:$783 to $787 and the dual-ported memory ($D000 to "
+               "$DFFF) may be written by W commands";
     }
     for (const Assignment& one : assignments_of(text)) {
         if (one.letter == 'I') {
@@ -255,13 +288,18 @@ std::string guard_refusal(std::string_view line) {
             return "P1000 to P1006 are reserved for the guard";
         } else if (one.letter == 'M' && one.covers(first_own, last_own_m)) {
             return "M1000 to M1008 are reserved for the guard";
+        } else if (one.letter == 'M' && !one.definition.empty() && points_into_memory(one.definition)) {
+            return "the guard's program or its variables could be at that address: an M-variable may point "
+                   "only to X:$0 to $3, $C000 to $CFFF, the dual-ported memory ($D000 to $DFFF), the encoder "
+                   "table (Y:$720 to $73F) and X:$783 to $787";
         }
     }
     return "";
 }
 
 bool sets_handshake(std::string_view line) {
-    const std::vector<Assignment> all = assignments_of(without_blanks(line));
+    const std::string text = without_blanks(line);
+    const std::vector<Assignment> all = assignments_of(text);
     return std::ranges::any_of(all, [](const Assignment& one) {
         constexpr std::array<int, 5> own{1, 3, 4, 6, 9};
         return one.letter == 'I' &&

@@ -39,6 +39,19 @@ TEST(ControlFlow, DoesNotLookAtWhatIsLeftOut) {
                 ElementsAre(1));
 }
 
+TEST(ControlFlow, ARefusedReturnHasNoSecondFault) {
+    ReaderSettings settings;
+    settings.most_errors = 5;
+    settings.read_on = true;
+    for (const char* const text : {"M98 P1\nG0 X9\nM2\nO1\nG0 X1\nM99 P10 G0 Z-50\n",
+                                   "M98 P1\nM2\nO1\nG0 X1\nM99 garbage!\n",
+                                   "M98 P1\nM2\nO1\nG0 X1\nG0 X2 M99\n"}) {
+        EXPECT_THAT(test::read_all(text, settings).errors, testing::SizeIs(1)) << text;
+    }
+    EXPECT_THAT(test::read_all("M98 P1\nM2\nO1\nG0 X1\n", settings).errors,
+                ElementsAre(testing::Field(&Diagnostic::message, HasSubstr("ends inside a subroutine"))));
+}
+
 TEST(ControlFlow, RepeatsLoops) {
     EXPECT_THAT(x_of("O1 while [#1 LT 3]\n#1=[#1+1]\nG0 X#1\nO1 endwhile"), ElementsAre(1, 2, 3));
     EXPECT_THAT(x_of("O1 do\n#1=[#1+1]\nG0 X#1\nO1 while [#1 LT 3]"), ElementsAre(1, 2, 3));

@@ -98,6 +98,8 @@ TEST(Grbl, RefusesArcsByItsOwnErrorNumbers) {
 TEST(Grbl, RefusesAToolLengthOrTheEndOfG92BesideAMotion) {
     EXPECT_THAT(grbl_refusal("G43.1 G1 Z1 F100"), HasSubstr("G43.1 and G1 both use axis words"));
     EXPECT_THAT(grbl_refusal("G49 G0"), HasSubstr("(error 24)"));
+    EXPECT_THAT(grbl_refusal("G00 G17 G49 G80 G90"),
+                HasSubstr("(error 24)")); // gcode.c: G49 is an axis command
     EXPECT_THAT(grbl_refusal("G49 X1"), HasSubstr("Grbl ignores axis words in a line with G49"));
     EXPECT_THAT(grbl_refusal("G92 X1\nG92.1 G0 X1"), HasSubstr("Grbl still moves by the old G92"));
     EXPECT_EQ(grbl_refusal("G92.1 G0 X1"), ""); // where there is no G92, both are the same

@@ -358,10 +358,38 @@ TEST(Placement, SaysThatAxesMoveBeforeOthersAreNamed) {
         const std::optional<Diagnostic> notice = placed(text).start_notice;
         return notice ? to_text(*notice) : std::string();
     };
-    EXPECT_THAT(said("G21 G90\nG0 X1 Y1\nZ3\nM2\n"),
-                HasSubstr("part.ngc:2: the start position of Z is unknown: X and Y move here"));
+    EXPECT_THAT(
+        said("G21 G90\nG0 X1 Y1\nZ3\nM2\n"),
+        HasSubstr("part.ngc:2: the start position of Z is unknown: X and Y move here, but the program "
+                  "sets Z for the first time in line 3"));
     EXPECT_EQ(said("G21 G90\nG0 X1 Y1 Z3\nM2\n"), "");
-    EXPECT_EQ(said("G21 G90\nG0 X1 Y1\nM2\n"), "");
+    EXPECT_EQ(said("G21 G90\nM2\n"), "");
+}
+
+TEST(Placement, NamesEveryAxisOfUnknownStartWithTheLineThatSetsIt) {
+    const auto said = [](const std::string& text) {
+        const std::optional<Diagnostic> notice = placed(text).start_notice;
+        return notice ? to_text(*notice) : std::string();
+    };
+    EXPECT_THAT(
+        said("G21 G90\nG0 X10\nG0 Y10\nG1 Z-1 F100\nM2\n"),
+        HasSubstr("part.ngc:2: the start positions of Y and Z are unknown: X moves here, but the program "
+                  "sets Y for the first time in line 3, Z in line 4 (move"));
+    EXPECT_EQ(said("G21 G90\nG0 Z10\nG0 X10 Y1 Z9\nM2\n"), "") << "to a safe height first";
+    EXPECT_THAT(said("G21 G90\nG0 Z10\nG0 X10\nY1 F100\nM2\n"),
+                HasSubstr("part.ngc:3: the start position of Y is unknown: X moves here"));
+    EXPECT_THAT(
+        said("G21 G90\nG1 Z10 F100\nG0 X10 Y1\nM2\n"),
+        HasSubstr("the start positions of X and Y are unknown: Z moves here, but the program sets X and Y "
+                  "for the first time in line 3 (move"));
+    EXPECT_THAT(
+        said("G21 G90\nG0 X1 Y1\nX2\nM2\n"),
+        HasSubstr("part.ngc:2: the start position of Z is unknown: X and Y move here, but the program "
+                  "never sets Z (move"));
+    EXPECT_THAT(
+        said("G21 G90\nG0 X1\nY1\nM2\n"),
+        HasSubstr("the start positions of Y and Z are unknown: X moves here, but the program sets Y for "
+                  "the first time in line 3, never sets Z (move"));
 }
 
 } // namespace

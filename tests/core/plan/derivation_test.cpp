@@ -1,6 +1,8 @@
 #include "core/plan/internal/derivation.h"
 
+#include "core/plan/internal/grid_stages.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/settings.h"
 #include "tests/core/plan/sample_projects.h"
 
 #include <gmock/gmock.h>
@@ -156,6 +158,65 @@ TEST(Derivation, TheProgramIsExactThoughAComparedGridHasFailed) {
     ASSERT_TRUE(last.failure);
     EXPECT_TRUE(last.program_exact);
     EXPECT_FALSE(last.exact);
+}
+
+TEST(Stages, WhyAComparisonWithNearestAnglesIsMissingIsKept) {
+    project::Project project = small_sample("dome", 6);
+    project.sequencing.goal = toolpath::SequencingGoal::travel;
+    Plan plan = make_plan(project, sample_folders, {}, Scope::program);
+    ASSERT_NE(plan.unsequenced, nullptr);
+    EXPECT_FALSE(plan.unsequenced_failure);
+    Workpiece far_away = *plan.workpiece; // out of reach
+    far_away.machine = far_away.machine.with_workpiece_offset(Vec3(0, 0, 4000));
+    plan.workpiece = std::make_shared<const Workpiece>(std::move(far_away));
+    const std::vector<Stage> stages = stages_of(project, Scope::program);
+    const auto stage = std::ranges::find(stages, StageKey{StageKind::unsequenced}, &Stage::key);
+    ASSERT_NE(stage, stages.end());
+    EXPECT_TRUE(stage->make({plan, source_of(project, sample_folders), {}, Quality::exact, {}}));
+    EXPECT_EQ(plan.unsequenced, nullptr);
+    EXPECT_FALSE(plan.unsequenced_time);
+    ASSERT_TRUE(plan.unsequenced_failure);
+    EXPECT_THAT(plan.unsequenced_failure->message, HasSubstr("cannot be reached"));
+    EXPECT_NE(plan.program, nullptr);
+    stage->clear(plan);
+    EXPECT_FALSE(plan.unsequenced_failure);
+}
+
+/// The stages of plans, of which one fails in a coarse result.
+Derivation::Stages failing_coarsely(StageKey key) {
+    return [key](const project::Project& project, const Scope& scope) {
+        std::vector<Stage> stages = stages_of(project, scope);
+        const auto stage = std::ranges::find(stages, key, &Stage::key);
+        stage->make = [make = stage->make](const StageWork& work) {
+            if (work.quality != Quality::exact) {
+                throw Error("a coarse grid leaves the travel");
+            }
+            return make(work);
+        };
+        return stages;
+    };
+}
+
+// Else the window would show a fault of a project of which the command line makes a program.
+TEST(Derivation, AFaultOfACoarseResultLeavesTheExactOneToBeTried) {
+    project::Project project = small_sample("dome", 6);
+    project.toolpath.strategy = project::StrategyInput::spiral;
+    const Plan alone = Derivation().finish(project, sample_folders, Scope::everything, {});
+    for (const StageKey& key : {StageKey{StageKind::program},
+                                StageKey{StageKind::path},
+                                grid_key(GridMethod::uniform),
+                                grid_key(program_grid(project))}) {
+        Derivation derivation(failing_coarsely(key));
+        for (const Shown& shown : derived(derivation, project, Scope::everything)) {
+            EXPECT_FALSE(shown.failure);
+        }
+        const Shown last = derived(derivation, project, Scope::everything).back();
+        EXPECT_TRUE(last.exact);
+        ASSERT_NE(last.plan.listing, nullptr);
+        EXPECT_EQ(last.plan.listing->text, alone.listing->text);
+    }
+    Derivation derivation(failing_coarsely({StageKind::workpiece})); // it is what it will be
+    EXPECT_TRUE(derived(derivation, project, Scope::everything).back().failure);
 }
 
 TEST(Derivation, EndsWithTheSameAsTheExactResultsAlone) {

@@ -360,6 +360,23 @@ TEST_F(PipelineTest, AnAdaptationEndsWhenItsGridIsNoLongerAskedFor) {
     EXPECT_EQ(pipeline.adaptation(), nullptr);
 }
 
+TEST_F(PipelineTest, AnAdaptationEndsWhenItsToolOrSequenceChanges) {
+    const project::Project project = small_sample("dome", 8);
+    const auto goes_on_after = [&](auto edit) {
+        project::Project changed = project;
+        edit(changed);
+        pipeline.request(project);
+        pipeline.start_adaptation(GridMethod::tracks);
+        pipeline.request(changed);
+        return pipeline.adaptation() != nullptr;
+    };
+    EXPECT_TRUE(goes_on_after([](project::Project& p) { p.tool.number = 7; }));
+    EXPECT_FALSE(goes_on_after([](project::Project& p) { p.tool.lead_deg = 5.0; }));
+    EXPECT_FALSE(goes_on_after([](project::Project& p) { p.tool.length_mm = 90.0; }));
+    EXPECT_FALSE(
+        goes_on_after([](project::Project& p) { p.sequencing.goal = toolpath::SequencingGoal::travel; }));
+}
+
 TEST_F(PipelineTest, WhatKeepsAnAdaptationFromStartingIsTold) {
     project::Project project = small_sample("dome", 8);
     project.machine.file = "none";

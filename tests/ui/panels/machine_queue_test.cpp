@@ -131,6 +131,24 @@ TEST_F(MachineQueue, OutlivesTheWindowAndIsTheCommandLinesToo) {
     EXPECT_NEAR(grbl.position()[0], 4.0, 0.01);
 }
 
+TEST_F(MachineQueue, RunNextIsRefusedWithTheReasonForAJobThatTheMachineCannotDo) {
+    GrblBench grbl;
+    Person person({1280, 800}, {}, jobs);
+    connect(person, grbl);
+    add(person, program("far", 500)); // its travel is 200 mm
+    person.click("lower/tabs/queue");
+    const std::string button = "lower/queue/queue_run_next";
+    ASSERT_TRUE(person.live_until([&] { return !person.refusal(button).empty(); }));
+    EXPECT_THAT(person.refusal(button), HasSubstr("far.ngc:2"));
+    EXPECT_THAT(person.refusal(button), HasSubstr("its travel is only 200.000 mm"));
+    choose(person, 1);
+    person.click("lower/queue/remove");
+    add(person, program("near", 5));
+    ASSERT_TRUE(person.live_until([&] { return person.refusal(button).empty(); }));
+    run_next(person, 0, QueueState::done);
+    EXPECT_NEAR(grbl.position()[0], 5.0, 0.01);
+}
+
 TEST_F(MachineQueue, HoldsAJobThatWasRunningWhenTheWindowWasKilled) {
     GrblBench grbl;
     const test::ScratchFolder left;

@@ -156,6 +156,10 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     person.frames(3);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not report its position"));
     person.keep("table-in-doubt");
+    // The place before the row, which it would confirm, is not where the table is.
+    EXPECT_FALSE(person.sees("hand/messages/machine_trust_position"));
+    EXPECT_THAT(person.workshop().catalogue().find("machine.trust_position").permission(now()).reason,
+                HasSubstr("does not report its position"));
     const auto at = table.position();
     say_where("hand/messages/stands", at[0], at[1], at[2]);
     person.frames(2);

@@ -254,6 +254,31 @@ TEST_F(StartSheetAtGrbl, RunIsCheckedAgainForAnotherProgramAndAnotherPosition) {
     }));
 }
 
+TEST_F(StartSheetAtGrbl, RunIsCheckedAgainOnceThePositionIsConfirmed) {
+    person.workshop().session().hand.tool_changes[grbl.port()].plan.way = drivers::ToolChangeWay::probe;
+    ASSERT_FALSE(person.workshop().look().controller.status.position_doubt.empty());
+    open("G21 G90 G94\nT1 M6\nG0 Z5\nM3 S800\nG1 X5 F2000\nG0 Z6\nT3 M6\nG1 X9 F2000\nG0 Z8\nM30\n");
+    show_machine();
+    EXPECT_THAT(run_refusal(), HasSubstr("returning from a tool change needs a verified position"));
+    person.workshop().run("machine.trust_position");
+    ASSERT_TRUE(person.live_until([&] {
+        return person.refusal("inspector/job/machine_run").find("a verified position") == std::string::npos;
+    }));
+}
+
+TEST_F(StartSheetAtGrbl, RunIsCheckedAgainOnceTheMacroIsRepaired) {
+    const auto macro = person.folder() / "change.nc";
+    auto& plan = person.workshop().session().hand.tool_changes[grbl.port()].plan;
+    plan.way = drivers::ToolChangeWay::macro;
+    plan.macro_file = macro.string();
+    open("G21 G90 G94\nT1 M6\nG0 Z5\nM3 S800\nG1 X5 F2000\nG0 Z8\nM30\n");
+    show_machine();
+    EXPECT_THAT(run_refusal(), HasSubstr("change.nc"));
+    write_file(macro, "G4 P0.1\n");
+    ASSERT_TRUE(person.live_until(
+        [&] { return person.refusal("inspector/job/machine_run").find("change.nc") == std::string::npos; }));
+}
+
 TEST_F(StartSheetAtGrbl, AProgramWithALineThatGrblCannotReadIsNotOfferedAndItsExtentsSaySo) {
     open("G21 G90 G94\nG1 X10 F600\nM66 P1\nG1 X30\nM2\n");
     show_machine();

@@ -1,10 +1,12 @@
 // What is not looked at is not made: the window asks for more when a workspace comes up that shows it.
+#include "core/base/error.h"
 #include "tests/ui/panels/person.h"
 #include "ui/actions/job_source.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 
 namespace millwright::panels {
@@ -119,8 +121,59 @@ TEST_F(WantedPlan, TheProgramFromBeforeAnEditIsNeitherRunNorWritten) {
                      .find("file.write_program")
                      .permission(person_.workshop().look())
                      .allowed);
+    person_.workshop().edit("Go slower", [](project::Project& p) { p.program.feed_mm_per_min -= 50.0; }, {});
+    const auto file = person_.folder() / "old.ngc"; // a dialog for it was open during the edit
+    EXPECT_THROW(person_.workshop().write_program(file), Error);
+    EXPECT_FALSE(std::filesystem::exists(file));
     person_.wait_idle();
     EXPECT_TRUE(actions::program_ready(person_.workshop().look()).allowed);
+}
+
+TEST_F(WantedPlan, TheProgramFromBeforeAnEditIsNotRunAfterACancelEither) {
+    go_to(Key::f6);
+    person_.workshop().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
+    person_.wait_idle();
+    person_.workshop().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
+    person_.workshop().cancel_work();
+    person_.wait_idle();
+    const auto now = person_.workshop().look();
+    const bool is_new = now.plan->program_exact && now.plan->project.program == now.project.program;
+    EXPECT_EQ(actions::program_ready(now).allowed, is_new); // it may have been there before the cancel
+}
+
+// Of the grid from before the edit, or of one that is made quickly for a person who drags.
+TEST_F(WantedPlan, ACoarseProgramIsNotWritten) {
+    go_to(Key::f6);
+    person_.workshop().edit("Elliptic",
+                            [](project::Project& p) {
+                                p.grid.method = GridMethod::elliptic;
+                                p.grid.nu = p.grid.nv = 45;
+                            },
+                            {});
+    person_.wait_idle();
+    person_.workshop().edit(
+        "Move a point", [](project::Project& p) { p.surface.patches[0].point(1, 1).z() += 2.0; }, {});
+    bool coarse = false;
+    do {
+        person_.frames(1);
+        const auto now = person_.workshop().look();
+        if (now.listing() && !now.plan->program_exact && !now.plan->failure) {
+            coarse = true;
+            for (const char* const action : {"file.write_program", "machine.run"}) {
+                EXPECT_FALSE(person_.workshop().catalogue().find(action).permission(now).allowed) << action;
+            }
+            EXPECT_THROW(person_.workshop().write_program(person_.folder() / "coarse.ngc"), Error);
+        }
+    } while (person_.workshop().look().activity.busy);
+    EXPECT_TRUE(coarse);
+}
+
+TEST_F(WantedPlan, APlotOrAnArmInTheProjectKeepsNoProgramFromARun) {
+    go_to(Key::f6);
+    person_.workshop().edit("Plot", [](project::Project& p) { p.plot.settings.safe_height += 1.0; }, {});
+    person_.workshop().edit("Arm", [](project::Project& p) { p.arm.program = "LINEAR"; }, {});
+    person_.wait_idle();
+    EXPECT_EQ(actions::program_ready(person_.workshop().look()).reason, "");
 }
 
 } // namespace

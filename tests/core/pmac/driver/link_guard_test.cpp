@@ -44,7 +44,12 @@ const std::vector<std::string> weakening{"I5=0",          "I5=1",
                                          "WX4096,0",      "WDP:$1000,0",
                                          "WX:$787,$D,1",  "WY:$783,1",
                                          "WY:$73F,1,2",   "CMD\"WX:$1000,0\"",
-                                         "WX:(P1),0",     "WY:$FFFFFF,0"};
+                                         "WX:(P1),0",     "WY:$FFFFFF,0",
+                                         "M50->L:$13E8",  "m50 -> x:$1000,0,24",
+                                         "M50->DP:$1000", "M50->D:$C",
+                                         "M50->L:5096",   "CMD\"M50->L:$13E8\"",
+                                         "M50->Y:$0,0",   "M1->* M50->TWS:$1000",
+                                         "M50->L:(P1)",   "M1..60->L:$13E8"};
 
 TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
     for (const std::string& line : weakening) {
@@ -78,6 +83,15 @@ TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
                                    "WY:$724,$5007F0",
                                    "WY:$D300,$123456",
                                    "RHX:$1000,8",
+                                   "M1023->X:$0,0,24",
+                                   "M39->X:$3,15",
+                                   "M36->X:$C000,22",
+                                   "M151->DP:$D201",
+                                   "M154->Y:$D200,0",
+                                   "M40->Y:$724,0,24",
+                                   "M50->*",
+                                   "M50->",
+                                   "#1->X",
                                    "X10 W5",
                                    "W(P1) F5",
                                    "WHILE(P1<3) WAIT",
