@@ -48,6 +48,12 @@ int print_cordic_pass(const cordic::NumberFormat& format,
                       bool as_json) {
     const cordic::SinglePass found = cordic::single_pass(format, sequence, input);
     const bool vectors = input.mode == cordic::Mode::vectoring;
+    if (!found.converged) {
+        fmt::print(stderr,
+                   "warning: {}; {}\n",
+                   cordic::unturned_text(found, input),
+                   input.folds ? "folding leaves z as it is" : "without --raw any angle is reduced first");
+    }
     if (as_json) {
         nlohmann::ordered_json answer;
         answer["x"] = found.x;
@@ -65,6 +71,7 @@ int print_cordic_pass(const cordic::NumberFormat& format,
                 answer["quarter_turns"] = found.quarter_turns;
             }
         }
+        answer["converged"] = found.converged;
         answer["clocks"] = found.clocks;
         answer["words"] = hexadecimal_words(found.words);
         fmt::print("{}\n", answer.dump(2));

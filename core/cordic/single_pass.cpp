@@ -35,11 +35,7 @@ void refuse_rotation(const Sequence& sequence, const PassInput& input, double ra
                             rounded_inwards(range),
                             unit_of(sequence.m),
                             sequence.step_count,
-                            to_text(sequence.m)),
-                {},
-                sequence.m != CoordinateSystem::circular ? ""
-                : input.folds ? "subtract quarter turns from the angle: folding leaves z as it is"
-                              : "subtract quarter turns from the angle to bring it into the range");
+                            to_text(sequence.m)));
 }
 
 void refuse_vectoring(const Sequence& sequence, const PassInput& input) {
@@ -138,7 +134,7 @@ Vector3<typename Arithmetic::Number> iterated(const Kernel<Arithmetic>& kernel,
     return v;
 }
 
-/// Throws Error for what the steps do not turn to the end.
+/// Throws Error for what the steps do not turn to the end, but for a circular rotation.
 template <class Arithmetic>
 void refuse_unreached(const Kernel<Arithmetic>& kernel,
                       const NumberFormat& format,
@@ -148,7 +144,8 @@ void refuse_unreached(const Kernel<Arithmetic>& kernel,
     const Reach direction = kernel.reach_of_vectoring(v.x, v.y);
     internal::refuse_vanished(format, input.x, input.y, direction != Reach::zero_vector);
     if (input.mode == Mode::rotation) {
-        if (kernel.reach_of_rotation(v.z) != Reach::inside) {
+        const bool takes_any_z = sequence.m == CoordinateSystem::circular;
+        if (!takes_any_z && kernel.reach_of_rotation(v.z) != Reach::inside) {
             refuse_rotation(sequence, input, kernel.rotation_range());
         }
         return;
@@ -162,6 +159,14 @@ void refuse_unreached(const Kernel<Arithmetic>& kernel,
 }
 
 } // namespace
+
+std::string unturned_text(const SinglePass& pass, const PassInput& input) {
+    return fmt::format(
+        "z = {} rad is outside the convergence range, |z| <= {:.5f} rad: the vector is not turned by "
+        "all of it, and z is what is left",
+        input.z.nearest_double(),
+        pass.rotation_range);
+}
 
 SinglePass single_pass(const NumberFormat& format, const Sequence& sequence, const PassInput& input) {
     if (input.folds && sequence.m != CoordinateSystem::circular) {
@@ -180,6 +185,10 @@ SinglePass single_pass(const NumberFormat& format, const Sequence& sequence, con
         const Vector3<Number> start{folded.x, folded.y, z};
         refuse_unreached(kernel, format, input, start);
         SinglePass answer{.f1 = folded.f1, .f2 = folded.f2, .clocks = sequence.clock_count()};
+        if (input.mode == Mode::rotation) {
+            answer.converged = kernel.reach_of_rotation(z) == Reach::inside;
+            answer.rotation_range = rounded_inwards(kernel.rotation_range());
+        }
         auto v = iterated(kernel, input.mode, start, answer.steps, overflow);
         const ExactVector given{
             input.x.nearest_long_double(), input.y.nearest_long_double(), input.z.nearest_long_double()};

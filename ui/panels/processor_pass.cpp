@@ -123,6 +123,9 @@ void ProcessorPass::draw_result(Ui& ui, const actions::ProcessorChoice& choice) 
         const bool rotates = mode_ == Mode::rotation;
         ui.value("error", rotates ? "Error of (x, y)" : "Error of x", fmt::format("{:.3g}", pass.error));
         ui.value("z_error", rotates ? "Residual z" : "Error of z", fmt::format("{:.3g}", pass.z_error));
+        if (!pass.converged) {
+            ui.value("range", "Outside the range", fmt::format("|z| <= {:.5f} rad", pass.rotation_range));
+        }
         draw_left(ui, mode_, pass);
     } catch (const Error& error) {
         ui.text(to_text(error.diagnostic()));
