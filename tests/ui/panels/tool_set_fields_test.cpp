@@ -91,9 +91,9 @@ TEST(ToolSetFields, ThePlaceOfThePartIsTypedInThreeFields) {
         EXPECT_LT((*person.project().machine.workpiece_offset - expected).norm(), 1e-9) << id;
         ++axis;
     }
-    const auto workpiece = person.workshop().look().shown()->plan.workpiece;
-    ASSERT_TRUE(workpiece);
-    EXPECT_LT((workpiece->machine.description().workpiece_offset - expected).norm(), 1e-9)
+    const auto planned = person.workshop().look().plan;
+    ASSERT_TRUE(planned && planned->plan.workpiece);
+    EXPECT_LT((planned->plan.workpiece->machine.description().workpiece_offset - expected).norm(), 1e-9)
         << "and it is planned there";
 }
 
