@@ -160,14 +160,6 @@ void refuse_unreached(const Kernel<Arithmetic>& kernel,
 
 } // namespace
 
-std::string unturned_text(const SinglePass& pass, const PassInput& input) {
-    return fmt::format(
-        "z = {} rad is outside the convergence range, |z| <= {:.5f} rad: the vector is not turned by "
-        "all of it, and z is what is left",
-        input.z.nearest_double(),
-        pass.rotation_range);
-}
-
 SinglePass single_pass(const NumberFormat& format, const Sequence& sequence, const PassInput& input) {
     if (input.folds && sequence.m != CoordinateSystem::circular) {
         throw Error(fmt::format("folding is only possible in the circular system, not in the {} system",
@@ -185,10 +177,6 @@ SinglePass single_pass(const NumberFormat& format, const Sequence& sequence, con
         const Vector3<Number> start{folded.x, folded.y, z};
         refuse_unreached(kernel, format, input, start);
         SinglePass answer{.f1 = folded.f1, .f2 = folded.f2, .clocks = sequence.clock_count()};
-        if (input.mode == Mode::rotation) {
-            answer.converged = kernel.reach_of_rotation(z) == Reach::inside;
-            answer.rotation_range = rounded_inwards(kernel.rotation_range());
-        }
         auto v = iterated(kernel, input.mode, start, answer.steps, overflow);
         const ExactVector given{
             input.x.nearest_long_double(), input.y.nearest_long_double(), input.z.nearest_long_double()};

@@ -1,6 +1,6 @@
 // One pass of CORDIC-R or CORDIC-V in any coordinate system and from any z, as the thesis's MATLAB functions
 // compute it: z is not reduced and the vector is not shifted. The results stand beside the closed forms of
-// table 3.2. A circular rotation takes any z, as CORDIC-R does; what else the steps do not reach is refused.
+// table 3.2. What the steps do not reach is refused, but for z of a circular rotation.
 #pragma once
 
 #include "core/cordic/decimal.h"
@@ -9,7 +9,6 @@
 #include "core/cordic/sequence.h"
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace millwright::cordic {
@@ -37,19 +36,13 @@ struct SinglePass {
     bool f1 = false;      ///< what Pre did; see fold.h
     bool f2 = false;
     int quarter_turns = 0; ///< vectoring with folding: the direction is z and so many times pi/2
-    bool converged = true; ///< else z is outside of `rotation_range`, and the steps turn a part of it alone
-    double rotation_range = 0.0; ///< the largest |z| that they turn, rounded down to 1e-5
     int clocks = 0;
     std::array<Word, 3> words{};
     std::vector<PassStep> steps{}; ///< the input to the iteration first
 };
 
-/// The sentence for a rotation that did not converge.
-[[nodiscard]] std::string unturned_text(const SinglePass& pass, const PassInput& input);
-
 /// Throws Error if a number does not fit the format, if the input is beyond the convergence range (the
-/// message has the range; but for z of a circular rotation), and for folding in another system than the
-/// circular one.
+/// message has it; but see unturned_rotation.h), and for folding in another system than the circular one.
 [[nodiscard]] SinglePass
 single_pass(const NumberFormat& format, const Sequence& sequence, const PassInput& input);
 
