@@ -108,7 +108,7 @@ TEST(PmacFileF1, LeavesOutWhatSetsNothing) {
                 HasSubstr("a.ini:2:1: FROBNICATE=3 is skipped: it does not set anything"));
     EXPECT_EQ(file.omissions.back().place.line, 16);
     EXPECT_TRUE(file.warnings.empty());
-    EXPECT_EQ(file.lines.size(), 9u);
+    EXPECT_EQ(file.lines.size(), 10u); // OPEN and CLEAR are two
 }
 
 TEST(PmacFileP4, TellsWhatTheCardWouldRollOver) {

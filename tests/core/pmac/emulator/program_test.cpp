@@ -35,7 +35,7 @@ TEST(PmacProgramP8, WhatStandsBetweenOpenAndCloseIsStoredOnOneLineToo) {
     EXPECT_EQ(pmac.card.variable('P', 1), 0.0);
     EXPECT_EQ(pmac.card.variable('P', 2), 0.0);
     EXPECT_EQ(pmac.card.variable('P', 3), 6.0);
-    EXPECT_EQ(pmac.ask("LIST PLC 5"), "P1=4\nP2=5");
+    EXPECT_EQ(pmac.ask("LIST PLC 5"), "P1=4|P2=5");
     EXPECT_EQ(pmac.ask("OPEN PLC 5 OPEN PLC 6"), "ERR007");
 }
 
