@@ -87,7 +87,8 @@ TEST(PlotPicture, TheReadoutNamesTheCellUnderTheMouseWithItsGrayAndPlace) {
     ASSERT_EQ(shown->picture.width, width);
     ASSERT_EQ(shown->picture.height, height);
     EXPECT_FALSE(bench.person.sees("tip"));
-    for (const auto& [i, j] : {std::pair(0, 0), std::pair(2, 21), std::pair(13, 3), std::pair(5, 5)}) {
+    // The rest of the map may be scrolled out of sight.
+    for (const auto& [i, j] : {std::pair(0, 0), std::pair(2, 21), std::pair(6, 3), std::pair(5, 5)}) {
         const auto share = [](int n, int count) {
             return static_cast<float>(n) / static_cast<float>(count - 1);
         };
