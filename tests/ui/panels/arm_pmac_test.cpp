@@ -499,40 +499,6 @@ TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
     EXPECT_THAT(log.back(), testing::HasSubstr("line 3: 'I9999=3' is rejected"));
 }
 
-// The settings of the fifth motor were loaded while "Axis 5" was off: ERR012 named neither the motor nor what
-// to do.
-TEST(ArmAtPmac, AProgramThatTheFifthMotorRefusesNamesItAndWhatToDo) {
-    ArmAtPmac bench({1280, 1200});
-    const auto status = [&] { return bench.person.workshop().look().controller.status; };
-    bench.connect();
-    bench.person.workshop().load_card_settings("assets/samples/pmac-axis-5.ini");
-    const int loaded = status().answer.number;
-    ASSERT_TRUE(bench.person.live_until([&] {
-        return status().answer.number >= loaded &&
-               status().answer.state != drivers::CommandAnswer::State::pending &&
-               bench.is(drivers::DriverState::idle);
-    }));
-    bench.give_power();
-    bench.person.click("lower/tabs/console");
-    bench.person.frames(2);
-    for (const char* const line : {"OPEN PROG 1 CLEAR LINEAR TM500 X1 CLOSE", "&1B1R"}) {
-        const int before = status().answer.number;
-        bench.person.click("lower/command");
-        bench.person.type(line);
-        bench.person.press_key(render::Key::enter);
-        ASSERT_TRUE(bench.person.live_until([&] {
-            return status().answer.number > before &&
-                   status().answer.state != drivers::CommandAnswer::State::pending;
-        })) << line;
-    }
-    EXPECT_EQ(status().answer.state, drivers::CommandAnswer::State::refused);
-    EXPECT_THAT(status().answer.text,
-                testing::HasSubstr("also motor 5 (71.1111B), which is not driven here: connect with its axis "
-                                   "(\"Axis 5\", --axes XYZAB), or load settings without it"));
-    EXPECT_NEAR(bench.pmac.degrees(1), 0.0, 0.1) << "nothing moved";
-    bench.person.keep("arm-axis-5-off");
-}
-
 TEST(ArmAtPmac, TakesNoGCode) {
     ArmAtPmac bench;
     bench.connect();
