@@ -126,6 +126,7 @@ int actuators(const ArmDrivesOptions& options) {
     ArmDriveReadings found =
         options.counts ? arm::drive_readings(*file.actuators, given_counts(options.numbers))
                        : arm::drive_readings(*file.actuators, given_joints(file.arm, options.numbers));
+    arm::add_joint_limits(found, *file.actuators, file.arm);
     const std::vector<std::string> others = arm::broken_limits(file.arm, std::nullopt, found.joints);
     found.reasons.insert(found.reasons.begin(), others.begin(), others.end());
     options.json ? print_json(file.arm, found) : print_table(file.arm, found);

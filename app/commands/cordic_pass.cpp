@@ -2,11 +2,14 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/cordic/unturned_rotation.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <optional>
 
 namespace millwright::app {
 
@@ -48,6 +51,13 @@ int print_cordic_pass(const cordic::NumberFormat& format,
                       bool as_json) {
     const cordic::SinglePass found = cordic::single_pass(format, sequence, input);
     const bool vectors = input.mode == cordic::Mode::vectoring;
+    const std::optional<double> range = cordic::exceeded_range(format, sequence, input);
+    if (range) {
+        fmt::print(stderr,
+                   "warning: {}; {}\n",
+                   cordic::unturned_text(input, *range),
+                   input.folds ? "folding leaves z as it is" : "without --raw any angle is reduced first");
+    }
     if (as_json) {
         nlohmann::ordered_json answer;
         answer["x"] = found.x;
@@ -65,6 +75,7 @@ int print_cordic_pass(const cordic::NumberFormat& format,
                 answer["quarter_turns"] = found.quarter_turns;
             }
         }
+        answer["converged"] = !range;
         answer["clocks"] = found.clocks;
         answer["words"] = hexadecimal_words(found.words);
         fmt::print("{}\n", answer.dump(2));

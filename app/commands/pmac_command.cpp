@@ -211,10 +211,11 @@ void add_pmac_command(CLI::App& app, Command& chosen) {
     CLI::App& command = *app.add_subcommand("pmac", "Send commands to a PMAC motor controller");
     command.add_option("COMMAND", options->commands, "On-line commands such as '#1P', sent in this order");
     command
-        .add_option("--port",
-                    options->port,
-                    "Serial port, or tcp:HOST:PORT (default: MILLWRIGHT_PMAC_PORT of the environment, else "
-                    "an emulated card on this computer)")
+        .add_option(
+            "--port",
+            options->port,
+            fmt::format("Serial port, or tcp:HOST:PORT; by default the emulated card on this computer, {}",
+                        emulated_port))
         ->envname("MILLWRIGHT_PMAC_PORT")
         ->type_name("PORT");
     command

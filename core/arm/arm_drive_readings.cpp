@@ -67,6 +67,27 @@ readings(const ArmActuators& actuators, const DrivePositions& counts, const Join
 
 } // namespace
 
+void add_joint_limits(ArmDriveReadings& found, const ArmActuators& actuators, const ArmModel& arm) {
+    for (const std::size_t n : {std::size_t{0}, std::size_t{3}}) {
+        const auto joint = static_cast<Eigen::Index>(n);
+        const auto counts_at = [&](double angle) {
+            JointPositions joints = found.joints;
+            joints[joint] = angle;
+            return std::isfinite(angle) ? drives_of(actuators, joints)[joint] : angle;
+        };
+        const ArmJoint& limited = arm.joint(static_cast<int>(n));
+        const double scale = actuators.scales[n].scale;
+        const double first = counts_at(scale > 0.0 ? limited.min : limited.max);
+        const double last = counts_at(scale > 0.0 ? limited.max : limited.min);
+        DriveReading& drive = found.drives[n];
+        drive.low = std::min(first, last);
+        drive.high = std::max(first, last);
+        constexpr double slack = 1e-6; // counts: rounding on the way to the joint and back
+        drive.inside =
+            drive.inside && drive.counts >= drive.low - slack && drive.counts <= drive.high + slack;
+    }
+}
+
 ArmDriveReadings drive_readings(const ArmActuators& actuators, const JointPositions& joints) {
     DrivePositions counts = drives_of(actuators, joints);
     if (const auto choices = roll_choices(actuators, counts); !choices.empty()) {

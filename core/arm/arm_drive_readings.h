@@ -36,4 +36,7 @@ struct ArmDriveReadings {
 /// Throws Error with the drive's number where a linear drive is too short or too long for its triangle.
 [[nodiscard]] ArmDriveReadings drive_readings(const ArmActuators& actuators, const DrivePositions& counts);
 
+/// Adds what the limits of the joints 1 and 4 of `arm` leave the drives 1 and 4.
+void add_joint_limits(ArmDriveReadings& found, const ArmActuators& actuators, const ArmModel& arm);
+
 } // namespace millwright::arm

@@ -35,11 +35,7 @@ void refuse_rotation(const Sequence& sequence, const PassInput& input, double ra
                             rounded_inwards(range),
                             unit_of(sequence.m),
                             sequence.step_count,
-                            to_text(sequence.m)),
-                {},
-                sequence.m != CoordinateSystem::circular ? ""
-                : input.folds ? "subtract quarter turns from the angle: folding leaves z as it is"
-                              : "subtract quarter turns from the angle to bring it into the range");
+                            to_text(sequence.m)));
 }
 
 void refuse_vectoring(const Sequence& sequence, const PassInput& input) {
@@ -138,7 +134,7 @@ Vector3<typename Arithmetic::Number> iterated(const Kernel<Arithmetic>& kernel,
     return v;
 }
 
-/// Throws Error for what the steps do not turn to the end.
+/// Throws Error for what the steps do not turn to the end, but for a circular rotation.
 template <class Arithmetic>
 void refuse_unreached(const Kernel<Arithmetic>& kernel,
                       const NumberFormat& format,
@@ -148,7 +144,8 @@ void refuse_unreached(const Kernel<Arithmetic>& kernel,
     const Reach direction = kernel.reach_of_vectoring(v.x, v.y);
     internal::refuse_vanished(format, input.x, input.y, direction != Reach::zero_vector);
     if (input.mode == Mode::rotation) {
-        if (kernel.reach_of_rotation(v.z) != Reach::inside) {
+        const bool takes_any_z = sequence.m == CoordinateSystem::circular;
+        if (!takes_any_z && kernel.reach_of_rotation(v.z) != Reach::inside) {
             refuse_rotation(sequence, input, kernel.rotation_range());
         }
         return;

@@ -1,6 +1,6 @@
 // One pass of CORDIC-R or CORDIC-V in any coordinate system and from any z, as the thesis's MATLAB functions
 // compute it: z is not reduced and the vector is not shifted. The results stand beside the closed forms of
-// table 3.2. What the steps do not reach is refused.
+// table 3.2. What the steps do not reach is refused, but for z of a circular rotation.
 #pragma once
 
 #include "core/cordic/decimal.h"
@@ -42,7 +42,7 @@ struct SinglePass {
 };
 
 /// Throws Error if a number does not fit the format, if the input is beyond the convergence range (the
-/// message has the range), and for folding in another system than the circular one.
+/// message has it; but see unturned_rotation.h), and for folding in another system than the circular one.
 [[nodiscard]] SinglePass
 single_pass(const NumberFormat& format, const Sequence& sequence, const PassInput& input);
 

@@ -1,5 +1,6 @@
 #include "core/grid/internal/adaptation_text.h"
 
+#include "core/base/counted.h"
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 
@@ -42,14 +43,13 @@ std::string iteration_sentence(const ImproverState& state) {
            ": " + mean_sentence(state.now);
 }
 
-std::string unsolved_sentence(const ImproverState& state, double tolerance) {
-    return fmt::format(
-        "The solver did not converge: round {} ended at iteration {} with a residual of {:.3g}; "
-        "the tolerance is {}.",
-        state.round,
-        state.iteration,
-        state.norm,
-        shortest(tolerance));
+std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance) {
+    return fmt::format("The solver did not converge: round {} ended after {} with a residual of {:.3g}; "
+                       "the tolerance is {}.",
+                       state.round,
+                       counted(iterations, "iteration"),
+                       state.norm,
+                       shortest(tolerance));
 }
 
 std::string refusals(const std::vector<double>& too_wide,

@@ -398,7 +398,9 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
     const double now = at.state.now.mean;
     ++at.state.round;
     at.unsolved =
-        solved == SolverStatus::converged ? std::string() : unsolved_sentence(at.state, settings_.tolerance);
+        solved == SolverStatus::converged
+            ? std::string()
+            : unsolved_sentence(at.state, at.state.iteration - at.iterations_before, settings_.tolerance);
     at.iterations_before = at.state.iteration;
     at.solver = nullptr;
     at.round_weight = nullptr;

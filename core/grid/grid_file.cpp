@@ -251,6 +251,50 @@ std::optional<std::pair<Number, std::string>> first_fold(const Placed& found) {
     return std::nullopt;
 }
 
+/// The same nodes with rows and columns exchanged, or with x and y exchanged.
+NodeArray with_exchanged_indices(const NodeArray& nodes) {
+    NodeArray other(nodes.columns, nodes.rows);
+    for (int i = 0; i < nodes.rows; ++i) {
+        for (int j = 0; j < nodes.columns; ++j) {
+            other.at(j, i) = nodes.at(i, j);
+        }
+    }
+    return other;
+}
+
+NodeArray with_exchanged_coordinates(NodeArray nodes) {
+    for (Vec2& node : nodes.nodes) {
+        std::swap(node.x(), node.y());
+    }
+    return nodes;
+}
+
+bool is_sound(const NodeArray& nodes) {
+    for (int i = 0; i + 1 < nodes.rows; ++i) {
+        for (int j = 0; j + 1 < nodes.columns; ++j) {
+            if (!fault_of_cell(nodes, i, j).empty()) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// What is exchanged in a grid that is folded, or has rows for columns; empty where nothing is.
+std::string exchange_hint(const NodeArray& nodes, const WantedNodes& wanted) {
+    const bool has_sizes = nodes.rows == wanted.columns && nodes.columns == wanted.rows;
+    const bool by_indices = has_sizes && is_sound(with_exchanged_indices(nodes));
+    const bool by_coordinates = is_sound(with_exchanged_coordinates(nodes));
+    constexpr const char* right = ": x grows from row to row, y along a row";
+    if (by_indices && by_coordinates) {
+        return std::string("rows and columns, or x and y, are exchanged") + right;
+    }
+    if (by_indices || by_coordinates) {
+        return (by_indices ? "rows and columns are exchanged" : "x and y are exchanged") + std::string(right);
+    }
+    return has_sizes && is_sound(nodes) ? "rows and columns are exchanged, and x and y, too" : "";
+}
+
 /// `hint` tells what else the file may be.
 void require_unfolded(const Placed& found, const std::filesystem::path& file, const std::string& hint = {}) {
     if (const auto fold = first_fold(found)) {
@@ -387,10 +431,11 @@ NodeArray parse_nodes(std::string_view text, const std::filesystem::path& file, 
         throw Error(std::to_string(found.nodes.rows) + " x " + std::to_string(found.nodes.columns) +
                         " nodes, but " + std::to_string(wanted.rows) + " x " +
                         std::to_string(wanted.columns) + " are needed",
-                    file);
+                    file,
+                    exchange_hint(found.nodes, wanted));
     }
     require_inside(found, file, wanted);
-    require_unfolded(found, file);
+    require_unfolded(found, file, exchange_hint(found.nodes, wanted));
     return found.nodes;
 }
 

@@ -43,6 +43,25 @@ TEST(CordicPass, ComputesInEachSystem) {
     EXPECT_NEAR(folded.at("z").get<double>(), std::atan2(3.0, 4.0), 6e-8);
 }
 
+// It was refused.
+TEST(CordicPass, ARawRotationTakesAnyZAndSaysWhatIsLeft) {
+    for (const bool folds : {false, true}) {
+        std::vector<std::string> words{"cordic", "rotate", "1", "0", "3", "--raw"};
+        if (folds) {
+            words.emplace_back("--fold");
+        }
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 0);
+        EXPECT_THAT(ended.out, HasSubstr("\nz 1.2914"));
+        EXPECT_THAT(ended.err,
+                    HasSubstr("warning: z = 3 rad is outside the convergence range, |z| <= 1.70857 rad"));
+    }
+    EXPECT_THAT(run({"cordic", "rotate", "1", "0", "3", "--raw", "--json"}).out,
+                HasSubstr("\"converged\": false"));
+    EXPECT_THAT(run({"cordic", "rotate", "1", "0", "1.7", "--raw", "--json"}).out,
+                HasSubstr("\"converged\": true"));
+}
+
 TEST(CordicPass, RefusesWhatIsBeyondTheRange) {
     const auto refusal = [](std::vector<std::string> words) {
         words.insert(words.begin(), "cordic");
@@ -50,7 +69,6 @@ TEST(CordicPass, RefusesWhatIsBeyondTheRange) {
         EXPECT_EQ(ended.exit_code, 1);
         return ended.err;
     };
-    EXPECT_THAT(refusal({"rotate", "1", "0", "98", "--raw"}), HasSubstr("|z| <= 1.70857 rad"));
     EXPECT_THAT(refusal({"rotate", "1", "0", "-1.9", "--system", "hyperbolic"}), HasSubstr("|z| <= 1.83745"));
     EXPECT_THAT(refusal({"vector", "1", "2", "--system", "linear"}), HasSubstr("|y/x| <= 1.76574"));
     EXPECT_THAT(refusal({"vector", "3", "1", "--z", "1"}), HasSubstr("apply only to a raw pass (add --raw)"));

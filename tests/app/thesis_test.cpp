@@ -138,7 +138,8 @@ TEST(ThesisCommand, WritesTheAdaptedGridWithItsResidualsAndNorms) {
     EXPECT_EQ(run({"thesis", "convert", scratch / "orx.dat", "--residuals", "--out", scratch / "again.dat"})
                   .exit_code,
               0);
-    EXPECT_THAT(ended.err, HasSubstr("warning: The solver did not converge: round 1 ended at iteration 250"));
+    EXPECT_THAT(ended.err,
+                HasSubstr("warning: The solver did not converge: round 1 ended after 250 iterations"));
     // What is printed is of the grid that is written, whatever the method keeps.
     EXPECT_THAT(ended.out, testing::ContainsRegex("The method keeps (the start|another) grid: "));
     const std::string this_grid = figure_behind(ended.out, "this grid ");
@@ -210,6 +211,39 @@ TEST(ThesisCommand, SmoothsADisplacedStartGrid) {
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("982 iterations in 1 round, norm 9.98641"));
     EXPECT_THAT(content_of(scratch / "norms.csv"), HasSubstr("\n1,1,0,1.50633122"));
+}
+
+// It was "a cell is folded", without a word about what to do.
+TEST(ThesisCommand, ATransposedStartGridGetsAHint) {
+    const ScratchFolder scratch;
+    const auto project = thesis_case(scratch, 0.0, 10);
+    const auto says = [&](bool indices, bool coordinates) {
+        std::string text;
+        for (int i = 0; i < 25; ++i) {
+            for (int j = 0; j < 25; ++j) { // bent, so that u and v differ
+                const double a = (indices ? j : i) / 24.0, b = (indices ? i : j) / 24.0;
+                const double u = a, v = b * b;
+                text += coordinates ? fmt::format("{} {}\n", v, u) : fmt::format("{} {}\n", u, v);
+            }
+        }
+        write_content(scratch / "source", text);
+        return run({"thesis",
+                    "grid",
+                    project,
+                    "--method",
+                    "elliptic",
+                    "--start",
+                    scratch / "source",
+                    "--out",
+                    scratch / "o.dat"});
+    };
+    EXPECT_EQ(says(false, false).exit_code, 0);
+    for (const bool indices : {false, true}) {
+        const Ended ended = says(indices, !indices);
+        EXPECT_EQ(ended.exit_code, 1);
+        EXPECT_THAT(ended.err, HasSubstr("source:"));
+        EXPECT_THAT(ended.err, HasSubstr("rows and columns, or x and y, are exchanged"));
+    }
 }
 
 TEST(ThesisCommand, RefusesAStartGridThatIsNone) {

@@ -62,7 +62,8 @@ void arm_drives(Ui& ui, const Workbench& now) {
                                                       {"Maximum", "counts", 1.2F, true},
                                                       {"Turns", {}, 0.8F, true}}};
     const bool known = !now.arm_connected() || now.controller.status.position_known;
-    const arm::ArmDriveReadings found = arm::drive_readings(*drives, now.arm.joints());
+    arm::ArmDriveReadings found = arm::drive_readings(*drives, now.arm.joints());
+    arm::add_joint_limits(found, *drives, now.arm.arm());
     widgets::TableView view;
     view.columns = columns;
     view.rows = std::ssize(found.drives);

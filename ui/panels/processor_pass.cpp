@@ -1,6 +1,7 @@
 #include "ui/panels/processor_pass.h"
 
 #include "core/base/error.h"
+#include "core/cordic/unturned_rotation.h"
 #include "ui/widgets/plot.h"
 
 #include <fmt/format.h>
@@ -123,6 +124,9 @@ void ProcessorPass::draw_result(Ui& ui, const actions::ProcessorChoice& choice) 
         const bool rotates = mode_ == Mode::rotation;
         ui.value("error", rotates ? "Error of (x, y)" : "Error of x", fmt::format("{:.3g}", pass.error));
         ui.value("z_error", rotates ? "Residual z" : "Error of z", fmt::format("{:.3g}", pass.z_error));
+        if (const auto range = cordic::exceeded_range(choice.format, sequence, input)) {
+            ui.value("range", "Outside the range", fmt::format("|z| <= {:.5f} rad", *range));
+        }
         draw_left(ui, mode_, pass);
     } catch (const Error& error) {
         ui.text(to_text(error.diagnostic()));

@@ -153,7 +153,8 @@ void Ui::end_frame() {
         const double rested = tip.at_once ? tip_after : ImGui::GetTime() - tip.since;
         if (rested >= tip_after) {
             const Rect box = draw_box(*this, *state_, {tip.rect, tip.text, colours().line, colours().text});
-            state_->places.record(path("tip"), {box, true, true, {}}); // above all panes
+            // Above all panes. Its reason is what it says, as that of a greyed-out widget is.
+            state_->places.record(path("tip"), {box, true, true, tip.text});
         } else {
             change_in(tip_after - rested);
         }

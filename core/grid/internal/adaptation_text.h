@@ -17,7 +17,8 @@ namespace millwright::grid {
 [[nodiscard]] std::string iteration_sentence(const ImproverState& state);
 
 /// That the solver did not converge in the round that has just ended.
-[[nodiscard]] std::string unsolved_sentence(const ImproverState& state, double tolerance);
+/// `iterations`: of the round, without those before a restart.
+[[nodiscard]] std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance);
 
 /// Of the refused grids those with a lower mean than the one that was taken: how good they were, and why not.
 /// `too_wide` and `worse_elsewhere` are their means, mm.

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/pmac/driver/guard_rules.h"
+#include "core/pmac/driver/internal/buffer_words.h"
 
 #include <fmt/format.h>
 
@@ -95,33 +96,9 @@ public:
                     "remove control characters: they act immediately and are not sent from files"});
             }
         }
-        if (text.empty()) {
-            return;
+        for (const std::string& part : internal::split_at_buffer_words(text)) {
+            take_part(part, line);
         }
-        std::string tight;
-        for (const char c : text) {
-            const bool blank = c == ' ' || c == '\t';
-            tight += blank ? "" : std::string(1, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
-        }
-        if (!program_ && is_left_out(text, tight, line)) {
-            return;
-        }
-        const auto setting = setting_of(tight);
-        if (!sets_something(tight)) {
-            ++result_.left_out;
-            if (tight.find_first_not_of("0123456789.+-") == std::string::npos) {
-                omit(line, fmt::format("{} is skipped: a number alone sets P0", text), "write P0=" + text);
-            } else {
-                omit(line,
-                     fmt::format("{} is skipped: it does not set anything", text),
-                     "use only settings: a settings file must not move motors");
-            }
-            return;
-        }
-        if (setting) {
-            note(*setting, line, text);
-        }
-        result_.lines.push_back({line, text});
     }
 
     PmacFile finish() {
@@ -138,19 +115,54 @@ private:
     const std::filesystem::path& file_;
     PmacFile result_;
     std::map<int, Final> values_;
-    bool program_;      ///< all lines are one's
-    bool open_ = false; ///< a buffer
+    bool program_;     ///< all lines are one's
+    std::string open_; ///< the line that opened the buffer; empty where none is open
+
+    /// A line, or a part of one that a word about buffers begins.
+    void take_part(const std::string& text, int line) {
+        if (text.empty()) {
+            return;
+        }
+        std::string tight;
+        for (const char c : text) {
+            const bool blank = c == ' ' || c == '\t';
+            tight += blank ? "" : std::string(1, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
+        }
+        if (!program_ && is_left_out(text, tight, line)) {
+            return;
+        }
+        const auto setting = setting_of(tight);
+        if (!program_ && !open_.empty() && tight.starts_with("OPEN")) {
+            throw Error(Diagnostic{
+                {file_, line, 1}, internal::second_open_message(text), internal::second_open_hint(open_)});
+        }
+        if (!sets_something(text, tight)) {
+            ++result_.left_out;
+            if (tight.find_first_not_of("0123456789.+-") == std::string::npos) {
+                omit(line, fmt::format("{} is skipped: a number alone sets P0", text), "write P0=" + text);
+            } else {
+                omit(line,
+                     fmt::format("{} is skipped: it does not set anything", text),
+                     "use only settings: a settings file must not move motors");
+            }
+            return;
+        }
+        if (setting) {
+            note(*setting, line, text);
+        }
+        result_.lines.push_back({line, text});
+    }
 
     /// Between OPEN and CLOSE everything is the program's.
-    bool sets_something(const std::string& tight) {
+    bool sets_something(const std::string& text, const std::string& tight) {
         if (program_) {
             return true;
         }
-        if (open_) {
-            open_ = !tight.starts_with("CLOSE");
+        if (!open_.empty()) {
+            open_ = tight == "CLOSE" ? "" : open_;
             return true;
         }
-        open_ = tight.starts_with("OPEN");
+        open_ = tight.starts_with("OPEN") ? text : "";
         static const std::regex settings(
             "[IPQM][0-9]+(\\.\\.[0-9]+)?=.+|M[0-9]+(\\.\\.[0-9]+)?->.*|(&[0-9]+)?#[0-9]+->.*|[&#][0-9]+|"
             "(&[0-9]+)?(%[0-9.]+|ABS.*|INC.*|FRAX.*|UNDEFINE.*)|OPEN.+|CLOSE|CLEAR|DELETE.+|"
@@ -161,7 +173,7 @@ private:
     /// Settings that are the driver's. A program would not be the same without its line: Error.
     bool is_left_out(const std::string& text, const std::string& tight, int line) {
         const std::string why = guard_refusal(text);
-        if (!why.empty() && (open_ || tight.starts_with("OPEN"))) {
+        if (!why.empty() && (!open_.empty() || tight.starts_with("OPEN"))) {
             throw Error(Diagnostic{
                 {file_, line, 1},
                 fmt::format("'{}' would weaken the guard that stops the motors when the connection is lost",

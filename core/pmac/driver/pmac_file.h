@@ -28,6 +28,10 @@ struct PmacFile {
 /// is no text, of a value beyond 24 bits, and of a line in a buffer that would weaken the guard.
 [[nodiscard]] PmacFile read_pmac_file(std::string_view text, const std::filesystem::path& file);
 
+/// Why a line of a motion program has no OPEN, CLOSE or CLEAR.
+constexpr const char* buffer_word_hint =
+    "leave it out: the buffer is opened, cleared and closed automatically";
+
 /// The lines of a motion program or of a file with one, as they are; Error as above.
 [[nodiscard]] std::vector<PmacFile::Line> read_pmac_program(std::string_view text,
                                                             const std::filesystem::path& file);

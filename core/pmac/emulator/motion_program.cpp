@@ -61,12 +61,11 @@ private:
 };
 
 std::string why_none(std::string_view line) {
-    constexpr std::string_view buffers = "OPEN";
-    const bool opens = line.size() >= buffers.size() &&
-                       std::equal(buffers.begin(), buffers.end(), line.begin(), [](char a, char b) {
-                           return a == b || (b >= 'a' && b <= 'z' && a == b - 'a' + 'A');
-                       });
-    return opens ? "leave it out: the buffer is opened, cleared and closed automatically" : "";
+    const auto words = card::words_of(line);
+    const auto is_of_buffers = [](const card::Token& token) {
+        return token.text == "OPEN" || token.text == "CLOSE" || token.text == "CLEAR";
+    };
+    return words && std::ranges::any_of(*words, is_of_buffers) ? buffer_word_hint : "";
 }
 
 /// The card with the axes of the settings, at rest where they begin.

@@ -148,5 +148,31 @@ TEST(ArmDriveReadingsK6, SayWhereATriangleIsFlat) {
     EXPECT_THROW((void)drive_readings(drives, a), Error);
 }
 
+// They were shown without limits. 180 degrees are 21600 counts of drive 1 and 12800 of drive 4.
+TEST(ArmDriveReadings, TheLimitsOfTheJointsOneAndFourAreThoseOfTheirDrives) {
+    const ArmFile file = read_arm("assets/arms/motoman-l3.json");
+    const ArmActuators& drives = *file.actuators;
+    ArmDriveReadings found = drive_readings(drives, test::degrees({0, -90, 90, 0, 0}));
+    add_joint_limits(found, drives, file.arm);
+    EXPECT_NEAR(found.drives[0].low, -175.0 / 180.0 * 21'600.0, 1e-3);
+    EXPECT_NEAR(found.drives[0].high, 175.0 / 180.0 * 21'600.0, 1e-3);
+    EXPECT_NEAR(found.drives[3].low, found.drives[3].counts - 270.0 / 180.0 * 12'800.0, 1e-3);
+    EXPECT_NEAR(found.drives[3].high, found.drives[3].counts + 270.0 / 180.0 * 12'800.0, 1e-3);
+    EXPECT_TRUE(found.drives[0].inside);
+    for (const auto& [joint, edge] : {std::pair(0, 175.0), std::pair(3, 270.0)}) {
+        for (const double sign : {-1.0, 1.0}) {
+            JointPositions q = test::degrees({0, -90, 90, 0, 0});
+            q[joint] = test::degrees({sign * edge})[0];
+            ArmDriveReadings at = drive_readings(drives, q);
+            add_joint_limits(at, drives, file.arm);
+            EXPECT_TRUE(at.drives[static_cast<std::size_t>(joint)].inside) << joint;
+            q[joint] = test::degrees({sign * (edge + 0.1)})[0];
+            ArmDriveReadings beyond = drive_readings(drives, q);
+            add_joint_limits(beyond, drives, file.arm);
+            EXPECT_FALSE(beyond.drives[static_cast<std::size_t>(joint)].inside) << joint;
+        }
+    }
+}
+
 } // namespace
 } // namespace millwright::arm

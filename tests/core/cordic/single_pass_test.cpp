@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/cordic/accuracy.h"
 #include "core/cordic/arithmetic.h"
+#include "core/cordic/unturned_rotation.h"
 #include "tests/core/cordic/angles.h"
 
 #include <gmock/gmock.h>
@@ -113,8 +114,6 @@ TEST(SinglePass, RefusesAnglesBeyondTheRangeAndNamesIt) {
     const auto refusal = [](CoordinateSystem m, double z) {
         return pass_refusal(binary64, thesis_sequence(m), {Mode::rotation, 1.0, 0.0, z});
     };
-    EXPECT_THAT(refusal(circular, 1.7086), HasSubstr("|z| <= 1.70857 rad with 29 circular steps"));
-    EXPECT_THAT(refusal(circular, -2.1), HasSubstr("z = -2.1 rad is outside the convergence range"));
     EXPECT_THAT(refusal(linear, 1.7658), HasSubstr("|z| <= 1.76574 with 29 linear steps"));
     EXPECT_THAT(refusal(hyperbolic, 1.8375), HasSubstr("|z| <= 1.83745 rad with 29 hyperbolic steps"));
     EXPECT_EQ(refusal(circular, 1.70857), "");
@@ -124,6 +123,36 @@ TEST(SinglePass, RefusesAnglesBeyondTheRangeAndNamesIt) {
     const Sequence classic = classic_sequence(hyperbolic, 24);
     EXPECT_THAT(pass_refusal(binary64, classic, {Mode::rotation, 1.0, 0.0, 1.2}), HasSubstr("|z| <= 1.118"));
     EXPECT_EQ(pass_refusal(binary64, classic, {Mode::rotation, 1.0, 0.0, 1.118}), "");
+}
+
+// The thesis's results of CORDIC-R at 98, 120 and 180 degrees: off by a chord of what is left of z.
+TEST(SinglePass, ACircularRotationTakesAnyZAndLeavesTheRestOfIt) {
+    const Sequence sequence = thesis_sequence(circular);
+    constexpr double pi = 3.14159265358979323846;
+    const double range = 97.8940 * pi / 180.0;
+    for (const auto& [degrees, chord] : {std::pair(97.0, 0.0),
+                                         std::pair(98.0, 1.85e-3),
+                                         std::pair(120.0, 0.383),
+                                         std::pair(180.0, 1.313),
+                                         std::pair(-180.0, 1.313)}) {
+        for (const bool folds : {false, true}) {
+            const PassInput input{.x = 1.0, .z = degrees * pi / 180.0, .folds = folds};
+            const SinglePass found = single_pass(binary64, sequence, input);
+            EXPECT_NEAR(found.error, chord, chord < 0.01 ? 5e-6 : 1e-3) << degrees;
+            EXPECT_EQ(!exceeded_range(binary64, sequence, input), std::abs(degrees) < 97.8) << degrees;
+            const double left = std::max(0.0, std::abs(degrees) * pi / 180.0 - range);
+            EXPECT_NEAR(std::abs(found.z), left, 2e-5) << degrees;
+        }
+    }
+    const PassInput far{.x = -3.0, .y = 4.0, .z = 100.0, .folds = true};
+    const SinglePass found = single_pass(binary64, sequence, far);
+    EXPECT_EQ(exceeded_range(binary64, sequence, far), 1.70857);
+    EXPECT_NEAR(std::hypot(found.x, found.y), 5.0, 1e-6);
+    EXPECT_NEAR(found.z, 100.0 - range, 2e-5);
+    EXPECT_THAT(unturned_text(far, 1.70857),
+                HasSubstr("z = 100 rad is outside the convergence range, |z| <= 1.70857"));
+    // A format in which z has no room refuses it.
+    EXPECT_THAT(pass_refusal(fixed_format(4, 28), sequence, far), testing::Not(testing::IsEmpty()));
 }
 
 TEST(SinglePass, RefusesVectorsBeyondTheRangeAndNamesIt) {

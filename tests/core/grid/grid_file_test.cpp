@@ -154,9 +154,10 @@ TEST(GridFile, TheFormIsFoundFromTheLines) {
                                    {.rows = 4, .columns = 3, .most = Vec2(3.0, 3.0)}),
               "start.dat:1:9: The cell from node (0, 0) has no area: nodes (0, 0) and (0, 1) are at the same "
               "position");
-    EXPECT_EQ(either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
-                                   {.rows = 4, .columns = 3, .form = FileForm::blocks}),
-              "start.dat: 3 x 4 nodes, but 4 x 3 are needed");
+    EXPECT_EQ(
+        either_diagnostic_of(blocks_text(unit_spaced(3, 4)),
+                             {.rows = 4, .columns = 3, .form = FileForm::blocks}),
+        "start.dat: 3 x 4 nodes, but 4 x 3 are needed (rows and columns are exchanged, and x and y, too)");
 }
 
 TEST(GridFile, ACoordinateOutsideOfTheSurfaceIsNamedWithItsOwnPlace) {

@@ -3,10 +3,14 @@
 #include "tests/ui/panels/plot_person.h"
 #include "ui/panels/view_panel.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace millwright::panels {
 namespace {
@@ -65,6 +69,46 @@ TEST(PlotPicture, ARegionIsMarkedOnTheGrayMapByTwoClicks) {
     bench.person.click("lower/whole");
     bench.settle();
     EXPECT_FALSE(bench.plot().settings().picture.region);
+}
+
+// i counts rows from the top, j columns from the left, as the thesis's matrix; rows and columns exchanged, or
+// counted from below, would read other numbers.
+TEST(PlotPicture, TheReadoutNamesTheCellUnderTheMouseWithItsGrayAndPlace) {
+    const test::ScratchFolder scratch;
+    constexpr int width = 24, height = 16;
+    test::write_bmp(scratch / "slope.bmp", width, height, 10'000, 10'000); // square pixels
+    PlotPerson bench(scratch / "slope.bmp", {1280, 1400});
+    ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
+    bench.person.click("lower/tabs/picture");
+    bench.person.frames(3);
+    const widgets::Rect map = bench.person.place("lower/gray_map");
+    const auto shown = bench.made().shown_picture;
+    ASSERT_TRUE(shown);
+    ASSERT_EQ(shown->picture.width, width);
+    ASSERT_EQ(shown->picture.height, height);
+    EXPECT_FALSE(bench.person.sees("tip"));
+    // The rest of the map may be scrolled out of sight.
+    for (const auto& [i, j] : {std::pair(0, 0), std::pair(2, 21), std::pair(6, 3), std::pair(5, 5)}) {
+        const auto share = [](int n, int count) {
+            return static_cast<float>(n) / static_cast<float>(count - 1);
+        };
+        const float x = std::clamp(share(j, width), 0.005F, 0.995F),
+                    y = std::clamp(share(i, height), 0.005F, 0.995F);
+        bench.person.hover({map.x + x * map.w, map.y + y * map.h});
+        bench.person.frames(2);
+        ASSERT_TRUE(bench.person.sees("tip")) << i << ' ' << j;
+        // As written to the file, where rows count from below.
+        const int gray = 255 * (j + height - 1 - i) / (width + height);
+        const std::string tip = bench.person.refusal("tip");
+        EXPECT_THAT(tip, testing::StartsWith(fmt::format("G({}, {}) = {}\n", i, j, gray)));
+        EXPECT_THAT(tip,
+                    testing::HasSubstr(fmt::format("x {:.2f} mm, y {:.2f} mm",
+                                                   shown->corner.x() + j * shown->cell.x(),
+                                                   shown->corner.y() + (height - 1 - i) * shown->cell.y())));
+    }
+    bench.person.hover({map.x + 0.5F * map.w, map.y - 30.0F});
+    bench.person.frames(2);
+    EXPECT_FALSE(bench.person.sees("tip") && bench.person.refusal("tip").starts_with("G("));
 }
 
 // A region counts the file's pixels, not the square ones that are cut; cells at the edge have fewer of them.

@@ -2,7 +2,10 @@
 #include "core/base/files.h"
 #include "core/emulators/stream/stream_emulator.h"
 #include "core/jobs/recovery.h"
+#include "core/kinematics/machine_file.h"
+#include "core/plan/plot_time.h"
 #include "core/plot/path_file.h"
+#include "core/project/assets.h"
 #include "tests/ui/panels/at_machine.h"
 #include "tests/ui/panels/plot_person.h"
 #include "tests/ui/panels/table_bench.h"
@@ -52,6 +55,23 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
     EXPECT_TRUE(bench.person.workshop().look().in_file()); // its program can be played
     EXPECT_GT(bench.person.workshop().look().duration(), 60.0);
     bench.person.keep("plot");
+}
+
+// It was 33:05 in the window and 32:52 on the command line, which reads the written text.
+TEST(PlotWorkspace, TheTimeOfThePlannerIsThatOfTheTextThatIsWritten) {
+    PlotPerson bench("assets/samples/plot/everyday.plt", {1600, 1200});
+    const auto of_text = [&] {
+        posts::ReleasedText released;
+        released.listing.text = read_file(bench.made().program);
+        const auto machine =
+            kinematics::read_machine(project::machine_path(bench.plot().settings().machine, ".", "assets"));
+        return plan::seconds_of_text(released, {}, machine, "p.ngc");
+    };
+    EXPECT_NEAR(bench.person.workshop().look().duration(), of_text(), 1e-6);
+    bench.person.fill_in("inspector/travel/link_mm", "3"); // and after an edit
+    bench.settle();
+    EXPECT_TRUE(bench.plot().is_current(bench.made()));
+    EXPECT_NEAR(bench.person.workshop().look().duration(), of_text(), 1e-6);
 }
 
 TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {

@@ -309,8 +309,10 @@ TEST(ProcessorWorkspace, ComputesOnePassInEachSystem) {
     };
     person.click("inspector/registers"); // folded away
     EXPECT_TRUE(shows("inspector/pass/x_out"));
+    EXPECT_FALSE(shows("inspector/pass/range"));
     type("inspector/pass/z", "1.8"); // beyond 1.70857 rad
-    EXPECT_FALSE(shows("inspector/pass/x_out"));
+    EXPECT_TRUE(shows("inspector/pass/x_out"));
+    EXPECT_TRUE(shows("inspector/pass/range"));
     person.choose("inspector/pass/system", "hyperbolic"); // whose range is 1.83745
     EXPECT_TRUE(shows("inspector/pass/x_out"));
     EXPECT_FALSE(person.refusal("inspector/pass/folds").empty());

@@ -187,5 +187,44 @@ TEST_F(ProcessorTexts, AMicroprogramOfOnesOwnIsWrittenAndExecuted) {
     EXPECT_EQ(state().clocks.total, ours);
 }
 
+TEST_F(ProcessorTexts, BothEditorsFindAndReplaceByTheKeysOfTheOthers) {
+    tab("assembler");
+    person_.click("lower/text");
+    person_.type("MOV XI, 8\nMOV YJ, 8\nG01\n");
+    person_.press_key(Key::f, true);
+    person_.frames(3);
+    ASSERT_TRUE(person_.sees("lower/find/wanted"));
+    person_.type("8");
+    person_.press_key(Key::enter);
+    person_.frames(2);
+    person_.fill_in("lower/find/replacement", "6");
+    person_.click("lower/find/replace_all");
+    person_.frames(2);
+    EXPECT_EQ(text(), "MOV XI, 6\nMOV YJ, 6\nG01\n");
+    person_.workshop().run("edit.undo");
+    person_.frames(2);
+    EXPECT_EQ(text(), "MOV XI, 8\nMOV YJ, 8\nG01\n");
+
+    tab("microprogram");
+    person_.click("lower/processor_start_microprogram");
+    person_.frames(2);
+    person_.click("lower/text");
+    person_.press_key(Key::home, true);
+    person_.press_key(Key::f, true);
+    person_.frames(3);
+    ASSERT_TRUE(person_.sees("lower/find/wanted"));
+    person_.press_key(Key::a, true);
+    person_.type("CONT");
+    person_.press_key(Key::enter);
+    person_.frames(4);
+    const auto first = person_.picture_of("lower/text");
+    for (int n = 0; n < 12; ++n) { // far down
+        person_.press_key(Key::g, true);
+        person_.frames(2);
+    }
+    person_.frames(3);
+    EXPECT_GT(render::difference(first, person_.picture_of("lower/text"), 16).fraction, 0.002);
+}
+
 } // namespace
 } // namespace millwright::panels

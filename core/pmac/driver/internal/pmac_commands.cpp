@@ -1,6 +1,7 @@
 // Lines that a person types, or has in a file: what may be sent of them, and when.
 #include "core/base/error.h"
 #include "core/pmac/driver/guard_rules.h"
+#include "core/pmac/driver/internal/buffer_words.h"
 #include "core/pmac/driver/internal/command_kind.h"
 #include "core/pmac/driver/internal/pmac_session.h"
 #include "core/pmac/driver/pmac_driver.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace millwright::pmac::internal {
 
@@ -182,24 +184,48 @@ int PmacSession::load(const std::vector<std::string>& lines) {
     return command(lines, true);
 }
 
-int PmacSession::command(const std::vector<std::string>& typed, bool all) {
-    check_command(typed);
-    const bool only_kept =
-        !all && answer_.state != drivers::CommandAnswer::State::pending && typed_.keeps(typed);
-    if (only_kept) {
-        const std::size_t count = typed_.kept().size() - 1;
-        answer_ = {answer_.number + 1,
-                   drivers::CommandAnswer::State::done,
-                   fmt::format("{}: {} {} kept until CLOSE",
-                               typed_.kept().front(),
-                               count,
-                               count == 1 ? "line is" : "lines are")};
-        tell(false, drivers::ConsoleKind::message, typed.back() + ": not yet sent; " + answer_.text);
+/// A buffer is closed before the next one is opened, as the card has it.
+void PmacSession::check_open(const std::vector<std::string>& lines) const {
+    std::string open = typed_.kept().empty() ? "" : typed_.kept().front();
+    for (const std::string& line : lines) {
+        if (opens_buffer(line) && !open.empty()) {
+            throw Error(second_open_message(line), {}, second_open_hint(open));
+        }
+        open = opens_buffer(line) ? line : closes_buffer(line) ? "" : open;
+    }
+}
+
+void PmacSession::keep_until_close(const std::vector<std::string>& lines) {
+    typed_.keep(lines);
+    const std::size_t count = typed_.kept().size() - 1;
+    answer_ = {answer_.number + 1,
+               drivers::CommandAnswer::State::done,
+               fmt::format("{}: {} {} kept until CLOSE",
+                           typed_.kept().front(),
+                           count,
+                           count == 1 ? "line is" : "lines are")};
+    tell(false, drivers::ConsoleKind::message, lines.back() + ": not yet sent; " + answer_.text);
+}
+
+int PmacSession::command(const std::vector<std::string>& given, bool all) {
+    const std::vector<std::string> parts = split_at_buffer_words(given);
+    check_command(parts);
+    check_open(parts);
+    if (all && !typed_.kept().empty()) {
+        throw Error(
+            "a file cannot be loaded while a buffer is open", {}, second_open_hint(typed_.kept().front()));
+    }
+    const bool may_wait = !all && answer_.state != drivers::CommandAnswer::State::pending;
+    const std::size_t now = may_wait ? typed_.count_to_send(parts) : parts.size();
+    if (now == 0) {
+        keep_until_close(parts);
         return answer_.number;
     }
+    const auto rest = parts.begin() + static_cast<std::ptrdiff_t>(now);
+    const std::vector<std::string> typed(parts.begin(), rest);
     const std::vector<std::string> lines = all ? typed : typed_.completed(typed);
     check_goals(lines);
-    check_buffers(lines);
+    check_buffers(all ? parts : typed_.completed(parts));
     if (stopped_by_command(lines) || brakes_instead(lines)) {
         return answer_.number;
     }
@@ -221,7 +247,15 @@ int PmacSession::command(const std::vector<std::string>& typed, bool all) {
     }
     begin_command(lines, all);
     typed_.sent(typed);
+    typed_.keep({rest, parts.end()});
     return answer_.number;
+}
+
+/// The lines of a buffer that the card did not open would act at once.
+void PmacSession::skip_buffer() {
+    buffer_open_ = false;
+    const auto close = std::ranges::find_if(command_lines_, closes_buffer);
+    command_lines_.erase(command_lines_.begin(), close == command_lines_.end() ? close : std::next(close));
 }
 
 void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {

@@ -1,7 +1,9 @@
 // What a person wants of the machine as a whole.
 #include "core/base/error.h"
+#include "core/pmac/driver/internal/buffer_words.h"
 #include "core/pmac/driver/internal/pmac_session.h"
 #include "core/pmac/driver/internal/watchdog.h"
+#include "core/pmac/driver/pmac_file.h"
 
 #include <fmt/format.h>
 
@@ -64,6 +66,12 @@ std::string PmacSession::every_motor(std::string_view command) const {
     return line;
 }
 
+void PmacSession::check_stays_in_buffer(const std::string& line) {
+    if (has_buffer_word(line)) {
+        throw Error(fmt::format("'{}' is not a line of a motion program", line), {}, buffer_word_hint);
+    }
+}
+
 void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     require_rest("a program");
     require_enabled("a program");
@@ -72,6 +80,7 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     }
     for (const std::string& line : lines) {
         check_guard(line);
+        check_stays_in_buffer(line);
     }
     answer_ = {answer_.number, drivers::CommandAnswer::State::none, {}}; // of a line before it
     finish(Stage::loading);

@@ -371,6 +371,9 @@ void PmacSession::refused(const Request& request, int error) {
     if (request.kind == Kind::command && command_goes_on_) {
         answer_.text += (answer_.text.empty() ? "" : "\n") + why;
         command_refused_ = true;
+        if (starts_with_word(request.line, "OPEN")) {
+            skip_buffer();
+        }
         next_command();
         return;
     }

@@ -66,7 +66,7 @@ public:
     /// stop, which during a program, a jog and homing do what stop() does; taking power away is an alarm
     /// then. Throws Error for anything else, and for jogs without an end and open loops. In an alarm only
     /// variables are set.
-    int command(const std::vector<std::string>& typed, bool all);
+    int command(const std::vector<std::string>& given, bool all);
     /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
     [[nodiscard]] const std::vector<std::string>& kept_lines() const { return typed_.kept(); }
     void set_overrides(const drivers::Overrides& wanted) override;
@@ -230,8 +230,12 @@ private:
     // pmac_commands.cpp: lines that are typed, or of a file
     void check_command(const std::vector<std::string>& lines) const;
     static void check_guard(const std::string& line);
+    static void check_stays_in_buffer(const std::string& line);
     void check_goals(const std::vector<std::string>& lines) const;
+    void check_open(const std::vector<std::string>& lines) const;
     void check_buffers(const std::vector<std::string>& lines) const;
+    void skip_buffer();
+    void keep_until_close(const std::vector<std::string>& lines);
     void begin_command(const std::vector<std::string>& lines, bool all);
     bool stopped_by_command(const std::vector<std::string>& lines);
     [[nodiscard]] std::optional<std::size_t> given_power(const std::vector<std::string>& lines) const;

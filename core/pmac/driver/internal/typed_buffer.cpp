@@ -14,29 +14,27 @@ bool acts_at_once(const std::vector<std::string>& lines) {
     });
 }
 
-bool leave_open(const std::vector<std::string>& lines, bool open) {
-    for (const std::string& line : lines) {
-        open = opens_buffer(line) || (open && !closes_buffer(line));
-    }
-    return open;
-}
-
 } // namespace
 
-bool TypedBuffer::keeps(const std::vector<std::string>& lines) {
-    const bool begins = kept_.empty() && !opens_buffer(lines.front()); // with what acts at once
-    if (begins || acts_at_once(lines) || !leave_open(lines, !kept_.empty())) {
-        return false;
+std::size_t TypedBuffer::count_to_send(const std::vector<std::string>& lines) const {
+    if (acts_at_once(lines)) {
+        return lines.size();
     }
-    if (opens_buffer(lines.front())) {
-        kept_.clear();
+    bool open = !kept_.empty();
+    std::size_t opened_at = 0;
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+        if (opens_buffer(lines[n])) {
+            open = true;
+            opened_at = n;
+        } else if (closes_buffer(lines[n])) {
+            open = false;
+        }
     }
-    kept_.insert(kept_.end(), lines.begin(), lines.end());
-    return true;
+    return open ? opened_at : lines.size();
 }
 
 std::vector<std::string> TypedBuffer::completed(const std::vector<std::string>& lines) const {
-    if (kept_.empty() || acts_at_once(lines) || opens_buffer(lines.front())) {
+    if (kept_.empty() || acts_at_once(lines)) {
         return lines;
     }
     std::vector<std::string> all = kept_;
@@ -48,6 +46,10 @@ void TypedBuffer::sent(const std::vector<std::string>& lines) {
     if (!acts_at_once(lines)) {
         kept_.clear();
     }
+}
+
+void TypedBuffer::keep(const std::vector<std::string>& lines) {
+    kept_.insert(kept_.end(), lines.begin(), lines.end());
 }
 
 } // namespace millwright::pmac::internal

@@ -2,10 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace millwright::pmac::card {
+
+namespace {
+
+/// What ends the text that goes into an open buffer.
+bool is_of_buffers(const Token& token) {
+    return token.kind == Token::Kind::word &&
+           (token.text == "OPEN" || token.text == "CLOSE" || token.text == "CLEAR");
+}
+
+} // namespace
 
 Answer Commands::execute(std::string_view line) {
     answer_ = {};
@@ -14,13 +25,16 @@ Answer Commands::execute(std::string_view line) {
         answer_.error = error_code::unknown_command;
         return std::exchange(answer_, {});
     }
-    if (const auto stored = store(*words)) {
-        answer_.error = *stored;
-        return std::exchange(answer_, {});
-    }
     Words at(*words);
     while (!at.ended() && answer_.error == 0) {
         const std::size_t here = at.place();
+        const auto end =
+            std::find_if(words->begin() + static_cast<std::ptrdiff_t>(here), words->end(), is_of_buffers);
+        if (const auto stored = store({words->begin() + static_cast<std::ptrdiff_t>(here), end})) {
+            answer_.error = *stored;
+            at.go_to(static_cast<std::size_t>(end - words->begin()));
+            continue;
+        }
         answer_.error = one(at);
         if (answer_.error == error_code::unknown_command) {
             const std::vector<Token> rest(words->begin() + static_cast<std::ptrdiff_t>(here), words->end());

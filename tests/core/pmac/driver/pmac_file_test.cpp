@@ -34,6 +34,33 @@ TEST(PmacFileP4, IsTakenWholeWithItsLastLine) {
     EXPECT_EQ(pmac.card.variable('I', 169), 6553.0);
 }
 
+// The buffer was taken as open to the end of the file, so that jogs passed as its lines.
+TEST(PmacFile, ABufferOnOneLineEndsOnIt) {
+    const PmacFile file =
+        read_pmac_file("OPEN PLC 5 CLEAR P1=3 CLOSE #1J:9\n#1J:5\nCLOSE\nI130=5\n", "a.ini");
+    std::vector<std::string> sent;
+    for (const PmacFile::Line& line : file.lines) {
+        sent.push_back(line.text);
+    }
+    EXPECT_EQ(sent, (std::vector<std::string>{"OPEN PLC 5", "CLEAR", "P1=3", "CLOSE", "CLOSE", "I130=5"}));
+    EXPECT_EQ(file.left_out, 2);
+    ASSERT_EQ(file.omissions.size(), 2u);
+    EXPECT_THAT(to_text(file.omissions.front()), HasSubstr("a.ini:1:1: #1J:9 is skipped"));
+    EXPECT_THAT(to_text(file.omissions.back()), HasSubstr("a.ini:2:1: #1J:5 is skipped"));
+}
+
+TEST(PmacFile, ASecondOpenIsRefusedWithItsPlace) {
+    try {
+        (void)read_pmac_file("OPEN PLC 5\nCLEAR\nP4=9\nOPEN PLC 6\nCLOSE\n", "a.ini");
+        FAIL() << "it was read";
+    } catch (const Error& error) {
+        EXPECT_EQ(
+            to_text(error.diagnostic()),
+            "a.ini:4:1: 'OPEN PLC 6' is rejected: ERR007, a buffer is already open (write CLOSE before it: "
+            "'OPEN PLC 5' is not closed)");
+    }
+}
+
 TEST(PmacFileF1, AByteOrderMarkIsSkipped) {
     const PmacFile file = read_pmac_file("\xEF\xBB\xBFI130=5\nI131=6\n", "a.ini");
     ASSERT_EQ(file.lines.size(), 2u);
@@ -81,7 +108,7 @@ TEST(PmacFileF1, LeavesOutWhatSetsNothing) {
                 HasSubstr("a.ini:2:1: FROBNICATE=3 is skipped: it does not set anything"));
     EXPECT_EQ(file.omissions.back().place.line, 16);
     EXPECT_TRUE(file.warnings.empty());
-    EXPECT_EQ(file.lines.size(), 9u);
+    EXPECT_EQ(file.lines.size(), 10u); // OPEN and CLEAR are two
 }
 
 TEST(PmacFileP4, TellsWhatTheCardWouldRollOver) {

@@ -75,8 +75,10 @@ TEST(PmacSession, AProgramThatAnOpenLoopRefusesNamesItsMotor) {
     wire.session.start(program_one, wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() != drivers::DriverState::running; }, 10.0));
     EXPECT_THAT(wire.session.status().message, HasSubstr("ERR012, a motor is in open loop; "));
-    EXPECT_THAT(wire.session.status().message,
-                HasSubstr("also motor 5 (71.1111B), which is not driven here"));
+    EXPECT_THAT(
+        wire.session.status().message,
+        HasSubstr("also motor 5 (71.1111B), which is not driven here: connect with its axis (\"Axis 5\", "
+                  "--axes XYZAB), or load settings without it"));
     EXPECT_EQ(wire.card.command(1), 0.0);
 }
 

@@ -53,7 +53,6 @@ TEST(PmacTypedLines, FillABufferLineByLine) {
     EXPECT_EQ(ask("#1P").text, "0") << "a question is answered at once";
     EXPECT_NE(refusal([&] { (void)wire.session.command({"I5=0"}, false); }), "");
     EXPECT_EQ(ask("LIST PLC 5").text, "OPEN PLC 5: 3 lines are kept until CLOSE");
-    (void)ask("OPEN PLC 5"); // anew
     for (const char* const line : {"CLEAR", "P20=P20+1", "DISABLE PLC 5"}) {
         EXPECT_EQ(ask(line).state, drivers::CommandAnswer::State::done) << line;
     }
@@ -63,6 +62,78 @@ TEST(PmacTypedLines, FillABufferLineByLine) {
     EXPECT_THAT(ask("LIST PLC 5").text, HasSubstr("P20=P20+1"));
     (void)ask("ENABLE PLC 5");
     EXPECT_TRUE(wire.run_until([&] { return wire.card.variable('P', 20) > 0.0; }, 3.0));
+}
+
+// The lines of the first buffer were lost.
+TEST(PmacTypedLines, ASecondOpenIsRefusedAndTheFirstBufferIsKept) {
+    PmacWire wire;
+    const auto ask = [&](const std::vector<std::string>& lines) {
+        (void)wire.session.command(lines, false);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+        return wire.session.status().answer;
+    };
+    (void)ask({"OPEN PLC 5"});
+    (void)ask({"CLEAR"});
+    (void)ask({"P4=9"});
+    const auto reason = [&](const std::vector<std::string>& lines, bool file) {
+        return refusal([&] { (void)wire.session.command(lines, file); });
+    };
+    for (const std::vector<std::string>& lines : std::vector<std::vector<std::string>>{
+             {"OPEN PLC 6"}, {"open plc5 clear"}, {"P5=1", "OPEN ROT"}, {"OPEN PLC 6 CLEAR P5=1 CLOSE"}}) {
+        EXPECT_THAT(reason(lines, false), HasSubstr("ERR007, a buffer is already open")) << lines.front();
+        EXPECT_THAT(reason(lines, false), HasSubstr("'OPEN PLC 5' is not closed")) << lines.front();
+    }
+    EXPECT_THAT(reason({"I130=3000"}, true), HasSubstr("while a buffer is open"));
+    EXPECT_EQ(wire.session.kept_lines(), (std::vector<std::string>{"OPEN PLC 5", "CLEAR", "P4=9"}));
+    EXPECT_EQ(ask({"CLOSE"}).state, drivers::CommandAnswer::State::done);
+    EXPECT_THAT(ask({"LIST PLC 5"}).text, HasSubstr("P4=9"));
+    EXPECT_THAT(reason({"OPEN PLC 6", "CLEAR", "OPEN PLC 7", "CLOSE"}, true), HasSubstr("ERR007"));
+}
+
+// It waited for a CLOSE that had come, or P1=3 was executed.
+TEST(PmacTypedLines, ABufferOnOneLineIsReadAsTheCardReadsIt) {
+    PmacWire wire;
+    const auto ask = [&](const std::vector<std::string>& lines) {
+        (void)wire.session.command(lines, false);
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+        return wire.session.status().answer;
+    };
+    EXPECT_EQ(ask({"OPEN PLC 5 CLEAR P21=3 CLOSE"}).state, drivers::CommandAnswer::State::done);
+    EXPECT_EQ(ask({"LIST PLC 5"}).text, "P21=3");
+    (void)ask({"P22=4 close open plc 6 clr"}); // what stands before OPEN is executed
+    EXPECT_EQ(wire.card.variable('P', 22), 4.0);
+    EXPECT_EQ(ask({"P21=5"}).text, "OPEN plc 6: 2 lines are kept until CLOSE");
+    EXPECT_EQ(ask({"CMD\"CLOSE\" P21=6 CLS P22=7"}).state, drivers::CommandAnswer::State::done);
+    EXPECT_EQ(wire.card.variable('P', 22), 7.0); // behind CLOSE
+    EXPECT_EQ(ask({"LIST PLC 6"}).text, "P21=5\nCMD\"CLOSE\"P21=6");
+    EXPECT_EQ(wire.card.variable('P', 21), 0.0) << "stored, not executed";
+    EXPECT_THAT(refusal([&] { (void)wire.session.command({"OPEN PLC 31 CLEAR CLOSE"}, false); }),
+                HasSubstr("guard"));
+}
+
+// The lines of the buffer were executed, with HOME1 among them.
+TEST(PmacTypedLines, ABufferThatTheCardDoesNotOpenIsSkipped) {
+    PmacWire wire({}, false);
+    (void)wire.session.load({"OPEN PROG 40000", "CLEAR", "P21=3", "HOME1", "CLOSE", "P22=4"});
+    EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+    EXPECT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::refused);
+    EXPECT_THAT(wire.session.status().answer.text, HasSubstr("'OPEN PROG 40000' is rejected"));
+    EXPECT_EQ(wire.card.variable('P', 21), 0.0);
+    EXPECT_EQ(wire.card.variable('P', 22), 4.0);
+    EXPECT_FALSE(wire.powered());
+}
+
+// What stands behind CLOSE was executed while the program was loaded.
+TEST(PmacTypedLines, AProgramStaysInItsBuffer) {
+    PmacWire wire;
+    for (const std::string line : {"CLOSE", "X1 CLS #1J:500", "OPEN PROG 3", "X2 CLEAR"}) {
+        EXPECT_THAT(refusal([&] {
+                        wire.session.start({"LINEAR", line, "X3"}, wire.now);
+                    }),
+                    HasSubstr("opened, cleared and closed automatically"))
+            << line;
+    }
+    EXPECT_EQ(wire.state(), drivers::DriverState::idle);
 }
 
 // Behind the addresses it was read as a part of the last one.

@@ -26,6 +26,19 @@ struct PlainAxes : PmacCard {
     }
 };
 
+TEST(PmacProgramP8, WhatStandsBetweenOpenAndCloseIsStoredOnOneLineToo) {
+    test::PmacCard pmac;
+    EXPECT_EQ(pmac.ask("OPEN PLC 5 CLEAR P1=3 CLOSE"), "");
+    EXPECT_EQ(pmac.card.variable('P', 1), 0.0);
+    EXPECT_EQ(pmac.ask("LIST PLC 5"), "P1=3");
+    EXPECT_EQ(pmac.send("OPEN PLC 5\nCLEAR P1=4\nP2=5 CLOSE P3=6"), "");
+    EXPECT_EQ(pmac.card.variable('P', 1), 0.0);
+    EXPECT_EQ(pmac.card.variable('P', 2), 0.0);
+    EXPECT_EQ(pmac.card.variable('P', 3), 6.0);
+    EXPECT_EQ(pmac.ask("LIST PLC 5"), "P1=4|P2=5");
+    EXPECT_EQ(pmac.ask("OPEN PLC 5 OPEN PLC 6"), "ERR007");
+}
+
 TEST(PmacProgramP8, ProgramOneOfTheThesisEndsAtItsCountsIn40Seconds20) {
     PmacCard pmac;
     ASSERT_EQ(pmac.send(test::arm_axes + test::arm_program), "");
