@@ -128,12 +128,11 @@ void Removal::remove(std::span<const CutStep> steps, const Progress& progress) {
 }
 
 void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progress) {
-    const double half_tile = 0.5 * Tile::side * field_.cell().norm();
     std::vector<ReadyStep> ready;
     ready.reserve(steps.size());
     WorkList list(field_);
     for (const CutStep& step : steps) {
-        ready.emplace_back(step, half_tile);
+        ready.emplace_back(step, field_.cell());
         list.add(ready.back().bounds, static_cast<std::uint32_t>(ready.size() - 1));
     }
     parallel_for(std::ssize(list.work), 1, [&](std::ptrdiff_t n) {

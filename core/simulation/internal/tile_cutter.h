@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/simulation/dexel_field.h"
+#include "core/simulation/internal/tile_sweep.h"
 #include "core/simulation/removal.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -11,7 +13,7 @@ namespace millwright::simulation {
 
 /// A step with what all tiles need of it.
 struct ReadyStep {
-    ReadyStep(const CutStep& step, double half_tile);
+    ReadyStep(const CutStep& step, const Vec3& cell);
 
     const CutStep* step;
     SweptCutter cutter;
@@ -19,7 +21,8 @@ struct ReadyStep {
     geometry::ToolPose middle;
     Box3 bounds;
     BodyRay near_line; ///< holds all of the swept body, placed at the middle pose
-    BodyRay near_tile; ///< the same with the tile's half diagonal
+    std::array<TileMotion, 3> motions; ///< a family of lines each
+    std::array<BodyRay, 3> near_tile;  ///< near_line and half the diagonal of a tile
 };
 
 /// What one step did to one tile.
@@ -38,10 +41,18 @@ public:
     bool cut(const ReadyStep& step, TileCut& found);
 
 private:
+    struct Ends;
+    struct Pending;
     [[nodiscard]] bool may_reach(const ReadyStep& step) const;
     [[nodiscard]] bool is_void(const Interval& range) const;
-    [[nodiscard]] std::optional<Interval>
-    reached(const ReadyStep& step, std::size_t line, const Vec3& at) const;
+    bool find_wanted(const ReadyStep& step);
+    [[nodiscard]] Interval material(std::size_t line, double from, double to) const;
+    [[nodiscard]] Ends ends_of(const TileMotion& motion, std::size_t line) const;
+    void settle(const ReadyStep& step, std::size_t line);
+    void attempt_between(const TileMotion& motion, Pending* pending, std::size_t count);
+    void search_all(const TileMotion& motion);
+    void finish(const ReadyStep& step, const TileMotion& motion);
+    [[nodiscard]] Vec3 place_of(const ReadyStep& step, std::size_t line) const;
     void touch(const ReadyStep& step, std::size_t line, const Vec3& at, TileCut& found) const;
     void subtract(std::size_t line, const Interval& cut, std::int32_t move, TileCut& found);
     void replace_lines(float middle);
@@ -52,7 +63,12 @@ private:
     double face_; // coordinate k of the box's lower face: lines are counted from there
     int first_u_, first_v_, count_u_, count_v_; // cells
     Vec3 center_;
-    std::vector<Dexel> next_; // of all lines, being made
+    TileLines lines_;
+    std::array<Interval, Tile::lines> cuts_{}; // of the step at hand; from > to: none
+    std::vector<Pending> pending_;             // lines that need a search
+    std::vector<LaneSearch> searches_;
+    std::vector<std::uint32_t> owners_; // of the searches: index in pending_, and which end
+    std::vector<Dexel> next_;           // of all lines, being made
     std::array<std::uint32_t, Tile::lines + 1> next_first_{};
 };
 
