@@ -51,7 +51,10 @@ struct SweptCutter::Bracket {
 };
 
 SweptCutter::SweptCutter(const BodyRay& body, const geometry::ToolPose& from, const geometry::ToolPose& to)
-    : body_(body), motion_{.tip = from.tip, .way = to.tip - from.tip, .middle = from.axis, .across = Vec3::Zero()} {
+    : body_(body), motion_{.tip = from.tip,
+                           .way = to.tip - from.tip,
+                           .middle = from.axis,
+                           .across = Vec3::Zero()} {
     expects(is_unit(from.axis) && is_unit(to.axis), "a tool axis is a unit vector");
     motion_.turn = angle_between(from.axis, to.axis);
     expects(motion_.turn <= largest_turn * (1.0 + 1e-9),

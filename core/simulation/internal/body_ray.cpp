@@ -212,7 +212,8 @@ bool BodyRay::clip_to_torus(const Line& line, BodyCrossing& part) const {
             const double rho = std::sqrt(line.rho_squared(t));
             const double beyond = std::max(rho - zones_.shape.flat, 0.0);
             const double height = line.z(t) - zones_.center;
-            const double value = beyond * beyond + height * height - zones_.shape.corner * zones_.shape.corner;
+            const double value =
+                beyond * beyond + height * height - zones_.shape.corner * zones_.shape.corner;
             if (value <= exact) {
                 return true;
             }

@@ -1,6 +1,7 @@
 #include "core/simulation/internal/tile_cutter.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace millwright::simulation {
@@ -10,6 +11,12 @@ namespace {
 BodyRay grown_by_tile(const ReadyStep& step, const Vec3& cell, int k) {
     const double half = 0.5 * Tile::side * std::hypot(cell[(k + 1) % 3], cell[(k + 2) % 3]);
     return step.cutter.body().grown(step.cutter.half_motion() + half);
+}
+
+template <class Work> void for_each_bit(std::uint64_t bits, const Work& work) {
+    for (; bits != 0; bits &= bits - 1) {
+        work(static_cast<std::size_t>(std::countr_zero(bits)));
+    }
 }
 
 /// Turns that are convex nearly enough in two parts, rad (0.6 degrees); so SweptCutter.
@@ -34,14 +41,6 @@ ReadyStep::ReadyStep(const CutStep& cut, const Vec3& cell)
         core.emplace(cut.cutter->core, cut.from, cut.to);
     }
 }
-
-/// What is known of a line after both ends of the step, in the form in which ends become small.
-struct TileCutter::Ends {
-    std::array<double, 2> value{missed, missed}; ///< the least so far
-    std::array<double, 2> bound{missed, missed}; ///< it cannot be less
-    std::array<bool, 2> settled{};
-    [[nodiscard]] bool is_hit() const { return value[0] < missed; }
-};
 
 /// A line that needs a search.
 struct TileCutter::Pending {
@@ -84,22 +83,19 @@ bool TileCutter::may_reach(const ReadyStep& step) const {
     }
     Vec3 at = center_;
     at[k_] = step.middle.tip[k_];
-    const auto range = step.near_tile[static_cast<std::size_t>(k_)].crossing(step.middle.tip, step.middle.axis, at, k_);
+    const auto range =
+        step.near_tile[static_cast<std::size_t>(k_)].crossing(step.middle.tip, step.middle.axis, at, k_);
     return range && !is_void({range->enter, range->leave});
 }
 
-/// Marks the lines that have material between the step's bounds.
-bool TileCutter::find_wanted(const ReadyStep& step) {
-    const auto from = static_cast<float>(step.bounds.min()[k_] - face_);
-    const auto to = static_cast<float>(step.bounds.max()[k_] - face_);
+/// Of all lines, between the step's bounds.
+bool TileCutter::find_material(const ReadyStep& step) {
     bool some = false;
     for (std::size_t line = 0; line < Tile::lines; ++line) {
-        bool wanted = false;
-        for (const Dexel& piece : tile_.line(line)) {
-            wanted = wanted || (piece.from < to && piece.to > from);
-        }
-        lines_.wanted[line] = wanted ? 1 : 0;
-        some = some || wanted;
+        const Interval found = material(line, step.bounds.min()[k_], step.bounds.max()[k_]);
+        lines_.from[line] = found.from;
+        lines_.to[line] = found.to;
+        some = some || found.from < found.to;
     }
     return some;
 }
@@ -118,54 +114,6 @@ Interval TileCutter::material(std::size_t line, double from, double to) const {
     return found;
 }
 
-TileCutter::Ends TileCutter::ends_of(const TileMotion& motion, std::size_t line) const {
-    Ends ends;
-    for (std::size_t end = 0; end < 2; ++end) {
-        const LaneInstant& first = lines_.at[0][end];
-        if (!motion.moves) {
-            ends.value[end] = ends.bound[end] = first.value[line];
-            ends.settled[end] = true;
-            continue;
-        }
-        const LaneInstant& last = lines_.at[1][end];
-        const double at_first = first.value[line], at_last = last.value[line];
-        const double falls = first.rate[line], rises = last.rate[line];
-        const bool first_hit = at_first < missed, last_hit = at_last < missed;
-        ends.value[end] = std::min(at_first, at_last);
-        if (!first_hit && !last_hit) {
-            ends.bound[end] = -missed;
-            continue;
-        }
-        // The second derivative is not below -bend / slope.
-        if (first_hit && falls >= 0.5 * motion.bend * first.steepness[line]) {
-            ends.value[end] = ends.bound[end] = at_first;
-            ends.settled[end] = true;
-            continue;
-        }
-        if (last_hit && -rises >= 0.5 * motion.bend * last.steepness[line]) {
-            ends.value[end] = ends.bound[end] = at_last;
-            ends.settled[end] = true;
-            continue;
-        }
-        // The tangents bound what lies between.
-        double bound = ends.value[end];
-        if (first_hit && last_hit) {
-            if (falls < 0.0 && rises > 0.0) {
-                const double meet = std::clamp((at_last - at_first - rises) / (falls - rises), 0.0, 1.0);
-                bound = std::min(bound, at_first + falls * meet);
-            }
-        } else {
-            bound += first_hit ? std::min(falls, 0.0) : std::min(-rises, 0.0);
-        }
-        const double steepest =
-            std::max(first_hit ? first.steepness[line] : 0.0, last_hit ? last.steepness[line] : 0.0);
-        constexpr double share = 0.25; // twice of what a parabola of the steepest kind can lie lower
-        ends.bound[end] = bound - share * motion.bend * steepest;
-        ends.settled[end] = ends.value[end] - ends.bound[end] < sweep_tolerance;
-    }
-    return ends;
-}
-
 Vec3 TileCutter::place_of(const ReadyStep& step, std::size_t line) const {
     Vec3 at;
     at[k_] = step.middle.tip[k_];
@@ -177,29 +125,29 @@ Vec3 TileCutter::place_of(const ReadyStep& step, std::size_t line) const {
 /// Decides a line, or leaves it to the search.
 void TileCutter::settle(const ReadyStep& step, std::size_t line) {
     cuts_[line] = {0.0, -1.0};
-    Ends ends = ends_of(step.motions[static_cast<std::size_t>(k_)], line);
-    if (!ends.is_hit()) {
-        if (!step.cutter.motion().moves) {
+    const std::array<double, 2> value{lines_.least[0][line], lines_.least[1][line]};
+    std::array<double, 2> bound{lines_.bound[0][line], lines_.bound[1][line]};
+    if (!(value[0] < missed)) {
+        const auto near =
+            step.near_line.crossing(step.middle.tip, step.middle.axis, place_of(step, line), k_);
+        if (!near || !step.cutter.motion().moves) {
             return;
         }
-        const auto near = step.near_line.crossing(step.middle.tip, step.middle.axis, place_of(step, line), k_);
-        if (!near) {
-            return;
-        }
-        ends.bound = {near->enter, -near->leave};
+        bound = {near->enter, -near->leave};
     }
-    const Interval there = material(line, ends.bound[0], -ends.bound[1]);
+    const Interval there = material(line, bound[0], -bound[1]);
     if (!(there.from < there.to)) {
         return;
     }
     const std::array<double, 2> enough{there.from, -there.to};
+    std::array<bool, 2> settled{};
     for (std::size_t end = 0; end < 2; ++end) {
-        ends.settled[end] = ends.settled[end] || ends.value[end] <= enough[end];
+        settled[end] = value[end] - bound[end] < sweep_tolerance || value[end] <= enough[end];
     }
-    if (ends.settled[0] && ends.settled[1]) {
-        cuts_[line] = {ends.value[0], -ends.value[1]};
+    if (settled[0] && settled[1]) {
+        cuts_[line] = {value[0], -value[1]};
     } else {
-        pending_.push_back({line, enough, ends.value, ends.settled});
+        pending_.push_back({line, enough, value, settled});
     }
 }
 
@@ -340,48 +288,48 @@ void TileCutter::replace_lines(float middle) {
     tile_.look(middle);
 }
 
+void TileCutter::copy_lines(std::size_t from, std::size_t to) {
+    const auto shift = static_cast<std::uint32_t>(next_.size()) - tile_.first[from]; // modulo 2^32
+    for (std::size_t line = from; line < to; ++line) {
+        next_first_[line] = tile_.first[line] + shift;
+    }
+    const auto begin = tile_.dexels.begin();
+    next_.insert(next_.end(), begin + tile_.first[from], begin + tile_.first[to]);
+}
+
 bool TileCutter::cut(const ReadyStep& step, TileCut& found) {
-    if (!may_reach(step) || !find_wanted(step)) {
+    if (!may_reach(step) || !find_material(step)) {
         return false;
     }
     const TileMotion& motion = step.motions[static_cast<std::size_t>(k_)];
     tile_sweep().look(motion, lines_);
     pending_.clear();
-    for (std::size_t line = 0; line < Tile::lines; ++line) {
-        if (lines_.reached[line] != 0) {
-            settle(step, line);
-        }
-    }
+    for_each_bit(lines_.reached, [&](std::size_t line) { settle(step, line); });
     if (!pending_.empty()) {
         finish(step, motion);
     }
-    bool some = false;
-    for (std::size_t line = 0; line < Tile::lines; ++line) {
-        if (lines_.reached[line] == 0) {
-            continue;
-        }
+    std::uint64_t meets = 0;
+    for_each_bit(lines_.reached, [&](std::size_t line) {
         const Interval& cut = cuts_[line];
         const Interval there = cut.from < cut.to ? material(line, cut.from, cut.to) : Interval{0.0, -1.0};
-        lines_.reached[line] = there.from < there.to ? 1 : 0;
-        some = some || lines_.reached[line] != 0;
-    }
-    if (!some) {
+        meets |= std::uint64_t{there.from < there.to ? 1U : 0U} << line;
+    });
+    if (meets == 0) {
         return false;
     }
     found = {.move = step.step->move};
     next_.clear();
-    for (std::size_t line = 0; line < Tile::lines; ++line) {
+    std::size_t copied = 0; // lines
+    for_each_bit(meets, [&](std::size_t line) {
+        copy_lines(copied, line);
         next_first_[line] = static_cast<std::uint32_t>(next_.size());
-        if (lines_.reached[line] == 0) {
-            const auto pieces = tile_.line(line);
-            next_.insert(next_.end(), pieces.begin(), pieces.end());
-            continue;
-        }
         if (step.core) {
             touch(step, line, place_of(step, line), found);
         }
         subtract(line, cuts_[line], step.step->move, found);
-    }
+        copied = line + 1;
+    });
+    copy_lines(copied, Tile::lines);
     if (!(found.length > 0.0)) {
         return false;
     }

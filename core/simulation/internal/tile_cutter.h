@@ -20,7 +20,7 @@ struct ReadyStep {
     std::optional<SweptCutter> core; ///< of a step whose contact counts
     geometry::ToolPose middle;
     Box3 bounds;
-    BodyRay near_line; ///< holds all of the swept body, placed at the middle pose
+    BodyRay near_line;                 ///< holds all of the swept body, placed at the middle pose
     std::array<TileMotion, 3> motions; ///< a family of lines each
     std::array<BodyRay, 3> near_tile;  ///< near_line and half the diagonal of a tile
 };
@@ -41,13 +41,11 @@ public:
     bool cut(const ReadyStep& step, TileCut& found);
 
 private:
-    struct Ends;
     struct Pending;
     [[nodiscard]] bool may_reach(const ReadyStep& step) const;
     [[nodiscard]] bool is_void(const Interval& range) const;
-    bool find_wanted(const ReadyStep& step);
+    bool find_material(const ReadyStep& step);
     [[nodiscard]] Interval material(std::size_t line, double from, double to) const;
-    [[nodiscard]] Ends ends_of(const TileMotion& motion, std::size_t line) const;
     void settle(const ReadyStep& step, std::size_t line);
     void attempt_between(const TileMotion& motion, Pending* pending, std::size_t count);
     void search_all(const TileMotion& motion);
@@ -55,6 +53,7 @@ private:
     [[nodiscard]] Vec3 place_of(const ReadyStep& step, std::size_t line) const;
     void touch(const ReadyStep& step, std::size_t line, const Vec3& at, TileCut& found) const;
     void subtract(std::size_t line, const Interval& cut, std::int32_t move, TileCut& found);
+    void copy_lines(std::size_t from, std::size_t to);
     void replace_lines(float middle);
 
     const DexelField& field_;

@@ -59,7 +59,7 @@ bool SweptOutline::meets_rectangle(double u, double v, double half_u, double hal
 }
 
 TileMotion::TileMotion(const BodyZones& of, const StepMotion& motion, int k)
-    : zones(of), turn(motion.turn), bend(motion.bend), moves(motion.moves) {
+    : zones(&of), turn(motion.turn), bend(motion.bend), moves(motion.moves) {
     for (std::size_t n = 0; n < 3; ++n) {
         const int from = (k + 1 + static_cast<int>(n)) % 3;
         tip[n] = motion.tip[from];
@@ -69,8 +69,7 @@ TileMotion::TileMotion(const BodyZones& of, const StepMotion& motion, int k)
     }
     const double c = std::cos(0.5 * turn), s = std::sin(0.5 * turn);
     // Between its ends a point of the body bulges by no more than turn^2 / 8 of its distance from the tip.
-    const double far =
-        std::max(std::abs(zones.shape.top), std::abs(zones.shape.bottom)) + zones.shape.radius;
+    const double far = std::max(std::abs(of.shape.top), std::abs(of.shape.bottom)) + of.shape.radius;
     constexpr double rounding = 1e-9; // mm
     const double bulge = 0.125 * turn * turn * far + rounding;
     for (std::size_t n = 0; n < SweptOutline::directions; ++n) {
@@ -79,9 +78,10 @@ TileMotion::TileMotion(const BodyZones& of, const StepMotion& motion, int k)
         for (const double sense : {-1.0, 1.0}) {
             const double f = sense > 0.0 ? 1.0 : 0.0;
             const double at = nu * (tip[0] + f * way[0]) + nv * (tip[1] + f * way[1]);
-            const double cosine = nu * (c * middle[0] + sense * s * across[0]) + nv * (c * middle[1] + sense * s * across[1]);
-            high = std::max(high, at + reach(zones, cosine));
-            low = std::min(low, at - reach(zones, -cosine));
+            const double cosine =
+                nu * (c * middle[0] + sense * s * across[0]) + nv * (c * middle[1] + sense * s * across[1]);
+            high = std::max(high, at + reach(of, cosine));
+            low = std::min(low, at - reach(of, -cosine));
         }
         outline.low[n] = low - bulge;
         outline.high[n] = high + bulge;
@@ -117,8 +117,7 @@ namespace {
 #endif
 
 std::vector<TileSweep> runnable_sweeps() {
-    std::vector<TileSweep> found{
-        {registers_of_2::look, registers_of_2::attempt, registers_of_2::search, 2}};
+    std::vector<TileSweep> found{{registers_of_2::look, registers_of_2::attempt, registers_of_2::search, 2}};
 #if defined(LANES_WIDE)
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2")) {

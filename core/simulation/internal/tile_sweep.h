@@ -10,12 +10,13 @@
 #include "core/simulation/swept_cutter.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace millwright::simulation {
 
-// Arrays of the language: functions of std::array would be compiled for registers that another processor lacks.
-// NOLINTBEGIN(modernize-avoid-c-arrays)
+// Arrays of the language: functions of std::array would be compiled for registers that another processor
+// lacks. NOLINTBEGIN(modernize-avoid-c-arrays)
 
 /// The outline of a swept body across a family of lines: what it covers in directions that are 22.5 degrees
 /// apart.
@@ -30,9 +31,10 @@ struct SweptOutline {
 
 /// Of one step and one family.
 struct TileMotion {
+    /// `zones` must outlive it.
     TileMotion(const BodyZones& zones, const StepMotion& motion, int k);
 
-    BodyZones zones;
+    const BodyZones* zones;
     double tip[3] = {}, way[3] = {}, middle[3] = {}, across[3] = {};
     double turn = 0.0; ///< rad
     double bend = 0.0;
@@ -43,19 +45,21 @@ struct TileMotion {
 /// One end of the crossing at one moment: enter, or -leave, which is to become as small as possible.
 struct LaneInstant {
     double value[Tile::lines] = {}, rate[Tile::lines] = {};
-    double steepness[Tile::lines] = {}; ///< 1 / sine of the angle between line and surface
 };
 inline constexpr double missed = 1e300; ///< the value of a line that misses
 
 /// The lines of a tile, and what a step does to them.
 struct TileLines {
     double u[Tile::side] = {}, v[Tile::side] = {};
-    unsigned char wanted[Tile::lines] = {}; ///< lines that have material where the step goes
+    /// Around the material of a line between the step's bounds; from > to where there is none.
+    double from[Tile::lines] = {}, to[Tile::lines] = {};
 
+    /// Lines of which the step may reach material: a bit each.
+    std::uint64_t reached = 0;
     /// At the begin and at the end of the step, enter and leave.
     LaneInstant at[2][2];
-    /// Lines that are not outside of the outline.
-    unsigned char reached[Tile::lines] = {};
+    /// Of both ends: the lesser of the two values, and what no value in between is below.
+    double least[2][Tile::lines] = {}, bound[2][Tile::lines] = {};
 };
 
 /// A line whose least value at one end is looked for: it lies between `left`, whose value falls, and `right`,
