@@ -8,6 +8,12 @@ namespace millwright::simulation {
 
 namespace {
 
+Vec3 across_of(const Vec3& axis, const Vec3& way) {
+    const Vec3 across = axis.cross(way);
+    constexpr double along = 1e-9; // of a plunge any direction is as good
+    return across.norm() > along * way.norm() ? Vec3(across.normalized()) : axis.unitOrthogonal();
+}
+
 BodyRay grown_by_tile(const ReadyStep& step, const Vec3& cell, int k) {
     const double half = 0.5 * Tile::side * std::hypot(cell[(k + 1) % 3], cell[(k + 2) % 3]);
     return step.cutter.body().grown(step.cutter.half_motion() + half);
@@ -32,7 +38,8 @@ int parts_of(const TileMotion& motion) {
 
 ReadyStep::ReadyStep(const CutStep& cut, const Vec3& cell)
     : step(&cut), cutter(cut.cutter->body, cut.from, cut.to), middle(cutter.pose(0.5)),
-      bounds(cutter.bounds()), near_line(cut.cutter->body.grown(cutter.half_motion())),
+      across(across_of(middle.axis, cut.to.tip - cut.from.tip)), bounds(cutter.bounds()),
+      near_line(cut.cutter->body.grown(cutter.half_motion())),
       motions{TileMotion(cutter.body().zones(), cutter.motion(), 0),
               TileMotion(cutter.body().zones(), cutter.motion(), 1),
               TileMotion(cutter.body().zones(), cutter.motion(), 2)},
@@ -263,7 +270,14 @@ void TileCutter::touch(const ReadyStep& step, std::size_t line, const Vec3& at, 
     }
 }
 
-void TileCutter::subtract(std::size_t line, const Interval& cut, std::int32_t move, TileCut& found) {
+void TileCutter::subtract(const ReadyStep& step, std::size_t line, TileCut& found) {
+    const Interval& cut = cuts_[line];
+    const std::int32_t move = step.step->move;
+    Vec3 at = place_of(step, line) - step.middle.tip;
+    const auto engage = [&](float end) {
+        at[k_] = face_ + static_cast<double>(end) - step.middle.tip[k_];
+        found.engaged.extend(at.dot(step.middle.axis), at.dot(step.across));
+    };
     const auto from = static_cast<float>(cut.from - face_);
     const auto to = static_cast<float>(cut.to - face_);
     constexpr float sliver = 1e-6F; // mm: shorter pieces are rounding
@@ -272,7 +286,10 @@ void TileCutter::subtract(std::size_t line, const Interval& cut, std::int32_t mo
             next_.push_back(piece);
             continue;
         }
-        found.length += static_cast<double>(std::min(piece.to, to) - std::max(piece.from, from));
+        const float low = std::max(piece.from, from), high = std::min(piece.to, to);
+        found.length += static_cast<double>(high - low);
+        engage(low);
+        engage(high);
         if (from - piece.from > sliver) {
             next_.push_back({piece.from, from, piece.from_move, move});
         }
@@ -285,6 +302,7 @@ void TileCutter::subtract(std::size_t line, const Interval& cut, std::int32_t mo
 void TileCutter::replace_lines(float middle) {
     tile_.dexels.assign(next_.begin(), next_.end());
     tile_.first = next_first_;
+    ++tile_.version;
     tile_.look(middle);
 }
 
@@ -326,7 +344,7 @@ bool TileCutter::cut(const ReadyStep& step, TileCut& found) {
         if (step.core) {
             touch(step, line, place_of(step, line), found);
         }
-        subtract(line, cuts_[line], step.step->move, found);
+        subtract(step, line, found);
         copied = line + 1;
     });
     copy_lines(copied, Tile::lines);

@@ -19,6 +19,7 @@ struct ReadyStep {
     SweptCutter cutter;
     std::optional<SweptCutter> core; ///< of a step whose contact counts
     geometry::ToolPose middle;
+    Vec3 across; ///< unit vector across axis and way
     Box3 bounds;
     BodyRay near_line;                 ///< holds all of the swept body, placed at the middle pose
     std::array<TileMotion, 3> motions; ///< a family of lines each
@@ -30,6 +31,7 @@ struct TileCut {
     std::int32_t move = 0;
     double length = 0.0; ///< of all that was removed, along the lines
     std::optional<Contact> contact{};
+    Engagement engaged{};
 };
 
 class TileCutter {
@@ -52,7 +54,7 @@ private:
     void finish(const ReadyStep& step, const TileMotion& motion);
     [[nodiscard]] Vec3 place_of(const ReadyStep& step, std::size_t line) const;
     void touch(const ReadyStep& step, std::size_t line, const Vec3& at, TileCut& found) const;
-    void subtract(std::size_t line, const Interval& cut, std::int32_t move, TileCut& found);
+    void subtract(const ReadyStep& step, std::size_t line, TileCut& found);
     void copy_lines(std::size_t from, std::size_t to);
     void replace_lines(float middle);
 
