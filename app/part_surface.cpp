@@ -33,14 +33,17 @@ void add_divided(const Triangle& t, double longest, PartSurface& part) {
         add_divided({middle, t[(n + 1) % 3], t[(n + 2) % 3]}, longest, part);
         return;
     }
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (!(normal.squaredNorm() > 0.0)) { // no direction in which a height could be measured
+        return;
+    }
     const int first = static_cast<int>(part.corners.size());
     for (const Vec3& corner : t) {
         part.corners.push_back(corner);
         part.point_of_corner.push_back(static_cast<int>(part.points.size()));
     }
     part.triangles.push_back({first, first + 1, first + 2});
-    part.points.push_back(
-        {Vec3((t[0] + t[1] + t[2]) / 3.0), Vec3((t[1] - t[0]).cross(t[2] - t[0]).normalized()), area_of(t)});
+    part.points.push_back({Vec3((t[0] + t[1] + t[2]) / 3.0), Vec3(normal.normalized()), area_of(t)});
 }
 
 } // namespace
@@ -60,13 +63,26 @@ PartSurface part_surface(const plan::Workpiece& workpiece) {
             {mesh.positions[n], workpiece.flipped ? Vec3(-mesh.normals[n]) : mesh.normals[n], 0.0});
         part.point_of_corner.push_back(static_cast<int>(n));
     }
+    std::vector<Vec3> around(part.points.size(), Vec3::Zero()); // sums of normals, as long as areas
     for (const auto& triangle : mesh.triangles) {
         Triangle corners;
         for (std::size_t n = 0; n < 3; ++n) {
             corners[n] = mesh.positions[static_cast<std::size_t>(triangle[n])];
         }
+        const Vec3 doubled = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         for (const int corner : triangle) {
             part.points[static_cast<std::size_t>(corner)].area += area_of(corners) / 3.0;
+            around[static_cast<std::size_t>(corner)] += workpiece.flipped ? Vec3(-doubled) : doubled;
+        }
+    }
+    // At a corner where an edge of the patch has no length it has no normal: that of the triangles around.
+    for (std::size_t n = 0; n < part.points.size(); ++n) {
+        Vec3& normal = part.points[n].normal;
+        constexpr double about_unit = 0.5;
+        if (!(normal.squaredNorm() > about_unit)) {
+            normal = around[n].squaredNorm() > 0.0 ? Vec3(around[n].normalized())
+                     : n > 0                       ? part.points[n - 1].normal
+                                                   : Vec3(Vec3::UnitZ());
         }
     }
     return part;

@@ -20,6 +20,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <memory>
 #include <utility>
 
@@ -195,6 +197,7 @@ mesh_from(const fs::path& file, const Vec3& shift, const Progress& progress) {
     if (const std::string fault = simulation::fault_of(simulation::Stock(mesh)); !fault.empty()) {
         throw Error(fault, file, "repair it in the program that it comes from");
     }
+    mesh->is_checked = true;
     return mesh;
 }
 
@@ -213,7 +216,7 @@ void take_stock(const std::string& text, SimulatedWork& work, const Progress& pr
 gcode::ReaderSettings reader_settings(const SimulateOptions& options,
                                       const kinematics::MachineModel& machine) {
     GcodeOptions reading;
-    reading.dialect = options.dialect;
+    reading.dialect = options.dialect.empty() ? "linuxcnc" : options.dialect;
     reading.axes.clear();
     for (const kinematics::MachineAxis& axis : machine.axes()) {
         reading.axes += axis.letter;
@@ -292,11 +295,27 @@ Box3 box_of(const geometry::Surface& surface) {
 /// The part's box and so much more on every side, mm.
 constexpr double stock_allowance = 2.0;
 
+/// Throws UsageError for options that say how G-code is read.
+void expect_no_reading(const SimulateOptions& options) {
+    const std::array<std::pair<bool, const char*>, 4> given{{{!options.origin.empty(), "--origin"},
+                                                             {!options.dialect.empty(), "--dialect"},
+                                                             {!options.subroutines.empty(), "--subroutines"},
+                                                             {options.block_delete, "--block-delete"}}};
+    for (const auto& [is_given, name] : given) {
+        if (is_given) {
+            throw UsageError(fmt::format("{} is for G-code files, and a project is none", name),
+                             options.file,
+                             fmt::format("leave {} out", name));
+        }
+    }
+}
+
 SimulatedWork
 work_of_project(const SimulateOptions& options, const std::stop_token& stop, const Progress& progress) {
     if (!options.machine.empty()) {
         throw UsageError("a project names its own machine", options.file, "leave --machine out");
     }
+    expect_no_reading(options);
     OpenedProject opened = open_project(options.file);
     if (options.tools.size() > 1) {
         throw UsageError("a project is cut with one tool", options.file, "name one tool file");
@@ -346,6 +365,13 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     return work;
 }
 
+bool is_project(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(
+        extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".json";
+}
+
 } // namespace
 
 std::vector<fs::path> input_files(const SimulateOptions& options) {
@@ -373,9 +399,8 @@ std::vector<fs::path> input_files(const SimulateOptions& options) {
 
 SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_token& stop) {
     const Progress progress({}, stop);
-    SimulatedWork work = fs::path(options.file).extension() == ".json"
-                             ? work_of_project(options, stop, progress)
-                             : work_of_program(options, progress);
+    SimulatedWork work = is_project(options.file) ? work_of_project(options, stop, progress)
+                                                  : work_of_program(options, progress);
     if (!options.part.empty()) {
         work.part = part_surface(options.part, progress);
     }

@@ -22,7 +22,7 @@ struct SimulateOptions {
     std::string stock;   ///< empty: by the part, of a project
     std::vector<std::string> tools;
     std::vector<double> origin;
-    std::string dialect = "linuxcnc";
+    std::string dialect;                  ///< of a G-code file; empty: "linuxcnc"
     std::vector<std::string> subroutines; ///< folders
     bool block_delete = false;
     std::optional<double> resolution; ///< mm; nullopt: by the size of the stock

@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/project/json_text.h"
 #include "core/project/version.h"
+#include "core/simulation/engagement.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,33 @@ ReportJson comparison_json(const SimulatedWork& work, const ComparedPart& compar
     json["excess_percent"] = project::rounded(percent * summary.in_excess);
     json["largest_gouge"] = worst_json(work, summary.gouge);
     json["largest_excess"] = worst_json(work, summary.excess);
+    return json;
+}
+
+/// A feed that has the most of something.
+ReportJson most_json(const std::optional<simulation::FeedEngagement>& feed, double figure, const char* name) {
+    if (!feed) {
+        return {};
+    }
+    ReportJson json;
+    json[name] = project::rounded(figure);
+    json["line"] = feed->line > 0 ? ReportJson(feed->line) : ReportJson();
+    json["block"] = feed->block;
+    return json;
+}
+
+ReportJson engagement_json(const simulation::EngagementSummary& summary) {
+    constexpr double percent = 100.0;
+    const auto& [feed_time, air_time, feeds, air_feeds, fastest, deepest, widest] = summary;
+    ReportJson json;
+    json["feeds"] = feeds;
+    json["feeds_in_air"] = air_feeds;
+    json["feed_time_s"] = project::rounded(feed_time);
+    json["air_time_s"] = project::rounded(air_time);
+    json["air_percent"] = project::rounded(feed_time > 0.0 ? percent * air_time / feed_time : 0.0);
+    json["highest_rate"] = most_json(fastest, fastest ? fastest->rate() : 0.0, "rate_mm3_per_min");
+    json["deepest"] = most_json(deepest, deepest ? deepest->depth : 0.0, "depth_mm");
+    json["widest"] = most_json(widest, widest ? widest->width : 0.0, "width_mm");
     return json;
 }
 
@@ -205,6 +233,8 @@ std::string simulation_report_text(const SimulatedWork& work,
     json["moves"]["cutting"] = found.cutting_moves;
     json["moves"]["skipped"] = found.skipped ? found.skipped->rapids + found.skipped->feeds : 0;
     json["moves"]["skipped_feeds"] = found.skipped ? found.skipped->feeds : 0;
+    const auto feeds = simulation::engagements(work.program, found);
+    json["engagement"] = engagement_json(simulation::summary_of(feeds));
     json["rapid_in_stock"] = rapid_count(found);
     json["findings"] = findings_json(found);
     if (compared) {
@@ -242,6 +272,18 @@ void print_simulation(const SimulatedWork& work,
                rapid_count(found) == 0
                    ? std::string("no rapid move meets any")
                    : counted(rapid_count(found), "rapid move goes through it", "rapid moves go through it"));
+    const simulation::EngagementSummary engaged =
+        simulation::summary_of(simulation::engagements(work.program, found));
+    if (engaged.fastest) {
+        constexpr double percent = 100.0;
+        fmt::print("{} % of the feed time in air; at most {} mm^3/min{}, {} mm deep, {} mm wide\n",
+                   fixed(engaged.feed_time > 0.0 ? percent * engaged.air_time / engaged.feed_time : 0.0, 1),
+                   fixed(engaged.fastest->rate(), 0),
+                   engaged.fastest->line > 0 ? fmt::format(" (line {})", engaged.fastest->line)
+                                             : std::string(),
+                   fixed(engaged.deepest->depth, 2),
+                   fixed(engaged.widest->width, 2));
+    }
     if (compared) {
         print_comparison(work, *compared);
     }

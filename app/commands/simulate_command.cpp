@@ -11,6 +11,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/simulation/cut_mesh.h"
+#include "core/simulation/engagement.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/solid_picture.h"
 
@@ -121,11 +122,17 @@ std::optional<ComparedPart> compared_part(const SimulatedWork& work,
 
 int simulate(const SimulateOptions& options) {
     const Interrupt interrupt;
-    expect_inputs_kept(
-        options.out,
-        {"simulation.json", "cut.stl", "cut.ply", "cut.png", "part.ply", "part.png", "program.ngc"},
-        simulation_kind,
-        input_files(options));
+    expect_inputs_kept(options.out,
+                       {"simulation.json",
+                        "engagement.csv",
+                        "cut.stl",
+                        "cut.ply",
+                        "cut.png",
+                        "part.ply",
+                        "part.png",
+                        "program.ngc"},
+                       simulation_kind,
+                       input_files(options));
     const OutputFolder folder(options.out);
     const SimulatedWork work = simulated_work(options, interrupt.token());
     ProgressPrinter printer;
@@ -150,6 +157,7 @@ int simulate(const SimulateOptions& options) {
     const SimulationCost cost{took.count(), thread_count()};
     const auto colors = mesh_colors(mesh);
     OutputSet set{{{"simulation.json", simulation_report_text(work, found, mesh, compared, cost)},
+                   {"engagement.csv", simulation::csv_of(simulation::engagements(work.program, found))},
                    {"cut.stl", simulation::stl_of(mesh)},
                    {"cut.ply", simulation::ply_of(mesh.points, mesh.triangles, colors)}},
                   {},
@@ -216,7 +224,7 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
     add_origin_option(command, options->origin);
     command.add_option("--dialect", options->dialect, "G-code dialect")
         ->check(CLI::IsMember({"linuxcnc", "grbl"}))
-        ->capture_default_str();
+        ->default_str("linuxcnc");
     command
         .add_option("--subroutines",
                     options->subroutines,
@@ -229,7 +237,8 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
     command
         .add_option("--out",
                     options->out,
-                    "Folder for simulation.json, cut.stl, cut.ply, cut.png, and part.ply and part.png of a "
+                    "Folder for simulation.json, engagement.csv, cut.stl, cut.ply, cut.png, and part.ply and "
+                    "part.png of a "
                     "comparison")
         ->required()
         ->type_name("DIR");

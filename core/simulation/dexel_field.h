@@ -34,6 +34,7 @@ struct Tile {
     std::array<std::uint32_t, lines + 1> first{}; ///< where each begins
     float low = 0.0F, high = 0.0F;                ///< all material is between
     float void_from = 0.0F, void_to = 0.0F;       ///< no line has any between; may be empty
+    std::uint32_t version = 0;                    ///< how many steps have removed anything from it
 
     [[nodiscard]] std::span<const Dexel> line(std::size_t n) const {
         return std::span(dexels).subspan(first[n], first[n + 1] - first[n]);
@@ -83,6 +84,9 @@ public:
     [[nodiscard]] std::array<int, 2> tile_count(int k) const;
     [[nodiscard]] Tile& tile(int k, int i, int j);
     [[nodiscard]] const Tile& tile(int k, int i, int j) const;
+    /// All tiles of a family, in that order.
+    [[nodiscard]] std::span<Tile> tiles(int k) { return tiles_[static_cast<std::size_t>(k)]; }
+    [[nodiscard]] std::span<const Tile> tiles(int k) const { return tiles_[static_cast<std::size_t>(k)]; }
 
 private:
     void fill(const Stock& stock, int k);

@@ -13,14 +13,20 @@ namespace {
 
 constexpr std::size_t steps_a_batch = 2048;
 
-/// Smaller by `distance`: exactly for balls and flat ends, by at least that along flanks.
+/// Smaller by `distance`, measured by the normal, along bottom, corner and flank; at most by half the radius.
 toolpath::ProfileShape inset(toolpath::ProfileShape shape, double distance) {
     const double less = std::min(distance, 0.5 * shape.radius);
-    const double factor = (shape.radius - less) / shape.radius;
-    shape.flat *= factor;
-    shape.corner *= factor;
-    shape.radius *= factor;
-    shape.bottom += less;
+    const double sine = std::sin(shape.half_angle), cosine = std::cos(shape.half_angle);
+    const double of_corner = std::min(less, shape.corner);
+    const double rest = less - of_corner; // the corner is used up: bottom and flank meet farther in
+    const double of_flat = std::min(rest * (1.0 - sine) / cosine, shape.flat);
+    const double still = rest - of_flat * cosine - rest * sine; // of the flank, above 0 at a sharp tip
+    constexpr double rounding = 1e-12;                          // mm
+    const double raised = still > rounding && sine > 0.0 ? still / sine : 0.0;
+    shape.corner -= of_corner;
+    shape.flat -= of_flat;
+    shape.radius -= less;
+    shape.bottom += less + raised;
     shape.top -= less;
     return shape;
 }
@@ -97,6 +103,13 @@ private:
 CuttingBody::CuttingBody(const toolpath::Profile& profile)
     : body(profile.shape()), core(inset(profile.shape(), contact_depth)) {}
 
+double step_count(const CuttingBody& cutter, const geometry::ToolPose& from, const geometry::ToolPose& to) {
+    const double longest = 0.5 * cutter.body.shape().radius; // longer steps reach too many tiles
+    return std::max({1.0,
+                     std::ceil(angle_between(from.axis, to.axis) / largest_turn),
+                     std::ceil((to.tip - from.tip).norm() / longest)});
+}
+
 void divide(const CuttingBody& cutter,
             const geometry::ToolPose& from,
             const geometry::ToolPose& to,
@@ -104,11 +117,8 @@ void divide(const CuttingBody& cutter,
             bool contact_counts,
             std::vector<CutStep>& steps) {
     const double turn = angle_between(from.axis, to.axis);
-    const double longest = 0.5 * cutter.body.shape().radius; // longer steps reach too many tiles
-    const double wanted =
-        std::max({1.0, std::ceil(turn / largest_turn), std::ceil((to.tip - from.tip).norm() / longest)});
-    constexpr double most = 1e7;
-    expects(wanted < most, "a move of a cutter is not so long");
+    const double wanted = step_count(cutter, from, to);
+    expects(wanted <= most_steps_a_move, "a move of a cutter is not so long");
     const int count = static_cast<int>(wanted);
     geometry::ToolPose last = from;
     for (int n = 1; n <= count; ++n) {
@@ -127,13 +137,17 @@ void Removal::remove(std::span<const CutStep> steps, const Progress& progress) {
     progress.report(1.0);
 }
 
+void Removal::record_from(std::int32_t move) {
+    first_recorded_ = move;
+    cuts_.erase(cuts_.lower_bound(move), cuts_.end());
+}
+
 void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progress) {
-    const double half_tile = 0.5 * Tile::side * field_.cell().norm();
     std::vector<ReadyStep> ready;
     ready.reserve(steps.size());
     WorkList list(field_);
     for (const CutStep& step : steps) {
-        ready.emplace_back(step, half_tile);
+        ready.emplace_back(step, field_.cell());
         list.add(ready.back().bounds, static_cast<std::uint32_t>(ready.size() - 1));
     }
     parallel_for(std::ssize(list.work), 1, [&](std::ptrdiff_t n) {
@@ -149,6 +163,7 @@ void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progr
                 if (!work.cuts.empty() && work.cuts.back().move == found.move) {
                     TileCut& last = work.cuts.back();
                     last.length += found.length;
+                    last.engaged.extend(found.engaged);
                     if (found.contact && (!last.contact || found.contact->length > last.contact->length)) {
                         last.contact = found.contact;
                     }
@@ -162,8 +177,12 @@ void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progr
         const Vec3& cell = field_.cell();
         const double area = cell[(work.k + 1) % 3] * cell[(work.k + 2) % 3];
         for (const TileCut& cut : work.cuts) {
+            if (cut.move < first_recorded_) {
+                continue;
+            }
             MoveCut& sum = cuts_[cut.move];
             sum.volume += cut.length * area / 3.0;
+            sum.engaged.extend(cut.engaged);
             if (cut.contact && (!sum.contact || cut.contact->length > sum.contact->length)) {
                 sum.contact = cut.contact;
             }

@@ -6,6 +6,7 @@
 #include "core/simulation/dexel_field.h"
 #include "core/simulation/swept_cutter.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -35,7 +36,14 @@ struct CutStep {
     bool contact_counts = false; ///< MoveCut::contact is wanted
 };
 
-/// A straight move, with the axis turning evenly: appends its steps to `steps`.
+/// No straight move is divided into more.
+inline constexpr double most_steps_a_move = 1e7;
+/// How many steps a straight move is divided into.
+[[nodiscard]] double
+step_count(const CuttingBody& cutter, const geometry::ToolPose& from, const geometry::ToolPose& to);
+
+/// A straight move, with the axis turning evenly: appends its steps to `steps`. Throws Defect if there are
+/// more than `most_steps_a_move`.
 void divide(const CuttingBody& cutter,
             const geometry::ToolPose& from,
             const geometry::ToolPose& to,
@@ -49,10 +57,33 @@ struct Contact {
     Vec3 place = Vec3::Zero(); ///< its middle, part coordinates
 };
 
+/// Where on the tool material was removed: heights above the tip along the axis, and places across axis and
+/// direction of the move. Ends of lines count, so that it is known to a cell. Lengths mm.
+struct Engagement {
+    double lowest = 1e300, highest = -1e300;
+    double leftmost = 1e300, rightmost = -1e300;
+
+    [[nodiscard]] double depth() const { return std::max(highest - lowest, 0.0); }
+    [[nodiscard]] double width() const { return std::max(rightmost - leftmost, 0.0); }
+    void extend(double height, double across) {
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+        leftmost = std::min(leftmost, across);
+        rightmost = std::max(rightmost, across);
+    }
+    void extend(const Engagement& other) {
+        lowest = std::min(lowest, other.lowest);
+        highest = std::max(highest, other.highest);
+        leftmost = std::min(leftmost, other.leftmost);
+        rightmost = std::max(rightmost, other.rightmost);
+    }
+};
+
 /// What a move removed.
 struct MoveCut {
     double volume = 0.0; ///< mm^3; the mean of the three families
     std::optional<Contact> contact{};
+    Engagement engaged{};
 };
 
 class Removal {
@@ -66,11 +97,16 @@ public:
     /// Moves that removed anything, by id.
     [[nodiscard]] const std::map<std::int32_t, MoveCut>& cuts() const { return cuts_; }
 
+    /// Forgets what moves from `move` on removed, and adds up only what these remove from now on: those
+    /// before are known, and are cut again.
+    void record_from(std::int32_t move);
+
 private:
     void remove_batch(std::span<const CutStep> steps, const Progress& progress);
 
     DexelField& field_;
     std::map<std::int32_t, MoveCut> cuts_;
+    std::int32_t first_recorded_ = 0;
 };
 
 } // namespace millwright::simulation

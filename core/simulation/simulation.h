@@ -14,6 +14,8 @@
 #include "core/toolpath/profile.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -72,6 +74,7 @@ struct Simulation {
     int cutting_moves = 0;             ///< that removed material
     std::vector<Finding> findings;     ///< in the order of the blocks
     std::optional<SkippedStart> skipped;
+    std::map<std::int32_t, MoveCut> cuts; ///< what blocks removed
 
     [[nodiscard]] double removed_volume() const { return stock_volume - left_volume; }
 };

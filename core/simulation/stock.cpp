@@ -81,11 +81,12 @@ std::string numbers(const Vec3& p) {
 } // namespace
 
 std::string fault_of(const Stock& stock) {
-    return std::visit(
-        Overloaded{[](const BoxStock& box) { return fault_of_box(box); },
-                   [](const CylinderStock& cylinder) { return fault_of_cylinder(cylinder); },
-                   [](const std::shared_ptr<const MeshStock>& mesh) { return fault_of_mesh(*mesh); }},
-        stock);
+    return std::visit(Overloaded{[](const BoxStock& box) { return fault_of_box(box); },
+                                 [](const CylinderStock& cylinder) { return fault_of_cylinder(cylinder); },
+                                 [](const std::shared_ptr<const MeshStock>& mesh) {
+                                     return mesh->is_checked ? std::string() : fault_of_mesh(*mesh);
+                                 }},
+                      stock);
 }
 
 Box3 bounds(const Stock& stock) {

@@ -30,6 +30,7 @@ struct CylinderStock {
 struct MeshStock {
     std::vector<Vec3> points;
     std::vector<std::array<int, 3>> triangles; ///< indices
+    bool is_checked = false;                   ///< fault_of() has found nothing
 };
 
 using Stock = std::variant<BoxStock, CylinderStock, std::shared_ptr<const MeshStock>>;

@@ -51,37 +51,40 @@ struct SweptCutter::Bracket {
 };
 
 SweptCutter::SweptCutter(const BodyRay& body, const geometry::ToolPose& from, const geometry::ToolPose& to)
-    : body_(body), tip_(from.tip), way_(to.tip - from.tip) {
+    : body_(body), motion_{.tip = from.tip,
+                           .way = to.tip - from.tip,
+                           .middle = from.axis,
+                           .across = Vec3::Zero()} {
     expects(is_unit(from.axis) && is_unit(to.axis), "a tool axis is a unit vector");
-    turn_ = angle_between(from.axis, to.axis);
-    expects(turn_ <= largest_turn * (1.0 + 1e-9),
+    motion_.turn = angle_between(from.axis, to.axis);
+    expects(motion_.turn <= largest_turn * (1.0 + 1e-9),
             "a step of a cutter turns by no more than the largest turn");
-    middle_ = (from.axis + to.axis).normalized();
+    motion_.middle = (from.axis + to.axis).normalized();
     const Vec3 change = to.axis - from.axis;
     constexpr double no_turn = 1e-12;
-    across_ = Vec3::Zero();
-    if (turn_ > no_turn) {
-        across_ = (change - change.dot(middle_) * middle_).normalized();
+    motion_.across = Vec3::Zero();
+    if (motion_.turn > no_turn) {
+        motion_.across = (change - change.dot(motion_.middle) * motion_.middle).normalized();
     } else {
-        turn_ = 0.0;
+        motion_.turn = 0.0;
     }
-    moves_ = turn_ > 0.0 || way_.squaredNorm() > 0.0;
+    motion_.moves = motion_.turn > 0.0 || motion_.way.squaredNorm() > 0.0;
     // Of points of the body: what turning adds to their acceleration, and to that of the place of contact.
     const double far =
         std::max(std::abs(body.shape().top), std::abs(body.shape().bottom)) + body.shape().radius;
-    bend_ = turn_ * (turn_ * far + 2.0 * way_.norm());
+    motion_.bend = motion_.turn * (motion_.turn * far + 2.0 * motion_.way.norm());
 }
 
 MovingPose SweptCutter::moving(double f) const {
     // Series of sine and cosine: exact to 1e-16 for half of the largest turn.
-    const double x = (f - 0.5) * turn_;
+    const double x = (f - 0.5) * motion_.turn;
     const double x2 = x * x;
     const double cosine = 1.0 - 0.5 * x2 * (1.0 - x2 / 12.0);
     const double sine = x * (1.0 - x2 / 6.0 * (1.0 - x2 / 20.0));
-    return {tip_ + f * way_,
-            cosine * middle_ + sine * across_,
-            way_,
-            turn_ * (cosine * across_ - sine * middle_)};
+    return {motion_.tip + f * motion_.way,
+            cosine * motion_.middle + sine * motion_.across,
+            motion_.way,
+            motion_.turn * (cosine * motion_.across - sine * motion_.middle)};
 }
 
 geometry::ToolPose SweptCutter::pose(double f) const {
@@ -92,7 +95,7 @@ geometry::ToolPose SweptCutter::pose(double f) const {
 double SweptCutter::half_motion() const {
     const toolpath::ProfileShape& shape = body_.shape();
     const double far = std::max(std::abs(shape.top), std::abs(shape.bottom)) + shape.radius;
-    return 0.5 * (way_.norm() + turn_ * far);
+    return 0.5 * (motion_.way.norm() + motion_.turn * far);
 }
 
 Box3 SweptCutter::bounds() const {
@@ -108,7 +111,7 @@ Box3 SweptCutter::bounds() const {
         }
     }
     // Between its ends the axis bulges by no more than turn^2 / 8 of the length.
-    const double bulge = 0.125 * turn_ * turn_ * (std::abs(shape.top) + shape.radius);
+    const double bulge = 0.125 * motion_.turn * motion_.turn * (std::abs(shape.top) + shape.radius);
     return {Vec3(box.min().array() - bulge), Vec3(box.max().array() + bulge)};
 }
 
@@ -132,7 +135,7 @@ SweptCutter::instant(double f, const Vec3& at, int k, const std::array<double, 2
         const EndRate of = body_.rate_of(pose, place, part, k);
         found.rate[end] = end == 0 ? of.rate : -of.rate;
         // The second derivative of the value is not below -bend / slope.
-        const double bound = 0.5 * bend_;
+        const double bound = 0.5 * motion_.bend;
         found.settles_forward[end] = found.rate[end] * of.slope >= bound;
         found.settles_backward[end] = -found.rate[end] * of.slope >= bound;
     }
@@ -179,7 +182,7 @@ std::optional<SweptCutter::Instant> SweptCutter::any_hit(const Search& search) c
 std::optional<Interval> SweptCutter::swept(const Vec3& at, int k, const Interval& material) const {
     const std::array<double, 2> enough{material.from, -material.to};
     const std::optional<Instant> first = instant(0.0, at, k, enough);
-    if (!moves_) {
+    if (!motion_.moves) {
         return first ? std::optional(Interval{first->value[0], -first->value[1]}) : std::nullopt;
     }
     if (first && first->settles_forward[0] && first->settles_forward[1]) {
@@ -208,8 +211,8 @@ std::optional<Interval> SweptCutter::searched(const Search& search) const {
     // What turns is convex only nearly, and in each part more nearly; least so along a line that the axis
     // becomes parallel to.
     constexpr double nearly_parallel = 0.999; // cosine of 2.6 degrees
-    const int turns = static_cast<int>(std::ceil(turn_ / fine_turn));
-    const int parts = std::max(1, std::abs(middle_[k]) < nearly_parallel ? 2 * turns : 6 * turns);
+    const int turns = static_cast<int>(std::ceil(motion_.turn / fine_turn));
+    const int parts = std::max(1, std::abs(motion_.middle[k]) < nearly_parallel ? 2 * turns : 6 * turns);
     std::array<std::optional<Instant>, most_parts + 1> tried{first};
     const auto used = std::span(tried).first(static_cast<std::size_t>(parts) + 1);
     for (std::size_t n = 1; n + 1 < used.size(); ++n) {
@@ -260,7 +263,7 @@ double SweptCutter::least_of(std::span<const std::optional<Instant>> tried,
 double SweptCutter::lowest(Bracket bracket, const Search& search, std::size_t end) const {
     constexpr int most_steps = 48;
     // Along a line that grazes the shank of a turning tool the value is not quite convex.
-    const int least_steps = turn_ > 0.0 ? 2 : 0;
+    const int least_steps = motion_.turn > 0.0 ? 2 : 0;
     // Everything along s = |f - left.f| >= 0: the rate by s is negative at the left.
     const double way = bracket.mirrored ? -1.0 : 1.0;
     double least = bracket.left.value[end];

@@ -27,6 +27,15 @@ inline constexpr double largest_turn = 0.0315;
 
 inline constexpr Interval whole_line{-1e300, 1e300};
 
+/// How a cutter goes in one step.
+struct StepMotion {
+    Vec3 tip, way;       ///< from, and to the end
+    Vec3 middle, across; ///< axis at f = 0.5, and the unit vector towards which it turns
+    double turn = 0.0;   ///< rad
+    double bend = 0.0;   ///< mm: the second derivative of an end is not below -bend / slope
+    bool moves = false;
+};
+
 class SweptCutter {
 public:
     /// Throws Defect if the axes are no unit vectors or the turn is larger than `largest_turn`. `body` must
@@ -44,6 +53,7 @@ public:
     /// No point of the body is farther from where it is at f = 0.5, mm.
     [[nodiscard]] double half_motion() const;
     [[nodiscard]] const BodyRay& body() const { return body_; }
+    [[nodiscard]] const StepMotion& motion() const { return motion_; }
 
 private:
     struct Instant; // the crossing at one f
@@ -59,11 +69,7 @@ private:
     [[nodiscard]] double lowest(Bracket bracket, const Search& search, std::size_t end) const;
 
     const BodyRay& body_;
-    Vec3 tip_, way_;       // from, and to the end
-    Vec3 middle_, across_; // axis at f = 0.5, and the unit vector towards which it turns
-    double turn_ = 0.0;
-    double bend_ = 0.0; // mm
-    bool moves_ = false;
+    StepMotion motion_;
 };
 
 } // namespace millwright::simulation

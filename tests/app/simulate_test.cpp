@@ -373,6 +373,40 @@ TEST(SimulateCommand, EndsWithCodeOneForFeedsThatAreNotSimulated) {
 }
 
 // A head that tilts swings the tip about the gauge line: a longer tool cuts elsewhere.
+TEST(SimulateCommand, ReportsRateDepthWidthAndTimeInAir) {
+    const ScratchFolder scratch;
+    const Ended ended = simulate(program_in(scratch, std::string(slot_program) + "G1 X-10 F800\nM2\n"),
+                                 scratch / "out",
+                                 {"--tool", "flat:6"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("2700 mm^3/min (line 7), 2.00 mm deep, 6.00 mm wide"));
+    const auto engagement =
+        nlohmann::json::parse(content_of(scratch / "out/simulation.json")).at("engagement");
+    EXPECT_EQ(engagement.at("feeds"), 2);
+    EXPECT_EQ(engagement.at("feeds_in_air"), 1);
+    EXPECT_NEAR(engagement.at("feed_time_s").get<double>(), 16.0 + 6.0, 1e-6);
+    EXPECT_NEAR(engagement.at("air_time_s").get<double>(), 6.0, 1e-6);
+    EXPECT_EQ(engagement.at("deepest").at("line"), 7);
+    EXPECT_THAT(content_of(scratch / "out/engagement.csv"), HasSubstr("\n7,"));
+}
+
+TEST(SimulateCommand, RefusesOptionsOfGcodeWithAProject) {
+    const ScratchFolder scratch;
+    const fs::path project = scratch / "DOME.JSON";
+    fs::copy_file("assets/projects/dome.json", project);
+    const std::vector<std::vector<std::string>> given{{"--origin", "0,0,0"},
+                                                      {"--dialect", "linuxcnc"},
+                                                      {"--subroutines", scratch.path().string()},
+                                                      {"--block-delete"}};
+    for (const std::vector<std::string>& option : given) {
+        std::vector<std::string> arguments{"simulate", project.string(), "--out", (scratch / "out").string()};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        const Ended ended = run(arguments);
+        EXPECT_NE(ended.exit_code, 0);
+        EXPECT_THAT(ended.err, HasSubstr(option.front() + " is for G-code files"));
+    }
+}
+
 TEST(SimulateCommand, TiltsAToolOfAFileByItsGaugeLength) {
     const ScratchFolder scratch;
     const fs::path program =

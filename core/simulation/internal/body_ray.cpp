@@ -90,19 +90,19 @@ struct BodyRay::Line {
     }
 };
 
-BodyRay::BodyRay(const toolpath::ProfileShape& shape) : shape_(shape) {
+BodyRay::BodyRay(const toolpath::ProfileShape& shape) : zones_{.shape = shape} {
     const double sine = std::sin(shape.half_angle);
     const double cosine = std::cos(shape.half_angle);
-    tangent_ = sine / cosine;
-    center_ = shape.bottom + shape.corner;
-    corner_end_ = center_ - shape.corner * sine;
-    corner_radius_ = shape.flat + shape.corner * cosine;
-    const double widens = std::max(shape.radius - corner_radius_, 0.0);
-    flank_end_ = tangent_ > 0.0 ? corner_end_ + widens / tangent_ : corner_end_;
+    zones_.tangent = sine / cosine;
+    zones_.center = shape.bottom + shape.corner;
+    zones_.corner_end = zones_.center - shape.corner * sine;
+    zones_.corner_radius = shape.flat + shape.corner * cosine;
+    const double widens = std::max(shape.radius - zones_.corner_radius, 0.0);
+    zones_.flank_end = zones_.tangent > 0.0 ? zones_.corner_end + widens / zones_.tangent : zones_.corner_end;
 }
 
 BodyRay BodyRay::grown(double distance) const {
-    toolpath::ProfileShape shape = shape_;
+    toolpath::ProfileShape shape = zones_.shape;
     shape.corner += distance;
     shape.radius += distance;
     shape.bottom -= distance;
@@ -136,23 +136,23 @@ BodyRay::crossing(const Vec3& tip, const Vec3& axis, const Vec3& origin, int k) 
 
 void BodyRay::add_shank(const Line& line, std::optional<BodyCrossing>& found) const {
     BodyCrossing part = everything();
-    if (line.clip_to_cylinder(shape_.radius, Part::shank, part) &&
-        line.clip_to_slab(flank_end_, shape_.top, part)) {
+    if (line.clip_to_cylinder(zones_.shape.radius, Part::shank, part) &&
+        line.clip_to_slab(zones_.flank_end, zones_.shape.top, part)) {
         join(part, found);
     }
 }
 
 void BodyRay::add_flank(const Line& line, std::optional<BodyCrossing>& found) const {
-    if (flank_end_ <= corner_end_) {
+    if (zones_.flank_end <= zones_.corner_end) {
         return;
     }
     BodyCrossing part = everything();
-    if (!line.clip_to_slab(corner_end_, flank_end_, part)) {
+    if (!line.clip_to_slab(zones_.corner_end, zones_.flank_end, part)) {
         return;
     }
     // rho <= w, with w = radius + tangent (z - corner_end), which is not negative within the slab.
-    const double w = corner_radius_ + tangent_ * (line.height - corner_end_);
-    const double w_rise = tangent_ * line.rise;
+    const double w = zones_.corner_radius + zones_.tangent * (line.height - zones_.corner_end);
+    const double w_rise = zones_.tangent * line.rise;
     const double a = line.a - w_rise * w_rise;
     const double b = line.b - w * w_rise;
     const double c = line.c - w * w;
@@ -180,24 +180,24 @@ void BodyRay::add_flank(const Line& line, std::optional<BodyCrossing>& found) co
 }
 
 void BodyRay::add_corner(const Line& line, std::optional<BodyCrossing>& found) const {
-    if (shape_.corner <= 0.0) {
+    if (zones_.shape.corner <= 0.0) {
         return;
     }
     BodyCrossing part = everything();
-    if (shape_.flat > 0.0) {
-        if (line.clip_to_slab(shape_.bottom, corner_end_, part) &&
-            line.clip_to_cylinder(corner_radius_, Part::corner, part) && clip_to_torus(line, part)) {
+    if (zones_.shape.flat > 0.0) {
+        if (line.clip_to_slab(zones_.shape.bottom, zones_.corner_end, part) &&
+            line.clip_to_cylinder(zones_.corner_radius, Part::corner, part) && clip_to_torus(line, part)) {
             join(part, found);
         }
         return;
     }
-    const double height = line.height - center_;
+    const double height = line.height - zones_.center;
     if (clip_to_quadric(1.0,
                         line.b + height * line.rise,
-                        line.c + height * height - shape_.corner * shape_.corner,
+                        line.c + height * height - zones_.shape.corner * zones_.shape.corner,
                         Part::corner,
                         part) &&
-        line.clip_to_slab(shape_.bottom - shape_.corner, corner_end_, part)) {
+        line.clip_to_slab(zones_.shape.bottom - zones_.shape.corner, zones_.corner_end, part)) {
         join(part, found);
     }
 }
@@ -210,9 +210,10 @@ bool BodyRay::clip_to_torus(const Line& line, BodyCrossing& part) const {
     const auto walk = [&](double& t, Part& by, double sense) {
         for (int n = 0; n < most_steps; ++n) {
             const double rho = std::sqrt(line.rho_squared(t));
-            const double beyond = std::max(rho - shape_.flat, 0.0);
-            const double height = line.z(t) - center_;
-            const double value = beyond * beyond + height * height - shape_.corner * shape_.corner;
+            const double beyond = std::max(rho - zones_.shape.flat, 0.0);
+            const double height = line.z(t) - zones_.center;
+            const double value =
+                beyond * beyond + height * height - zones_.shape.corner * zones_.shape.corner;
             if (value <= exact) {
                 return true;
             }
@@ -245,12 +246,12 @@ EndRate BodyRay::rate_of(const MovingPose& pose, const Vec3& at, Part part, int 
     case Part::shank:
         break;
     case Part::flank:
-        normal = radial - tangent_ * radial.norm() * pose.axis;
+        normal = radial - zones_.tangent * radial.norm() * pose.axis;
         break;
     case Part::corner: {
         const double rho = radial.norm();
-        const double beyond = rho > 0.0 ? std::max(rho - shape_.flat, 0.0) / rho : 0.0;
-        normal = beyond * radial + (z - center_) * pose.axis;
+        const double beyond = rho > 0.0 ? std::max(rho - zones_.shape.flat, 0.0) / rho : 0.0;
+        normal = beyond * radial + (z - zones_.center) * pose.axis;
         break;
     }
     }

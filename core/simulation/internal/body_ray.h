@@ -24,6 +24,16 @@ struct BodyCrossing {
     Part enter_part = Part::bottom, leave_part = Part::top;
 };
 
+/// A cutter's zones along its axis.
+struct BodyZones {
+    toolpath::ProfileShape shape;
+    double tangent = 0.0;       ///< of the half angle
+    double center = 0.0;        ///< z of the corner's circle
+    double corner_end = 0.0;    ///< z where the flank begins
+    double corner_radius = 0.0; ///< rho there
+    double flank_end = 0.0;     ///< z where the shank begins
+};
+
 struct EndRate {
     double rate = 0.0;  ///< mm per fraction of the move; infinite where the line is tangent
     double slope = 0.0; ///< sine of the angle between line and surface
@@ -33,7 +43,8 @@ class BodyRay {
 public:
     explicit BodyRay(const toolpath::ProfileShape& shape);
 
-    [[nodiscard]] const toolpath::ProfileShape& shape() const { return shape_; }
+    [[nodiscard]] const toolpath::ProfileShape& shape() const { return zones_.shape; }
+    [[nodiscard]] const BodyZones& zones() const { return zones_; }
     /// The body of all points that are no farther away than `distance` mm, or a little more at its top rim.
     [[nodiscard]] BodyRay grown(double distance) const;
 
@@ -53,12 +64,7 @@ private:
     void add_shank(const Line& line, std::optional<BodyCrossing>& found) const;
     [[nodiscard]] bool clip_to_torus(const Line& line, BodyCrossing& part) const;
 
-    toolpath::ProfileShape shape_;
-    double tangent_ = 0.0;       // of the half angle
-    double center_ = 0.0;        // z of the corner's circle
-    double corner_end_ = 0.0;    // z where the flank begins
-    double corner_radius_ = 0.0; // rho there
-    double flank_end_ = 0.0;     // z where the shank begins
+    BodyZones zones_;
 };
 
 } // namespace millwright::simulation

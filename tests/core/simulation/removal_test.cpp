@@ -322,6 +322,39 @@ TEST(Removal, ARapidThatLeavesACutOrSlidesOnTheStockIsNoContact) {
     }
 }
 
+TEST(Removal, TheCoreOfACutterIsSmallerAllAround) {
+    for (const CutterShape& shape :
+         {ball_6(),
+          flat_6(),
+          CutterShape{.kind = CutterKind::bull_nose, .diameter = 8.0, .corner_radius = 1.0, .length = 30.0},
+          CutterShape{.kind = CutterKind::cone,
+          .diameter = 6.0,
+          .corner_radius = 0.0,
+          .half_angle = from_degrees(15.0),
+          .length = 30.0},
+          CutterShape{.kind = CutterKind::cone,
+          .diameter = 6.0,
+          .corner_radius = 0.004,
+          .half_angle = from_degrees(15.0),
+          .length = 30.0},
+          CutterShape{.kind = CutterKind::cone,
+          .diameter = 5.0,
+          .corner_radius = 0.0,
+          .half_angle = from_degrees(59.0),
+          .length = 30.0}}) {
+        const Profile body = *toolpath::body_of(shape);
+        const CuttingBody cutter(body);
+        for (const Vec2& point : Profile(cutter.core.shape()).outline(1e-4)) {
+            const double depth = -body.near(point).distance;
+            EXPECT_GT(depth, contact_depth - 1e-4)
+                << static_cast<int>(shape.kind) << ' ' << point.transpose();
+            // A tip is deeper by the normal of the axis; nothing else is by more than the rounding of a
+            // corner.
+            EXPECT_LT(depth, contact_depth * 1.5) << static_cast<int>(shape.kind) << ' ' << point.transpose();
+        }
+    }
+}
+
 TEST(Removal, SumsWhatEachMoveRemoved) {
     CutBlock cut(block(30.0, 20.0, 10.0), flat_6(), 0.1);
     cut.cut({{Vec3(-5.0, 10.05, -2.0), Vec3::UnitZ()},

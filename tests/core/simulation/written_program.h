@@ -35,6 +35,7 @@ public:
         made_.blocks.push_back(block);
         return *this;
     }
+    void replace_last(const program::Block& block) { made_.blocks.back() = block; }
     WrittenProgram& add(program::BlockKind kind) {
         program::Block block;
         block.kind = kind;

@@ -1,0 +1,362 @@
+#include "core/simulation/simulator.h"
+
+#include "core/base/error.h"
+#include "core/kinematics/forward.h"
+#include "core/simulation/internal/keyframes.h"
+#include "core/simulation/internal/program_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace millwright::simulation {
+
+namespace {
+
+using geometry::ToolPose;
+
+constexpr std::size_t steps_at_a_time = 16'384;
+
+Error at_line(const program::Block& block, std::string message, std::string hint) {
+    return Error(Diagnostic{{{}, block.source_line, 0, -1}, std::move(message), std::move(hint)});
+}
+
+/// How many parts of a block are straight and even within the tolerances.
+double parts_of(const kinematics::StraightForward& way) {
+    const kinematics::Bend bend = way.bend();
+    // A chord of a curve whose second derivative is at most b is off by b / 8.
+    return std::max({1.0,
+                     std::ceil(std::sqrt(bend.tip / (8.0 * tip_tolerance))),
+                     std::ceil(std::sqrt(bend.axis / (8.0 * axis_tolerance)))});
+}
+
+} // namespace
+
+class Simulator::Work {
+public:
+    Work(const SimulationInput& input, Rewind rewind, const Progress& progress)
+        : input_(input), rewinds_(rewind == Rewind::by_keyframes),
+          field_(std::make_unique<DexelField>(input.stock, input.resolution, input.most_bytes, progress)),
+          uncut_(field_->volume()), removal_(std::make_unique<Removal>(*field_)),
+          state_{KnownAxes(input.program), 0, false, 0, 0, std::nullopt} {
+        for (const ToolUse& tool : input.tools) {
+            auto& body = bodies_.emplace_back();
+            if (tool.body) {
+                body.emplace(*tool.body);
+            }
+        }
+        states_.emplace(0, state_);
+        if (rewinds_) {
+            keyframes_.add(*field_, 0, keyframe_room());
+        }
+    }
+
+    void advance_to(int block, const Progress& progress) {
+        expects(block >= 0 && block <= input_.program.block_count(), "a program has the block");
+        if (is_torn_ || block < block_ || next_keyframe(block) > block_) {
+            expects(rewinds_ || (!is_torn_ && block >= block_), "this simulation does not go back");
+            rewind(block);
+        }
+        is_torn_ = true;
+        const int from = block_;
+        done_ = 0.0;
+        while (block_ < block) {
+            const double begun = static_cast<double>(block_ - from) / (block - from);
+            take(block_, progress, begun);
+            ++block_;
+            if (steps_.size() >= steps_at_a_time || (rewinds_ && steps_.size() >= steps_a_keyframe_)) {
+                flush(progress, static_cast<double>(block_ - from) / (block - from));
+                keep();
+            }
+        }
+        flush(progress, 1.0);
+        keep();
+        is_torn_ = false;
+    }
+
+    [[nodiscard]] int block() const { return block_; }
+    [[nodiscard]] const program::Program& program() const { return input_.program; }
+    [[nodiscard]] const DexelField& field() const { return *field_; }
+    [[nodiscard]] const Removal& removal() const { return *removal_; }
+    [[nodiscard]] const Keyframes& keyframes() const { return keyframes_; }
+
+    Simulation finish() {
+        Simulation result;
+        result.first_block = state_.first_block;
+        result.moves = state_.moves;
+        result.skipped = state_.skipped;
+        for (const auto& [n, cut] : removal_->cuts()) {
+            if (n >= block_) {
+                break;
+            }
+            const program::Block& block = input_.program.blocks[static_cast<std::size_t>(n)];
+            ++result.cutting_moves;
+            if (cut.contact) {
+                result.findings.push_back(
+                    {FindingKind::rapid_in_stock, n, block.source_line, cut.volume, *cut.contact});
+            } else if (without_spindle_.contains(n) && block.kind == program::BlockKind::feed) {
+                result.findings.push_back({FindingKind::spindle_off, n, block.source_line, cut.volume, {}});
+            }
+        }
+        result.cuts.insert(removal_->cuts().begin(), removal_->cuts().lower_bound(block_));
+        result.stock_volume = volume(input_.stock);
+        const double share = uncut_ > 0.0 ? std::min(field_->volume() / uncut_, 1.0) : 0.0;
+        result.left_volume = share * result.stock_volume;
+        removal_.reset();
+        result.field = std::move(field_);
+        return result;
+    }
+
+private:
+    [[nodiscard]] std::size_t keyframe_room() const {
+        return input_.most_bytes - std::min(field_->bytes(), input_.most_bytes);
+    }
+    /// Of the last keyframe not after `block`; -1 if there is none.
+    [[nodiscard]] int next_keyframe(int block) const {
+        int found = -1;
+        for (std::size_t n = 0; n < keyframes_.count() && keyframes_.block(n) <= block; ++n) {
+            found = keyframes_.block(n);
+        }
+        return found;
+    }
+
+    /// To the last keyframe before `block`, or to the stock.
+    void rewind(int block) {
+        const int to = next_keyframe(block);
+        steps_.clear();
+        if (to >= 0) {
+            std::size_t n = 0;
+            while (keyframes_.block(n) != to) {
+                ++n;
+            }
+            keyframes_.restore(n, *field_);
+        } else {
+            *field_ = DexelField(input_.stock, input_.resolution, input_.most_bytes, Progress());
+        }
+        block_ = std::max(to, 0);
+        state_ = states_.at(block_);
+        removal_->record_from(farthest_);
+        steps_since_ = 0;
+    }
+
+    /// Keeps a keyframe where one is due.
+    void keep() {
+        farthest_ = std::max(farthest_, block_);
+        removal_->record_from(farthest_);
+        const int last = keyframes_.count() > 0 ? keyframes_.block(keyframes_.count() - 1) : 0;
+        if (!rewinds_) {
+            return;
+        }
+        int thinned = 0;
+        if (block_ > last && steps_since_ >= steps_a_keyframe_) {
+            thinned = keyframes_.add(*field_, block_, keyframe_room());
+            states_.insert_or_assign(block_, state_);
+            steps_since_ = 0;
+        } else {
+            thinned = keyframes_.fit(keyframe_room());
+        }
+        for (int n = 0; n < thinned; ++n) {
+            steps_a_keyframe_ *= 2;
+        }
+        std::erase_if(states_, [&](const auto& one) {
+            return one.first != 0 && next_keyframe(one.first) != one.first;
+        });
+    }
+
+    void take(int n, const Progress& progress, double done) {
+        const program::Block& block = input_.program.blocks[static_cast<std::size_t>(n)];
+        while (state_.next_tool < input_.tools.size() && input_.tools[state_.next_tool].first_block <= n) {
+            ++state_.next_tool;
+        }
+        if (block.kind == program::BlockKind::spindle_on) {
+            state_.spindle = true;
+        } else if (block.kind == program::BlockKind::spindle_off) {
+            state_.spindle = false;
+        }
+        if (!block.moves()) {
+            return;
+        }
+        if (state_.known.all()) {
+            follow(n, block, progress, done);
+            return;
+        }
+        state_.known.take(block);
+        state_.first_block = n + 1;
+        auto& skipped = state_.skipped;
+        skipped = skipped.value_or(SkippedStart{0, 0, block.source_line, block.source_line, 0, 0});
+        if (block.kind == program::BlockKind::rapid) {
+            ++skipped->rapids;
+        } else {
+            skipped->first_feed_line = skipped->feeds == 0 ? block.source_line : skipped->first_feed_line;
+            skipped->last_feed_line = block.source_line;
+            ++skipped->feeds;
+        }
+        skipped->last_line = block.source_line;
+    }
+
+    void follow(int n, const program::Block& block, const Progress& progress, double done) {
+        const bool rapid = block.kind == program::BlockKind::rapid;
+        if (state_.next_tool == 0 || !bodies_[state_.next_tool - 1]) {
+            if (!rapid) {
+                throw at_line(block,
+                              "this move cuts, and no tool is in the spindle",
+                              "the program has to call the tool (M6) before it");
+            }
+            return;
+        }
+        const CuttingBody& body = *bodies_[state_.next_tool - 1];
+        const auto& own = input_.tools[state_.next_tool - 1].machine;
+        const kinematics::StraightForward way(
+            own ? *own : input_.machine, program::position_before(input_.program, n), block.target);
+        const double parts = parts_of(way);
+        constexpr double most_parts = 200'000;
+        if (!(parts <= most_parts)) {
+            throw at_line(block, "the move goes too far to be simulated", "check its coordinates");
+        }
+        ++state_.moves;
+        if (!state_.spindle) {
+            without_spindle_.insert(n);
+        }
+        ToolPose last = way.at(0.0);
+        for (int part = 1; part <= static_cast<int>(parts); ++part) {
+            const ToolPose next = way.at(part / parts);
+            add(body, last, next, n, rapid);
+            last = next;
+            if (steps_.size() >= steps_at_a_time) {
+                flush(progress, done); // one move may be longer than the memory
+            }
+        }
+    }
+
+    /// The stretch of a straight move that can reach the stock.
+    void add(const CuttingBody& body, const ToolPose& from, const ToolPose& to, int n, bool rapid) {
+        const toolpath::ProfileShape& shape = body.body.shape();
+        const double reach = std::max(std::abs(shape.top), std::abs(shape.bottom)) + shape.radius;
+        const Box3& box = field_->box();
+        double first = 0.0, last = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double way = to.tip[axis] - from.tip[axis];
+            const double low = box.min()[axis] - reach - from.tip[axis];
+            const double high = box.max()[axis] + reach - from.tip[axis];
+            if (std::abs(way) > 0.0) {
+                first = std::max(first, std::min(low / way, high / way));
+                last = std::min(last, std::max(low / way, high / way));
+            } else if (low > 0.0 || high < 0.0) {
+                return;
+            }
+        }
+        if (!(first < last) && (to.tip - from.tip).norm() > 0.0) {
+            return;
+        }
+        const auto at = [&](double f) {
+            return ToolPose{from.tip + f * (to.tip - from.tip),
+                            Vec3(from.axis + f * (to.axis - from.axis)).normalized()};
+        };
+        // A part of a move turns so little that the chord of its axis is even.
+        if (step_count(body, from, to) * (last - first) > 0.99 * most_steps_a_move) {
+            throw at_line(input_.program.blocks[static_cast<std::size_t>(n)],
+                          "the move is too long for so small a tool",
+                          "check the tool's diameter");
+        }
+        divide(body, first > 0.0 ? at(first) : from, last < 1.0 ? at(last) : to, n, rapid, steps_);
+    }
+
+    /// `done` is the share of the call's blocks that have been taken.
+    void flush(const Progress& progress, double done) {
+        if (steps_.empty()) {
+            return;
+        }
+        removal_->remove(steps_, progress.part(done_, std::max(done, done_)));
+        done_ = std::max(done, done_);
+        steps_since_ += steps_.size();
+        const std::int32_t move = steps_.back().move;
+        steps_.clear();
+        if (const std::size_t bytes = field_->bytes(); bytes > input_.most_bytes) {
+            constexpr double mega = 1e6;
+            throw at_line(
+                input_.program.blocks[static_cast<std::size_t>(move)],
+                fmt::format("what is left of the stock takes {:.0f} MB of memory, and {:.0f} MB "
+                            "may be used",
+                            static_cast<double>(bytes) / mega,
+                            static_cast<double>(input_.most_bytes) / mega),
+                fmt::format("a resolution of {:.2g} mm takes less", 1.5 * field_->cell().maxCoeff()));
+        }
+    }
+
+    const SimulationInput& input_;
+    bool rewinds_;
+    std::unique_ptr<DexelField> field_;
+    double uncut_; // volume of the field, mm^3
+    std::unique_ptr<Removal> removal_;
+    std::deque<std::optional<CuttingBody>> bodies_; // steps point to them
+    ProgramState state_;                            // before block_
+    std::map<int, ProgramState> states_;            // before the blocks of the keyframes, and before block 0
+    Keyframes keyframes_;
+    std::set<int> without_spindle_;
+    std::vector<CutStep> steps_;
+    std::size_t steps_since_ = 0;         // the last keyframe
+    std::size_t steps_a_keyframe_ = 2000; // a tenth of a second, with a tool of usual size
+    int block_ = 0;
+    int farthest_ = 0; // block that was ever cut to
+    double done_ = 0.0;
+    bool is_torn_ = false; // a call threw in the middle
+};
+
+namespace {
+
+void expect_machine(const SimulationInput& input) {
+    const auto& axes = input.program.axes;
+    bool same = static_cast<int>(axes.size()) == input.machine.axis_count();
+    for (int n = 0; same && n < input.machine.axis_count(); ++n) {
+        same = axes[static_cast<std::size_t>(n)].letter == input.machine.axis(n).letter;
+    }
+    if (!same) {
+        throw Error(fmt::format("the program is not one of the machine \"{}\"", input.machine.name()));
+    }
+}
+
+} // namespace
+
+Simulator::Simulator(const SimulationInput& input, Rewind rewind, const Progress& progress) {
+    expect_machine(input);
+    work_ = std::make_unique<Work>(input, rewind, progress);
+}
+Simulator::~Simulator() = default;
+
+void Simulator::advance_to(int block, const Progress& progress) {
+    work_->advance_to(block, progress);
+}
+
+void Simulator::advance_to_line(int line, const Progress& progress) {
+    const auto& blocks = work_->program().blocks;
+    const auto beyond =
+        std::ranges::find_if(blocks, [&](const program::Block& block) { return block.source_line > line; });
+    advance_to(static_cast<int>(beyond - blocks.begin()), progress);
+}
+
+int Simulator::block() const {
+    return work_->block();
+}
+const DexelField& Simulator::field() const {
+    return work_->field();
+}
+const std::map<std::int32_t, MoveCut>& Simulator::cuts() const {
+    return work_->removal().cuts();
+}
+std::size_t Simulator::keyframe_count() const {
+    return work_->keyframes().count();
+}
+std::size_t Simulator::keyframe_bytes() const {
+    return work_->keyframes().bytes();
+}
+
+Simulation Simulator::finish() && {
+    return work_->finish();
+}
+
+} // namespace millwright::simulation
