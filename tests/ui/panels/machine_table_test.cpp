@@ -40,7 +40,7 @@ protected:
     void connect() {
         person.open(rows(person.folder()));
         auto& choice = person.workshop().session().hand.choice;
-        choice.kind = machine::DriverKind::records;
+        choice.driver = "records";
         choice.address = table.port();
         choice.record.emplace();
         choice.record->answer = "ok";
@@ -181,7 +181,7 @@ unsigned baud_of(const std::string& path) {
 TEST_F(MachineTable, IsConnectedToAtTheRateThatIsChosenInTheWindow) {
     person.open(rows(person.folder()));
     auto& choice = person.workshop().session().hand.choice;
-    choice.kind = machine::DriverKind::records;
+    choice.driver = "records";
     choice.address = table.port();
     choice.record.emplace();
     choice.record->answer = "ok";
@@ -212,7 +212,7 @@ TEST_F(MachineTable, EndsItsRecordsAsIsChosenInTheWindow) {
     write_file(person.folder() / "short.ngc", program + "M2\n");
     person.open(person.folder() / "short.ngc");
     auto& choice = person.workshop().session().hand.choice;
-    choice.kind = machine::DriverKind::records;
+    choice.driver = "records";
     choice.address = "file:" + sent.string();
     person.workshop().run("view.machine");
     person.frames(3);
