@@ -202,22 +202,40 @@ void Mcs51::change(int column, std::uint8_t address, std::uint8_t value) {
     }
 }
 
+void Mcs51::divide() {
+    cycles_ += 3;
+    const std::uint8_t b = direct(internal::sfr_b);
+    psw_ = internal::low_byte((psw_ & ~(0x80U | overflow_flag)) | (b == 0 ? overflow_flag : 0U));
+    if (b != 0) {
+        set_direct(internal::sfr_b, internal::low_byte(a_ % b));
+        a_ = internal::low_byte(a_ / b);
+    }
+}
+
+void Mcs51::multiply() {
+    cycles_ += 3;
+    const unsigned product = static_cast<unsigned>(a_) * direct(internal::sfr_b);
+    psw_ = internal::low_byte((psw_ & ~(0x80U | overflow_flag)) | (product > 0xffU ? overflow_flag : 0U));
+    a_ = internal::low_byte(product);
+    set_direct(internal::sfr_b, internal::low_byte(product >> 8U));
+}
+
+template <class Change> std::uint8_t Mcs51::changed(int column, const Change& change_of) {
+    const std::uint8_t address = column == 5 ? fetch() : std::uint8_t{0};
+    const std::uint8_t old = column == 4 ? a_ : column == 5 ? direct(address) : source(column);
+    const std::uint8_t value = change_of(old);
+    change(column, address, value);
+    return value;
+}
+
 void Mcs51::operate(std::uint8_t op) {
     const int column = op & 0x0f;
-    // Where the operand is, for what reads and writes it: A in column 4.
-    const auto changed = [&](auto&& change_of) {
-        const std::uint8_t address = column == 5 ? fetch() : std::uint8_t{0};
-        const std::uint8_t old = column == 4 ? a_ : column == 5 ? direct(address) : source(column);
-        const std::uint8_t value = change_of(old);
-        change(column, address, value);
-        return value;
-    };
     switch (op >> 4) {
     case 0x0: // INC
-        (void)changed([](std::uint8_t old) { return internal::low_byte(old + 1U); });
+        (void)changed(column, [](std::uint8_t old) { return internal::low_byte(old + 1U); });
         return;
     case 0x1: // DEC
-        (void)changed([](std::uint8_t old) { return internal::low_byte(old - 1U); });
+        (void)changed(column, [](std::uint8_t old) { return internal::low_byte(old - 1U); });
         return;
     case 0x2: // ADD, ADDC
     case 0x3:
@@ -238,29 +256,25 @@ void Mcs51::operate(std::uint8_t op) {
     }
     case 0x8: { // MOV direct, x; DIV AB
         if (column == 4) {
-            cycles_ += 3;
-            const std::uint8_t b = direct(internal::sfr_b);
-            psw_ = internal::low_byte((psw_ & ~(0x80U | overflow_flag)) | (b == 0 ? overflow_flag : 0U));
-            if (b != 0) {
-                set_direct(internal::sfr_b, internal::low_byte(a_ % b));
-                a_ = internal::low_byte(a_ / b);
-            }
-            return;
+            return divide();
         }
         ++cycles_;
         const std::uint8_t value = source(column); // of MOV direct, direct the source comes first
         return set_direct(fetch(), value);
     }
+    default:
+        return operate_on_a(op);
+    }
+}
+
+void Mcs51::operate_on_a(std::uint8_t op) {
+    const int column = op & 0x0f;
+    switch (op >> 4) {
     case 0x9: // SUBB
         return subtract(source(column));
     case 0xa: // MOV x, direct; MUL AB
         if (column == 4) {
-            cycles_ += 3;
-            const unsigned product = static_cast<unsigned>(a_) * direct(internal::sfr_b);
-            psw_ = internal::low_byte((psw_ & ~(0x80U | overflow_flag)) |
-                                      (product > 0xffU ? overflow_flag : 0U));
-            a_ = internal::low_byte(product);
-            return set_direct(internal::sfr_b, internal::low_byte(product >> 8U));
+            return multiply();
         }
         if (column == 5) {
             stop_ = Mcs51Stop::reserved;
@@ -280,14 +294,14 @@ void Mcs51::operate(std::uint8_t op) {
             a_ = internal::low_byte(static_cast<unsigned>(a_) << 4U | a_ >> 4U);
             return;
         }
-        (void)changed([&](std::uint8_t old) { return std::exchange(a_, old); });
+        (void)changed(column, [&](std::uint8_t old) { return std::exchange(a_, old); });
         return;
     case 0xd: // DJNZ; XCHD; DA
         if (column == 4) {
             return decimal_adjust();
         }
         if (column == 6 || column == 7) {
-            (void)changed([&](std::uint8_t old) {
+            (void)changed(column, [&](std::uint8_t old) {
                 const std::uint8_t mine = a_;
                 a_ = internal::low_byte((mine & 0xf0U) | (old & 0x0fU));
                 return internal::low_byte((old & 0xf0U) | (mine & 0x0fU));
@@ -296,7 +310,8 @@ void Mcs51::operate(std::uint8_t op) {
         }
         ++cycles_;
         {
-            const std::uint8_t left = changed([](std::uint8_t old) { return internal::low_byte(old - 1U); });
+            const std::uint8_t left =
+                changed(column, [](std::uint8_t old) { return internal::low_byte(old - 1U); });
             return jump_if(left != 0, fetch());
         }
     case 0xe: // MOV A, x; CLR A

@@ -62,11 +62,19 @@ private:
     [[nodiscard]] bool carry() const { return (psw_ & 0x80U) != 0; }
     void set_carry(bool on) { psw_ = static_cast<std::uint8_t>((psw_ & 0x7fU) | (on ? 0x80U : 0U)); }
 
-    void control(std::uint8_t op);                 ///< low nibble 0 to 3: jumps, DPTR, stack, external memory
+    void control(std::uint8_t op);                 ///< low nibble 0 to 3: branches
+    void move(std::uint8_t op);                    ///< and DPTR, stack, tables, external memory
+    void move_bits(std::uint8_t op);               ///< and bits into the carry and back
+    [[nodiscard]] std::uint16_t far();             ///< two bytes of the program, high byte first
     void special(std::uint8_t op);                 ///< and direct logic, bits, rotations of A
     [[nodiscard]] std::uint8_t source(int column); ///< operand of a column: #, direct, @Ri, Rn
     void change(int column, std::uint8_t address, std::uint8_t value);
-    void operate(std::uint8_t op); ///< low nibble 4 to 15
+    /// Where the operand is, for what reads and writes it: A in column 4. Returns the new value.
+    template <class Change> std::uint8_t changed(int column, const Change& change_of);
+    void operate(std::uint8_t op);      ///< low nibble 4 to 15
+    void operate_on_a(std::uint8_t op); ///< of these, the rows from 9
+    void divide();
+    void multiply();
     void decimal_adjust();
 
     std::vector<std::uint8_t> code_;

@@ -7,11 +7,12 @@
 
 namespace millwright::cordic {
 
+std::uint16_t Mcs51::far() {
+    const unsigned high = fetch();
+    return static_cast<std::uint16_t>(high << 8U | fetch());
+}
+
 void Mcs51::control(std::uint8_t op) {
-    const auto far = [&] { // high byte first
-        const unsigned high = fetch();
-        return static_cast<std::uint16_t>(high << 8U | fetch());
-    };
     if ((op & 0x1fU) == 0x01 || (op & 0x1fU) == 0x11) { // AJMP, ACALL
         ++cycles_;
         const unsigned low = fetch();
@@ -49,12 +50,6 @@ void Mcs51::control(std::uint8_t op) {
     case 0x80: // SJMP
         ++cycles_;
         return jump_if(true, fetch());
-    case 0x90: { // MOV DPTR
-        ++cycles_;
-        const std::uint16_t value = far();
-        set_direct(internal::sfr_dph, internal::low_byte(value >> 8U));
-        return set_direct(internal::sfr_dpl, internal::low_byte(value));
-    }
     case 0x02: // LJMP
         ++cycles_;
         pc_ = far();
@@ -73,6 +68,19 @@ void Mcs51::control(std::uint8_t op) {
         ++cycles_;
         pc_ = static_cast<std::uint16_t>(dptr() + a_);
         return;
+    default:
+        return move(op);
+    }
+}
+
+void Mcs51::move(std::uint8_t op) {
+    switch (op) {
+    case 0x90: { // MOV DPTR
+        ++cycles_;
+        const std::uint16_t value = far();
+        set_direct(internal::sfr_dph, internal::low_byte(value >> 8U));
+        return set_direct(internal::sfr_dpl, internal::low_byte(value));
+    }
     case 0x83: // MOVC A, @A+PC
         ++cycles_;
         a_ = code_[static_cast<std::uint16_t>(pc_ + a_)];
@@ -140,23 +148,6 @@ void Mcs51::special(std::uint8_t op) {
         const std::uint8_t with = fetch();
         return set_direct(address, logic(direct(address), with));
     }
-    case 0x72: // ORL C, bit
-        ++cycles_;
-        return set_carry(bit(fetch()) || carry());
-    case 0xa0: // ORL C, /bit
-        ++cycles_;
-        return set_carry(!bit(fetch()) || carry());
-    case 0x82: // ANL C, bit
-        ++cycles_;
-        return set_carry(bit(fetch()) && carry());
-    case 0xb0: // ANL C, /bit
-        ++cycles_;
-        return set_carry(!bit(fetch()) && carry());
-    case 0x92: // MOV bit, C
-        ++cycles_;
-        return set_bit(fetch(), carry());
-    case 0xa2: // MOV C, bit
-        return set_carry(bit(fetch()));
     case 0xb2: { // CPL bit
         const std::uint8_t address = fetch();
         return set_bit(address, !bit(address));
@@ -183,6 +174,30 @@ void Mcs51::special(std::uint8_t op) {
     case 0x33: // RLC
         a_ = internal::low_byte(a << 1U | c);
         return set_carry((a & 0x80U) != 0);
+    default:
+        return move_bits(op);
+    }
+}
+
+void Mcs51::move_bits(std::uint8_t op) {
+    switch (op) {
+    case 0x72: // ORL C, bit
+        ++cycles_;
+        return set_carry(bit(fetch()) || carry());
+    case 0xa0: // ORL C, /bit
+        ++cycles_;
+        return set_carry(!bit(fetch()) || carry());
+    case 0x82: // ANL C, bit
+        ++cycles_;
+        return set_carry(bit(fetch()) && carry());
+    case 0xb0: // ANL C, /bit
+        ++cycles_;
+        return set_carry(!bit(fetch()) && carry());
+    case 0x92: // MOV bit, C
+        ++cycles_;
+        return set_bit(fetch(), carry());
+    case 0xa2: // MOV C, bit
+        return set_carry(bit(fetch()));
     default:
         expects(false, "every instruction of an MCS-51 is known");
     }

@@ -118,27 +118,6 @@ public:
         case CommandKind::dwell:
             add(program::BlockKind::dwell, command.source).duration = command.value;
             break;
-        case CommandKind::set_spindle_speed:
-            rpm_ = command.value;
-            result_.first_rpm = result_.first_rpm > 0.0 ? result_.first_rpm : std::abs(rpm_);
-            break;
-        case CommandKind::start_spindle_clockwise:
-            add(program::BlockKind::spindle_on, command.source).spindle_rpm = rpm_;
-            break;
-        case CommandKind::start_spindle_counterclockwise:
-            add(program::BlockKind::spindle_on, command.source).spindle_rpm = -rpm_;
-            break;
-        case CommandKind::stop_spindle_turning:
-            add(program::BlockKind::spindle_off, command.source);
-            break;
-        case CommandKind::mist_on:
-        case CommandKind::flood_on:
-            add(program::BlockKind::coolant_on, command.source);
-            break;
-        case CommandKind::mist_off:
-        case CommandKind::flood_off:
-            switch_coolant_off(command.source);
-            break;
         case CommandKind::select_tool:
             selected_tool_ = command.index;
             break;
@@ -166,6 +145,7 @@ public:
             end(command.source);
             break;
         default:
+            turn_or_cool(command);
             break;
         }
     }
@@ -222,6 +202,35 @@ private:
     std::size_t first_missing_ = 0; ///< of the faults, the one of the first of them
     program::AxisSet beyond_;       ///< the same for their travel
     bool no_feed_said_ = false;
+
+    /// Spindle and coolant.
+    void turn_or_cool(const Command& command) {
+        switch (command.kind) {
+        case CommandKind::set_spindle_speed:
+            rpm_ = command.value;
+            result_.first_rpm = result_.first_rpm > 0.0 ? result_.first_rpm : std::abs(rpm_);
+            break;
+        case CommandKind::start_spindle_clockwise:
+            add(program::BlockKind::spindle_on, command.source).spindle_rpm = rpm_;
+            break;
+        case CommandKind::start_spindle_counterclockwise:
+            add(program::BlockKind::spindle_on, command.source).spindle_rpm = -rpm_;
+            break;
+        case CommandKind::stop_spindle_turning:
+            add(program::BlockKind::spindle_off, command.source);
+            break;
+        case CommandKind::mist_on:
+        case CommandKind::flood_on:
+            add(program::BlockKind::coolant_on, command.source);
+            break;
+        case CommandKind::mist_off:
+        case CommandKind::flood_off:
+            switch_coolant_off(command.source);
+            break;
+        default:
+            break;
+        }
+    }
 
     static std::size_t index_of(char letter) {
         return static_cast<std::size_t>(std::ranges::find(axis_letters, letter) - axis_letters.begin());

@@ -33,6 +33,34 @@ std::string selection(const Verilog& verilog) {
                        verilog.step_cases());
 }
 
+constexpr std::string_view clocked = R"(
+    always @(posedge clk) begin
+        if (reset) begin
+            n <= CLOCKS;
+            overflow <= 0;
+        end else if (start) begin
+            n <= 0;
+            vectors <= vectoring;
+            x <= x_in;
+            y <= y_in;
+            z <= z_in;
+            overflow <= 0;
+        end else if (n < STEPS) begin
+            n <= n + 1'b1;
+            x <= xt[W-1:0];
+            y <= yt[W-1:0];
+            z <= zt[W-1:0];
+            overflow <= overflow | xt[W] | yt[W] | zt[W];
+        end else if (busy) begin
+            n <= n + 1'b1;
+            x <= xc[W-1:0];
+            y <= yc[W-1:0];
+            overflow <= overflow | xc[W] | yc[W];
+        end
+    end
+endmodule
+)";
+
 } // namespace
 
 std::string core_module(const Verilog& verilog) {
@@ -67,33 +95,7 @@ std::string core_module(const Verilog& verilog) {
     text += sequence.multiplies ? "    wire [W:0] xc = scaled(x);\n    wire [W:0] yc = scaled(y);\n"
                                 : "    wire [W:0] xc = !corrects ? {1'b0, x} : add_sub(subtracts, x, xs);\n"
                                   "    wire [W:0] yc = !corrects ? {1'b0, y} : add_sub(subtracts, y, ys);\n";
-    text += R"(
-    always @(posedge clk) begin
-        if (reset) begin
-            n <= CLOCKS;
-            overflow <= 0;
-        end else if (start) begin
-            n <= 0;
-            vectors <= vectoring;
-            x <= x_in;
-            y <= y_in;
-            z <= z_in;
-            overflow <= 0;
-        end else if (n < STEPS) begin
-            n <= n + 1'b1;
-            x <= xt[W-1:0];
-            y <= yt[W-1:0];
-            z <= zt[W-1:0];
-            overflow <= overflow | xt[W] | yt[W] | zt[W];
-        end else if (busy) begin
-            n <= n + 1'b1;
-            x <= xc[W-1:0];
-            y <= yc[W-1:0];
-            overflow <= overflow | xc[W] | yc[W];
-        end
-    end
-endmodule
-)";
+    text += clocked;
     return text;
 }
 
