@@ -12,7 +12,7 @@
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/jobs/feed_check.h"
 #include "core/jobs/file_job.h"
 #include "core/jobs/run_from_line.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int most_lines_of_function = 60;
 constexpr int most_flags = 5;
+constexpr int most_lines_of_module = 12'000;
 
 bool is_word_letter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -306,6 +308,29 @@ std::vector<Sized> flags_of(std::string_view text) {
 
 std::vector<Finding> check_functions(const std::vector<TextFile>& files, std::span<const Larger> larger) {
     return check_sizes(files, larger, most_lines_of_function, functions_of, "lines");
+}
+
+std::vector<Finding> check_modules(const std::vector<TextFile>& files, std::span<const Larger> larger) {
+    std::map<std::string, int> modules;
+    for (const auto& [path, text] : files) {
+        if (is_product(path) && !is_inside(path, "bench")) {
+            const std::size_t folder =
+                is_inside(path, "app") ? path.find('/') : path.find('/', path.find('/') + 1);
+            modules[path.substr(0, folder)] += static_cast<int>(lines_of(text).size());
+        }
+    }
+    std::vector<Finding> findings;
+    for (const auto& [module, lines] : modules) {
+        const auto listed = std::ranges::find(larger, module, &Larger::path);
+        const int allowed = listed == larger.end() ? most_lines_of_module : listed->most;
+        if (lines > allowed) {
+            findings.push_back(
+                {module, 0, std::to_string(lines) + " lines, more than " + std::to_string(allowed)});
+        } else if (listed != larger.end() && lines <= most_lines_of_module) {
+            findings.push_back({module, 0, "is within the limit: take it off the list"});
+        }
+    }
+    return findings;
 }
 
 std::vector<Finding> check_flags(const std::vector<TextFile>& files, std::span<const Larger> larger) {

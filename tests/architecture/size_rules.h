@@ -1,5 +1,5 @@
-// How long functions are, and how many flags a class keeps: what is over the limit is more than one subject.
-// What was over it when the rule came is listed, and may only get smaller.
+// How long functions are, how many flags a class keeps, how large a module is: what is over the limit is more
+// than one subject. What was over it when the rule came is listed, and may only get smaller.
 #pragma once
 
 #include "tests/architecture/repository.h"
@@ -40,5 +40,10 @@ struct Sized {
 /// Classes of app, bench, core and ui with more than 5 flags, and entries of `larger` that are not needed.
 [[nodiscard]] std::vector<Finding> check_flags(const std::vector<TextFile>& files,
                                                std::span<const Larger> larger);
+
+/// Modules (core/grid, ui/panels, app) with more than 12,000 lines, and entries of `larger` that are not
+/// needed: their `path` is the module's folder.
+[[nodiscard]] std::vector<Finding> check_modules(const std::vector<TextFile>& files,
+                                                 std::span<const Larger> larger);
 
 } // namespace millwright::architecture

@@ -79,6 +79,29 @@ TEST(Flags, AreAtMostFiveInAClass) {
                 ElementsAre(Finding{"ui/a.h", 1, "A has 6 flags, more than 5"}));
 }
 
+std::string text_of(int lines) {
+    std::string text;
+    for (int n = 0; n < lines; ++n) {
+        text += "\n";
+    }
+    return text;
+}
+
+TEST(ModuleSize, IsAtMost12000LinesButForWhatIsListed) {
+    const std::vector<TextFile> files{{"core/grid/a.cpp", text_of(6000)},
+                                      {"core/grid/internal/b.h", text_of(6000)},
+                                      {"core/plot/c.cpp", text_of(12001)},
+                                      {"app/commands/d.cpp", text_of(7000)},
+                                      {"app/e.cpp", text_of(6000)}};
+    EXPECT_THAT(check_modules(files, {}),
+                ElementsAre(Finding{"app", 0, "13000 lines, more than 12000"},
+                            Finding{"core/plot", 0, "12001 lines, more than 12000"}));
+    constexpr std::array listed{
+        Larger{"app", "", 13000}, Larger{"core/plot", "", 13000}, Larger{"core/grid", "", 13000}};
+    EXPECT_THAT(check_modules(files, listed),
+                ElementsAre(Finding{"core/grid", 0, "is within the limit: take it off the list"}));
+}
+
 /// Each entry may only get smaller, and none may be added.
 constexpr std::array long_functions = {
     Larger{"app/commands/simulate_command.cpp", "add_simulate_command", 61},
@@ -109,10 +132,18 @@ constexpr std::array many_flags = {
     Larger{"ui/viewport/scene.h", "Layers", 26},
 };
 
+constexpr std::array large_modules = {
+    Larger{"app", "", 21500},
+    Larger{"core/plot", "", 13900},
+    Larger{"ui/actions", "", 12800},
+    Larger{"ui/panels", "", 18000},
+};
+
 TEST(ThisRepositorysSizes, AreWithinTheLimits) {
     const std::vector<TextFile> files = read_repository(".");
     EXPECT_THAT(check_functions(files, long_functions), IsEmpty());
     EXPECT_THAT(check_flags(files, many_flags), IsEmpty());
+    EXPECT_THAT(check_modules(files, large_modules), IsEmpty());
 }
 
 } // namespace
