@@ -13,7 +13,7 @@
 #include "core/jobs/dispatcher.h"
 #include "core/jobs/survey.h"
 #include "core/jobs/tool_check.h"
-#include "core/machine/make_driver.h"
+#include "core/machine/drivers_by_name.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/pmac_driver.h"
 #include "core/pmac/emulator/motion_program.h"
@@ -76,12 +76,12 @@ Controller::Controller(ControllerChoice choice, const std::string& log_folder)
     : choice_(std::move(choice)), log_folder_(log_folder),
       memory_(log_folder, choice_.driver + " " + choice_.port) {
     machine::DriverChoice wanted;
-    wanted.kind = machine::driver_kind(choice_.driver);
+    wanted.driver = choice_.driver;
     wanted.address = choice_.port;
     wanted.axes = choice_.axes;
     wanted.one_by_one = choice_.one_by_one;
     machine::MovedAxes moved;
-    if (wanted.kind == machine::DriverKind::pmac) {
+    if (machine::driver_row(choice_.driver).kind == machine::MachineKind::arm) {
         moved.arm = std::make_shared<const arm::ArmModel>(arm_of(choice_.arm));
     }
     driver_ = machine::make_driver(wanted, moved, clock_);
@@ -151,7 +151,8 @@ void Controller::expect_axes() const {
 void Controller::prepare(bool at_a_line, const std::stop_token& stop) {
     using drivers::DriverState;
     using drivers::DriverStatus;
-    const bool homing_unlocks = choice_.home && choice_.driver == "grbl";
+    const bool homing_unlocks =
+        choice_.home && machine::driver_row(choice_.driver).why_no_home_in_alarm.empty();
     if (driver_->status().state == DriverState::alarm && !homing_unlocks) {
         expect_unlock(); // before a person is asked anything
     }
@@ -199,7 +200,7 @@ void Controller::expect_unlock() const {
     if (!choice_.unlock) { // its position may be lost
         throw Error(status.message,
                     {},
-                    choice_.driver == "grbl"
+                    machine::driver_row(choice_.driver).why_no_home_in_alarm.empty()
                         ? "inspect the machine; then use --home to home it, or --unlock to continue from the "
                           "current position"
                         : "inspect the machine; then use --unlock to continue from the current position");
@@ -208,7 +209,10 @@ void Controller::expect_unlock() const {
 
 void Controller::say_who_is_there() const {
     const std::string firmware = driver_->firmware();
-    const std::string name = !firmware.empty() ? firmware : choice_.driver == "pmac" ? "a PMAC" : "LinuxCNC";
+    const machine::DriverRow& row = machine::driver_row(choice_.driver);
+    const std::string name = !firmware.empty()                       ? firmware
+                             : row.kind == machine::MachineKind::arm ? fmt::format("a {}", row.label)
+                                                                     : std::string(row.label);
     fmt::print("Connected to {} at {}.\n", name, choice_.port);
     for (const std::string& remark : driver_->remarks()) {
         fmt::print("{}\n", remark);
@@ -429,7 +433,7 @@ jobs::JobOutcome Controller::run(const jobs::Job& wanted, const Interrupt& inter
     ask_for_tool(job, interrupt.token());
     show_warnings(job);
     say_modes(job);
-    if (choice_.driver == "pmac") {
+    if (machine::driver_row(choice_.driver).kind == machine::MachineKind::arm) {
         check_joints(job, interrupt.token());
     }
     jobs::Dispatcher dispatcher(*driver_, clock_, log_folder_);

@@ -105,16 +105,7 @@ std::string command_words(const CLI::App& app) {
     return next.empty() ? app.get_name() : app.get_name() + " " + command_words(*next.front());
 }
 
-int main(int argc, char** argv) {
-    guard_output_streams();
-    CLI::App app("Designs surfaces, shows where a 5-axis machine would miscut them, and generates programs "
-                 "that avoid it.\nWithout a command: opens the workbench.",
-                 "millwright");
-    app.formatter(std::make_shared<HelpFormat>()); // the commands take it from here, and the next, too
-    app.option_defaults()->always_capture_default();
-    app.set_version_flag("--version", "millwright " + std::string(project::version()));
-    app.require_subcommand(0, 1);
-    Command chosen;
+void add_commands(CLI::App& app, Command& chosen) {
     add_workbench_command(app, chosen);
     add_plan_command(app, chosen);
     add_render_command(app, chosen);
@@ -139,6 +130,19 @@ int main(int argc, char** argv) {
     add_plot_command(app, chosen);
     add_picture_command(app, chosen);
     add_thesis_command(app, chosen);
+}
+
+int main(int argc, char** argv) {
+    guard_output_streams();
+    CLI::App app("Designs surfaces, shows where a 5-axis machine would miscut them, and generates programs "
+                 "that avoid it.\nWithout a command: opens the workbench.",
+                 "millwright");
+    app.formatter(std::make_shared<HelpFormat>()); // the commands take it from here, and the next, too
+    app.option_defaults()->always_capture_default();
+    app.set_version_flag("--version", "millwright " + std::string(project::version()));
+    app.require_subcommand(0, 1);
+    Command chosen;
+    add_commands(app, chosen);
     add_threads_option(app);
     expect_finite_numbers(app);
     try {

@@ -1,7 +1,7 @@
 // Where the zero of a G-code program lies on a machine, on the command line.
 #pragma once
 
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/work_origin.h"
 
 #include <string>
 #include <vector>

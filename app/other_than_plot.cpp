@@ -1,8 +1,8 @@
 #include "app/other_than_plot.h"
 
 #include "core/base/error.h"
-#include "core/gcode/cut_program.h"
 #include "core/gcode/language.h"
+#include "core/gcode_programs/cut_program.h"
 #include "core/plot/path_file.h"
 
 #include <fmt/format.h>

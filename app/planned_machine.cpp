@@ -9,7 +9,7 @@
 #include "core/base/numbers.h"
 #include "core/drivers/virtual_machine/virtual_machine.h"
 #include "core/jobs/dispatcher.h"
-#include "core/machine/make_driver.h"
+#include "core/machine/drivers_by_name.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -62,12 +62,11 @@ void add_planned_machine_options(CLI::App& command, PlannedMachineChoice& choice
 }
 
 void check(const PlannedMachineChoice& choice) {
-    const bool takes_records = choice.driver == "stream" || choice.driver == "records";
-    if (!choice.record.pattern.empty() && !takes_records) {
+    const machine::DriverRow& row = machine::driver_row(choice.driver);
+    if (!choice.record.pattern.empty() && row.kind != machine::MachineKind::positioned) {
         throw UsageError("--record applies only to the stream and records drivers");
     }
-    const bool inside = choice.driver == "virtual" || choice.driver == "cordic";
-    if (!inside && choice.controller.port.empty()) {
+    if (row.address && choice.controller.port.empty()) {
         throw UsageError("the " + choice.driver + " driver needs a port", {}, "give --port");
     }
 }
@@ -138,10 +137,10 @@ void PlannedMachine::connect(const jobs::Job& job) {
 
 std::unique_ptr<drivers::Driver> PlannedMachine::make_driver(const jobs::Job& job) {
     machine::DriverChoice choice;
-    choice.kind = machine::driver_kind(choice_.driver);
+    choice.driver = choice_.driver;
     choice.address = choice_.controller.port;
     choice.period = choice_.period;
-    if (choice.kind == machine::DriverKind::cordic) {
+    if (choice.driver == "cordic") {
         cordic_machine::CordicDriverOptions processor;
         processor.clock_hz = choice_.processor_hz;
         processor.origin = choice_.origin;

@@ -4,7 +4,7 @@
 #include "app/interrupt.h"
 #include "core/base/clock.h"
 #include "core/pmac/driver/pmac_driver.h"
-#include "core/pmac/service/card_talk.h"
+#include "core/pmac_service/card_talk.h"
 
 #include <memory>
 #include <string>

@@ -9,7 +9,7 @@
 #include "core/base/files.h"
 #include "core/exchange/mesh_file.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/geometry/mesh.h"
 #include "core/kinematics/machine_file.h"
 #include "core/project/assets.h"

@@ -3,7 +3,7 @@
 // blocks.
 #include "core/base/units.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
 #include "core/motion/time_estimate.h"

@@ -6,9 +6,9 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/pmac/driver/arm_axes.h"
-#include "core/pmac/service/direction_check.h"
-#include "core/pmac/service/offset_finder.h"
-#include "core/pmac/service/step_test.h"
+#include "core/pmac_service/direction_check.h"
+#include "core/pmac_service/offset_finder.h"
+#include "core/pmac_service/step_test.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/chart_picture.h"
 

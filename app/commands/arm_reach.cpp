@@ -9,7 +9,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"

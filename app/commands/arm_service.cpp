@@ -4,9 +4,9 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/numbers.h"
-#include "core/pmac/service/maestro_amplifier.h"
-#include "core/pmac/service/pmac_wiring.h"
-#include "core/pmac/service/scale_calibration.h"
+#include "core/pmac_service/maestro_amplifier.h"
+#include "core/pmac_service/pmac_wiring.h"
+#include "core/pmac_service/scale_calibration.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -5,8 +5,8 @@
 #include "app/outputs.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
-#include "core/cordic/accuracy.h"
-#include "core/cordic/experiments.h"
+#include "core/cordic_study/accuracy.h"
+#include "core/cordic_study/experiments.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -12,8 +12,8 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
-#include "core/cordic/calculator.h"
-#include "core/cordic/rtl.h"
+#include "core/cordic_rtl/rtl.h"
+#include "core/cordic_study/calculator.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -3,10 +3,10 @@
 #include "app/commands/cordic_source.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/cordic/comparison.h"
-#include "core/cordic/mcs51_line.h"
 #include "core/cordic/sequence.h"
-#include "core/cordic/sewing.h"
+#include "core/cordic_control/mcs51_line.h"
+#include "core/cordic_control/sewing.h"
+#include "core/cordic_study/comparison.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

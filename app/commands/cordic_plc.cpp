@@ -2,7 +2,7 @@
 
 #include "app/commands/cordic_source.h"
 #include "core/base/files.h"
-#include "core/cordic/plc_assembler.h"
+#include "core/cordic_control/plc_assembler.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -1,7 +1,7 @@
 // What millwright cordic run adds where a machine's logic is given: the processor at work beside it.
 #pragma once
 
-#include "core/cordic/supervised_run.h"
+#include "core/cordic_control/supervised_run.h"
 
 #include <nlohmann/json_fwd.hpp>
 

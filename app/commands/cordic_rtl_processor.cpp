@@ -3,7 +3,7 @@
 #include "app/commands/cordic_source.h"
 #include "app/outputs.h"
 #include "core/base/files.h"
-#include "core/cordic/processor_rtl.h"
+#include "core/cordic_rtl/processor_rtl.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -2,7 +2,7 @@
 
 #include "app/commands/cordic_source.h"
 #include "core/base/counted.h"
-#include "core/cordic/sewing.h"
+#include "core/cordic_control/sewing.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -12,7 +12,7 @@
 #include "core/cordic/microprogram.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/work_origin.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

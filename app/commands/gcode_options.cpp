@@ -2,7 +2,7 @@
 
 #include "app/origin_choice.h"
 #include "core/gcode/parameter_file.h"
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/work_origin.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/stroke_cutting.h"
-#include "core/gcode/cut_program.h"
+#include "core/gcode_programs/cut_program.h"
 #include "core/plot/decode.h"
 #include "core/plot/stroke_svg.h"
 

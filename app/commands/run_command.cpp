@@ -10,6 +10,7 @@
 #include "app/series.h"
 #include "core/base/error.h"
 #include "core/jobs/run_from_line.h"
+#include "core/machine/drivers_by_name.h"
 #include "core/plan/cut_study.h"
 
 #include <CLI/Config.hpp>
@@ -127,7 +128,8 @@ void add_run_command(CLI::App& app, Command& chosen) {
     add_clearance_option(command, options->clearance);
     command.add_option("--driver", options->machine.driver, "Machine to run on")
         ->required()
-        ->check(CLI::IsMember({"virtual", "grbl", "stream", "cordic", "records"}));
+        ->check(CLI::IsMember(
+            machine::driver_names([](const machine::DriverRow& row) { return row.runs_projects; })));
     add_controller_options(command, options->machine.controller);
     add_planned_machine_options(command, options->machine);
     add_gouges_option(command, options->allow_gouges);

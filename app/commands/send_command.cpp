@@ -12,11 +12,12 @@
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/jobs/feed_check.h"
 #include "core/jobs/file_job.h"
 #include "core/jobs/run_from_line.h"
 #include "core/kinematics/machine_file.h"
+#include "core/machine/drivers_by_name.h"
 #include "core/plot/path_file.h"
 #include "core/pmac/emulator/motion_program.h"
 #include "core/project/assets.h"
@@ -45,13 +46,16 @@ struct SendOptions {
     std::optional<double> clearance;
 };
 
+machine::MachineKind kind_of(const SendOptions& options) {
+    return machine::driver_row(options.machine.driver).kind;
+}
+
 bool is_simulated(const SendOptions& options) {
-    return options.machine.driver == "virtual" || options.machine.driver == "cordic";
+    return kind_of(options) == machine::MachineKind::simulated;
 }
 
 bool is_moved_from_here(const SendOptions& options) {
-    const std::string& driver = options.machine.driver;
-    return is_simulated(options) || driver == "stream" || driver == "records";
+    return is_simulated(options) || kind_of(options) == machine::MachineKind::positioned;
 }
 
 void check_model(const SendOptions& options) {
@@ -71,8 +75,8 @@ void check_model(const SendOptions& options) {
 
 /// Records and coordinates go straight from where the machine stands, and it does not tell where that is.
 void check_place(const SendOptions& options) {
-    const std::string& driver = options.machine.driver;
-    if (options.series.from_line > 1 && options.at.empty() && (driver == "stream" || driver == "records")) {
+    if (options.series.from_line > 1 && options.at.empty() &&
+        kind_of(options) == machine::MachineKind::positioned) {
         throw Error("starting at a line requires the position of the machine, which it does not report",
                     {},
                     "read X, Y and Z at the machine and give them with --at X,Y,Z");
@@ -121,7 +125,7 @@ void say_what_is_by_hand(const jobs::Job& job) {
 
 /// `job` from the line that was asked for, with the time.
 jobs::Job ready(jobs::Job job, const SendOptions& options, int from_line) {
-    if (from_line > 1 && options.machine.driver == "pmac") {
+    if (from_line > 1 && kind_of(options) == machine::MachineKind::arm) {
         throw Error(
             "a motion program must start at its first line: what a line does depends on the lines above");
     }
@@ -141,8 +145,8 @@ jobs::Job ready(jobs::Job job, const SendOptions& options, int from_line) {
 
 /// Of a PMAC in its own language, else G-code.
 jobs::Job job_from_file(const SendOptions& options, const std::string& file) {
-    return options.machine.driver == "pmac" ? pmac::motion_program_job(read_file(file), file)
-                                            : jobs::text_job(read_file(file), file);
+    return kind_of(options) == machine::MachineKind::arm ? pmac::motion_program_job(read_file(file), file)
+                                                         : jobs::text_job(read_file(file), file);
 }
 
 /// To a controller that plans for itself.
@@ -186,7 +190,7 @@ int send_motion(const SendOptions& options) {
         if (const auto slowed = jobs::feeds_not_reached(job)) {
             fmt::print(stderr, "millwright: {}\n", to_text(*slowed));
         }
-        if (options.machine.driver == "stream" || options.machine.driver == "records") {
+        if (kind_of(options) == machine::MachineKind::positioned) {
             say_what_is_by_hand(job);
         }
         return job;
@@ -215,7 +219,7 @@ void add_send_command(CLI::App& app, Command& chosen) {
         command, options->series, "G-code files; with --machine also path files; for a PMAC motion programs");
     command.add_option("--driver", options->machine.driver, "Controller type, or machine to run on")
         ->required()
-        ->check(CLI::IsMember({"grbl", "linuxcnc", "pmac", "stream", "records", "cordic", "virtual"}));
+        ->check(CLI::IsMember(machine::driver_names()));
     command
         .add_option("--machine",
                     options->model,

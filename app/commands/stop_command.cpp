@@ -6,7 +6,7 @@
 #include "core/drivers/driver.h"
 #include "core/drivers/grbl/grbl_driver.h"
 #include "core/jobs/position_memory.h"
-#include "core/machine/make_driver.h"
+#include "core/machine/drivers_by_name.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -22,7 +22,6 @@ namespace {
 
 struct StopOptions {
     machine::DriverChoice machine;
-    std::string driver;
     std::string log = SeriesChoice().log;
     bool emergency = false;
 };
@@ -67,7 +66,7 @@ void refuse_reset_by_opening(drivers::Driver& driver, jobs::PositionMemory& memo
 int stop_machine(const StopOptions& options) {
     const Interrupt interrupt(Suspending::refused);
     SteadyClock clock;
-    jobs::PositionMemory memory(options.log, options.driver + " " + options.machine.address);
+    jobs::PositionMemory memory(options.log, options.machine.driver + " " + options.machine.address);
     const auto driver = machine::make_driver(options.machine, {}, clock);
     driver->connect();
     memory.remind(*driver);
@@ -98,10 +97,12 @@ int stop_machine(const StopOptions& options) {
 
 void add_stop_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<StopOptions>();
+    options->machine.driver.clear(); // there is no usual one
     CLI::App& command = *app.add_subcommand("stop", "Stop a machine that no running Millwright controls");
-    command.add_option("--driver", options->driver, "Controller type")
+    command.add_option("--driver", options->machine.driver, "Controller type")
         ->required()
-        ->check(CLI::IsMember({"grbl", "linuxcnc"}));
+        ->check(CLI::IsMember(machine::driver_names(
+            [](const machine::DriverRow& row) { return row.kind == machine::MachineKind::controlled; })));
     command.add_option("--port", options->machine.address, "Serial port, or tcp:HOST:PORT")
         ->type_name("PORT")
         ->required();
@@ -112,10 +113,7 @@ void add_stop_command(CLI::App& app, Command& chosen) {
         ->type_name("DIR")
         ->capture_default_str();
     command.add_flag("--emergency", options->emergency, "Stop immediately, even if the position is lost");
-    command.callback([&chosen, options] {
-        options->machine.kind = machine::driver_kind(options->driver);
-        chosen = [options] { return stop_machine(*options); };
-    });
+    command.callback([&chosen, options] { chosen = [options] { return stop_machine(*options); }; });
 }
 
 } // namespace millwright::app

@@ -3,8 +3,8 @@
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/cordic/arithmetic.h"
-#include "core/cordic/internal/line_words.h"
 #include "core/cordic/internal/move_check.h"
+#include "core/cordic/line_words.h"
 
 #include <fmt/format.h>
 

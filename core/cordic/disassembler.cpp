@@ -3,7 +3,7 @@
 #include "core/base/text.h"
 #include "core/cordic/arithmetic.h"
 #include "core/cordic/instruction.h"
-#include "core/cordic/internal/line_words.h"
+#include "core/cordic/line_words.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/cordic/instruction.h"
-#include "core/cordic/internal/line_words.h"
+#include "core/cordic/line_words.h"
 
 #include <fmt/format.h>
 

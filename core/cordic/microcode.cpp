@@ -1,7 +1,7 @@
 #include "core/cordic/microcode.h"
 
 #include "core/base/text.h"
-#include "core/cordic/internal/line_words.h"
+#include "core/cordic/line_words.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 #include "core/cordic_machine/cordic_program.h"
 #include "core/drivers/driver.h"
 #include "core/drivers/virtual_machine/virtual_machine.h"
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/work_origin.h"
 
 #include <cstdint>
 #include <memory>

@@ -21,12 +21,17 @@ namespace millwright::jobs {
 namespace internal {
 class PathEstimate;
 class Reach;
+class RunningJob;
+struct JobRequest;
 } // namespace internal
 
 class Dispatcher {
 public:
     /// `driver` and `clock` must outlive it. Logs go to `log_folder`.
     Dispatcher(drivers::Driver& driver, Clock& clock, std::filesystem::path log_folder);
+    Dispatcher(const Dispatcher&) = delete;
+    Dispatcher& operator=(const Dispatcher&) = delete;
+    ~Dispatcher();
 
     using Listener = std::function<void(const JobReport&)>;
 
@@ -48,23 +53,26 @@ public:
     void set_optional_stop(bool on);
 
 private:
-    struct Request {
-        LogEvent event = LogEvent::hold;
-        double clock_time = 0.0;
-        drivers::DriverStatus status; ///< when it was made
-        std::string text;             ///< what was wanted
-    };
-    class Watch;
     class Turn;
 
     void request(LogEvent event, std::string text, const std::function<void()>& command);
+    void expect_rest(const drivers::DriverStatus& before) const;
+    void expect_fit(const Job& job, const drivers::Capabilities& able) const;
+    [[nodiscard]] LogStart start_of(const Job& job,
+                                    const motion::Trajectory* trajectory,
+                                    const drivers::Capabilities& able,
+                                    const drivers::DriverStatus& before) const;
+    JobOutcome to_the_end(internal::RunningJob& running,
+                          drivers::Work work,
+                          const Progress& progress,
+                          const Listener& listener);
     [[nodiscard]] internal::Reach check(const Job& job,
                                         const drivers::Capabilities& able,
                                         const drivers::DriverStatus& before,
                                         internal::PathEstimate& estimate,
                                         std::optional<drivers::ToolChanges>& changes) const;
     void check_position(const Job& job, const drivers::DriverStatus& status) const;
-    [[nodiscard]] std::vector<Request> take_requests();
+    [[nodiscard]] std::vector<internal::JobRequest> take_requests();
     void bring_to_rest() noexcept;
 
     drivers::Driver& driver_;
@@ -72,7 +80,7 @@ private:
     std::filesystem::path log_folder_;
     std::mutex mutex_; ///< guards what follows
     bool running_ = false;
-    std::vector<Request> requests_;
+    std::vector<internal::JobRequest> requests_;
 };
 
 } // namespace millwright::jobs

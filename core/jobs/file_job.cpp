@@ -1,7 +1,7 @@
 #include "core/jobs/file_job.h"
 
 #include "core/base/files.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/jobs/internal/planned_text.h"
 #include "core/plot/path_file.h"
 #include "core/plot/plot_program.h"

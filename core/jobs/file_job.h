@@ -1,7 +1,7 @@
 // Files as jobs of a machine that is moved position by position: G-code, and path files.
 #pragma once
 
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/work_origin.h"
 #include "core/jobs/job.h"
 
 #include <filesystem>

@@ -2,9 +2,9 @@
 
 #include "core/base/units.h"
 #include "core/gcode/axes.h"
-#include "core/gcode/machine_program.h"
 #include "core/gcode/program_text.h"
 #include "core/gcode/word_column.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/jobs/internal/planned_text.h"
 #include "core/kinematics/travel.h"
 

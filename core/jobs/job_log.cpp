@@ -77,6 +77,23 @@ constexpr std::string_view blocks_key(bool answers) {
     return answers ? "executed_blocks" : "sent_blocks";
 }
 
+std::vector<program::ProgramAxis> axes_from(const JsonValue& value) {
+    std::vector<program::ProgramAxis> axes;
+    for (const JsonValue& axis : value.items()) {
+        const std::string letter = axis.at("letter").text();
+        const std::string unit = axis.at("unit").text();
+        if (letter.size() != 1 || (unit != "mm" && unit != "deg")) {
+            axis.fail("expected one letter with mm or deg as its unit");
+        }
+        axes.push_back({letter.front(), unit == "deg" ? AxisKind::rotary : AxisKind::linear});
+    }
+    constexpr std::size_t most_axes = 9;
+    if (axes.size() > most_axes) {
+        value.fail("more than nine axes");
+    }
+    return axes;
+}
+
 LogStart start_from(const JsonValue& value) {
     value.expect_only({"record",
                        "format",
@@ -107,18 +124,7 @@ LogStart start_from(const JsonValue& value) {
     start.driver = value.at("driver").text();
     start.program_hash = value.at("program_hash").text();
     start.started_at = value.at("started_at").text();
-    for (const JsonValue& axis : value.at("axes").items()) {
-        const std::string letter = axis.at("letter").text();
-        const std::string unit = axis.at("unit").text();
-        if (letter.size() != 1 || (unit != "mm" && unit != "deg")) {
-            axis.fail("expected one letter with mm or deg as its unit");
-        }
-        start.axes.push_back({letter.front(), unit == "deg" ? AxisKind::rotary : AxisKind::linear});
-    }
-    constexpr std::size_t most_axes = 9;
-    if (start.axes.size() > most_axes) {
-        value.at("axes").fail("more than nine axes");
-    }
+    start.axes = axes_from(value.at("axes"));
     start.blocks = value.at("blocks").integer(0);
     start.planned_time = value.at("planned_time_s").number(0.0);
     if (const auto address = value.find("address")) {

@@ -54,6 +54,19 @@ void check(const MachineDescription& machine, const MachineBody& body) {
     }
 }
 
+void check_tool_and_origins(const MachineDescription& machine) {
+    if (!is_unit(machine.tool_axis)) {
+        refuse(machine, "the tool axis is not a unit vector");
+    }
+    if (machine.tool_length && !(*machine.tool_length >= 0.0)) {
+        refuse(machine, "the tool length is negative");
+    }
+    if (!is_finite(machine.table_origin) || !is_finite(machine.workpiece_offset) ||
+        !is_finite(machine.tool_tip)) {
+        refuse(machine, "a number is not finite");
+    }
+}
+
 int place(char letter) {
     return static_cast<int>(machine_axis_letters.find(letter));
 }
@@ -109,16 +122,7 @@ MachineModel::MachineModel(MachineDescription description) : description_(std::m
         axis(rotary_axes_[0]).direction.cross(axis(rotary_axes_[1]).direction).norm() < flat) {
         refuse(description_, "the rotary axes are parallel");
     }
-    if (!is_unit(description_.tool_axis)) {
-        refuse(description_, "the tool axis is not a unit vector");
-    }
-    if (description_.tool_length && !(*description_.tool_length >= 0.0)) {
-        refuse(description_, "the tool length is negative");
-    }
-    if (!is_finite(description_.table_origin) || !is_finite(description_.workpiece_offset) ||
-        !is_finite(description_.tool_tip)) {
-        refuse(description_, "a number is not finite");
-    }
+    check_tool_and_origins(description_);
     for (const MachineBody& body : description_.bodies) {
         check(description_, body);
         if (body.carried_by != '\0' && axis_index(body.carried_by) < 0) {

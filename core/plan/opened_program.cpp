@@ -1,8 +1,8 @@
 #include "core/plan/opened_program.h"
 
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
 #include "core/gcode/preview.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/jobs/job.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/gcode/cut_program.h"
+#include "core/gcode_programs/cut_program.h"
 #include "core/kinematics/machine_file.h"
 #include "core/plan/internal/failure.h"
 #include "core/plan/internal/plot_view.h"

@@ -267,6 +267,14 @@ void check_parts(const JsonValue& root, const PostFormat& post) {
     }
 }
 
+std::string extension_of(const JsonValue& value) {
+    std::string extension = text_of(value);
+    if (extension.empty() || extension.find_first_of("./ ") != std::string::npos) {
+        value.fail("the extension must be a word without a dot");
+    }
+    return extension;
+}
+
 PostFormat post_of(const JsonValue& root) {
     expect_format(root, "millwright-post", "a post file");
     root.expect_only({"format",
@@ -292,10 +300,7 @@ PostFormat post_of(const JsonValue& root) {
     PostFormat post;
     post.name = text_of(root.at("name"));
     post.source = root.at("source").text();
-    post.extension = text_of(root.at("extension"));
-    if (post.extension.empty() || post.extension.find_first_of("./ ") != std::string::npos) {
-        root.at("extension").fail("the extension must be a word without a dot");
-    }
+    post.extension = extension_of(root.at("extension"));
     post.reader = choice<TextReader>(root.at("reader"),
                                      {{"linuxcnc", TextReader::linuxcnc},
                                       {"grbl", TextReader::grbl},

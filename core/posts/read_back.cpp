@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/gcode/klartext.h"
-#include "core/gcode/written_steps.h"
+#include "core/gcode_programs/klartext.h"
+#include "core/gcode_programs/written_steps.h"
 #include "core/posts/arc_deviation.h"
 
 #include <fmt/format.h>

@@ -79,12 +79,13 @@ struct TriedWith {
     std::string_view module, later;
 };
 constexpr std::array tried_with = {
-    TriedWith{"millwright::motion", "millwright::gcode"}, // programs that are read
-    TriedWith{"millwright::drivers", "millwright::jobs"}, // what they are sent
+    TriedWith{"millwright::motion", "millwright::gcode_programs"}, // programs that are read
+    TriedWith{"millwright::drivers", "millwright::jobs"},          // what they are sent
     TriedWith{"millwright::drivers", "millwright::emulators"},
     TriedWith{"millwright::jobs", "millwright::emulators"},
     TriedWith{"millwright::emulators", "millwright::posts"}, // programs that are written
     TriedWith{"millwright::cordic_machine", "millwright::jobs"},
+    TriedWith{"millwright::pmac_service", "millwright::pmac"}, // a card to be set up
 };
 
 bool is_tried_with(std::string_view module, std::string_view later) {

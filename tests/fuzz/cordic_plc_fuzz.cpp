@@ -1,7 +1,7 @@
 // Any logic assembles or is told wrong, and what assembles runs beside the processor to a defined end.
 #include "core/cordic/assembler.h"
-#include "core/cordic/plc_assembler.h"
-#include "core/cordic/supervised_run.h"
+#include "core/cordic_control/plc_assembler.h"
+#include "core/cordic_control/supervised_run.h"
 
 #include <cstddef>
 #include <cstdint>

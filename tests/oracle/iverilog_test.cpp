@@ -1,4 +1,4 @@
-#include "core/cordic/processor_rtl.h"
+#include "core/cordic_rtl/processor_rtl.h"
 #include "tests/support/oracle.h"
 #include "tests/support/scratch_folder.h"
 

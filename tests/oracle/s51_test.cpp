@@ -1,7 +1,7 @@
 // The MCS-51 of the comparison beside SDCC's simulator: the program that ships, compiled by SDCC, line by
 // line with the same clocks and the same results.
 #include "core/base/files.h"
-#include "core/cordic/mcs51_line.h"
+#include "core/cordic_control/mcs51_line.h"
 #include "tests/support/oracle.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,5 +1,5 @@
 // The processor's Verilog through synthesis: what a simulation does not see.
-#include "core/cordic/processor_rtl.h"
+#include "core/cordic_rtl/processor_rtl.h"
 #include "tests/support/oracle.h"
 #include "tests/support/scratch_folder.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -206,9 +206,7 @@ template <FileQuestion question> void ask_for_arm_file(Hands& hands) {
     hands.session.question = question;
 }
 
-} // namespace
-
-void add_arm_teach_actions(Actions& actions) {
+void add_arm_points(Actions& actions) {
     constexpr std::string_view menu = "Arm";
     add(actions,
         {"arm.teach", menu, "Teach this point", "Stores the present pose of the arm.", "Ctrl+T", icons::add},
@@ -233,6 +231,10 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.save_points", menu, "Save points", "Saves it to a separate file.", "", icons::save},
         in_workspace,
         ask_for_arm_file<FileQuestion::save_points>);
+}
+
+void add_arm_programs(Actions& actions) {
+    constexpr std::string_view menu = "Arm";
     add(actions,
         {"arm.simulate",
          menu,
@@ -269,6 +271,10 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.save_program", menu, "Save the program", "As a file of its own.", "", icons::save},
         in_workspace,
         ask_for_arm_file<FileQuestion::save_motion_program>);
+}
+
+void add_motion_files(Actions& actions) {
+    constexpr std::string_view menu = "Arm";
     add(actions,
         {"arm.play_file",
          menu,
@@ -324,6 +330,10 @@ void add_arm_teach_actions(Actions& actions) {
         {"arm.save_motion", menu, "Save the motion file", "As a file of its own.", "", icons::save},
         in_workspace,
         ask_for_arm_file<FileQuestion::save_motion_file>);
+}
+
+void add_arm_sending(Actions& actions) {
+    constexpr std::string_view menu = "Arm";
     add(actions,
         {"arm.card_settings",
          menu,
@@ -343,6 +353,15 @@ void add_arm_teach_actions(Actions& actions) {
          icons::toolpath},
         can_send_path,
         [](Hands& hands) { hands.workshop.arm().want_path_motion(hands.now.arm_connected()); });
+}
+
+} // namespace
+
+void add_arm_teach_actions(Actions& actions) {
+    add_arm_points(actions);
+    add_arm_programs(actions);
+    add_motion_files(actions);
+    add_arm_sending(actions);
 }
 
 } // namespace millwright::actions

@@ -14,7 +14,7 @@ Permission at_rest(const ControllerView& machine) {
     }
     const DriverState state = machine.status.state;
     if (state == DriverState::alarm) {
-        return Permission::refused(machine.choice.kind == machine::DriverKind::pmac
+        return Permission::refused(machine.row().kind == machine::MachineKind::arm
                                        ? "Alarm: inspect the arm, then unlock it."
                                    : machine.can.home ? "Alarm: home or unlock first."
                                                       : "Alarm: inspect the machine, then unlock it.");
@@ -36,7 +36,7 @@ Permission seen(const Workbench& now) {
 namespace {
 
 bool reaches_arm(const ControllerView& machine) {
-    return machine.connected() && machine.choice.kind == machine::DriverKind::pmac &&
+    return machine.connected() && machine.row().kind == machine::MachineKind::arm &&
            !machine.status.link_lost;
 }
 

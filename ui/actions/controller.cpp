@@ -152,7 +152,7 @@ void Controller::tell_in_background(std::function<void(drivers::Driver&)> what) 
 
 void Controller::try_connect(const machine::DriverChoice& choice, const machine::MovedAxes& axes) {
     std::shared_ptr<drivers::Driver> made;
-    jobs::PositionMemory memory(folder_, std::string(to_text(choice.kind)) + " " + choice.address);
+    jobs::PositionMemory memory(folder_, choice.driver + " " + choice.address);
     std::optional<Diagnostic> failure;
     try {
         made = machine::make_driver(choice, axes, clock_);

@@ -7,7 +7,7 @@
 #include "core/drivers/console.h"
 #include "core/drivers/driver.h"
 #include "core/jobs/position_memory.h"
-#include "core/machine/make_driver.h"
+#include "core/machine/drivers_by_name.h"
 
 #include <condition_variable>
 #include <deque>
@@ -40,6 +40,8 @@ struct ControllerView {
     std::vector<std::string> remarks{}; ///< Driver::remarks()
 
     [[nodiscard]] bool connected() const { return link == LinkState::connected; }
+    /// What its driver brings along.
+    [[nodiscard]] const machine::DriverRow& row() const { return machine::driver_row(choice.driver); }
 };
 
 /// What the connected machine refuses, or says of itself: told as long as it is in that state.

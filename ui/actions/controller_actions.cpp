@@ -71,11 +71,9 @@ Permission can_home(const Workbench& now) {
         return Permission::refused("The link is lost: reconnect first.");
     }
     const DriverState state = now.controller.status.state;
-    if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::linuxcnc) {
-        return Permission::refused("LinuxCNC homes after it is switched on: unlock it first.");
-    }
-    if (state == DriverState::alarm && now.controller.choice.kind == machine::DriverKind::pmac) {
-        return Permission::refused("Alarm: inspect the arm, then unlock it.");
+    const std::string_view unlock_first = now.controller.row().why_no_home_in_alarm;
+    if (state == DriverState::alarm && !unlock_first.empty()) {
+        return Permission::refused(std::string(unlock_first));
     }
     if (!now.controller.status.powered) {
         return Permission::refused("The motors have no power.");
@@ -115,9 +113,7 @@ Permission can_arm(const Workbench& now) {
     return now.controller.can.jog ? Permission{} : Permission::refused("This machine cannot jog.");
 }
 
-} // namespace
-
-void add_controller_actions(Actions& actions) {
+void add_links(Actions& actions) {
     add(actions,
         {"machine.connect",
          "Machine",
@@ -145,6 +141,9 @@ void add_controller_actions(Actions& actions) {
          icons::plug},
         can_reconnect,
         [](Hands& hands) { hands.workshop.controller().reconnect(); });
+}
+
+void add_readiness(Actions& actions) {
     add(actions,
         {"machine.reset",
          "Machine",
@@ -176,6 +175,9 @@ void add_controller_actions(Actions& actions) {
         [](Hands& hands) {
             hands.workshop.controller().tell([](drivers::Driver& driver) { driver.home(); });
         });
+}
+
+void add_hand_control(Actions& actions) {
     add(
         actions,
         {"machine.single_block",
@@ -219,6 +221,14 @@ void add_controller_actions(Actions& actions) {
         can_arm,
         [](Hands& hands) { hands.session.hand.pad_armed = !hands.session.hand.pad_armed; },
         [](const Workbench& now) { return now.session.hand.pad_armed; });
+}
+
+} // namespace
+
+void add_controller_actions(Actions& actions) {
+    add_links(actions);
+    add_readiness(actions);
+    add_hand_control(actions);
 }
 
 } // namespace millwright::actions

@@ -68,9 +68,7 @@ Permission can_continue(const Workbench& now) {
                : Permission::refused("Its program file no longer exists.");
 }
 
-} // namespace
-
-void add_dialog_actions(Actions& actions) {
+void add_file_answers(Actions& actions) {
     add(actions,
         {"unsaved.save", dialog_menu, "Save", "Saves the changes and continues.", "", ""},
         is_leaving,
@@ -104,6 +102,9 @@ void add_dialog_actions(Actions& actions) {
         {"replace.cancel", dialog_menu, "Cancel", "Nothing changes.", "", ""},
         is_replacing,
         [](Hands& hands) { hands.workshop.keep_file(); });
+}
+
+void add_gouge_answers(Actions& actions) {
     add(actions,
         {"gouges.write",
          dialog_menu,
@@ -151,6 +152,9 @@ void add_dialog_actions(Actions& actions) {
             }
             hands.workshop.quit();
         });
+}
+
+void add_recovery_answers(Actions& actions) {
     add(actions,
         {"recovery.recover",
          dialog_menu,
@@ -186,6 +190,14 @@ void add_dialog_actions(Actions& actions) {
         {"broken_job.later", dialog_menu, "Later", "Asks again at the next start.", "", ""},
         has_broken_job,
         [](Hands& hands) { hands.workshop.job_recovery().later(); });
+}
+
+} // namespace
+
+void add_dialog_actions(Actions& actions) {
+    add_file_answers(actions);
+    add_gouge_answers(actions);
+    add_recovery_answers(actions);
 }
 
 } // namespace millwright::actions

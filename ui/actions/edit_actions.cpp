@@ -115,9 +115,7 @@ void join(Hands& hands, geometry::Continuity continuity) {
                      open_text(joined, gap_mm)));
 }
 
-} // namespace
-
-void add_edit_actions(Actions& actions) {
+void add_history(Actions& actions) {
     add(
         actions,
         {"edit.undo", "Edit", "Undo", "Reverts the last change of the project.", "Ctrl+Z", icons::undo},
@@ -138,6 +136,9 @@ void add_edit_actions(Actions& actions) {
             return now.redo_title.empty() ? Permission::refused("There is nothing to redo.") : Permission{};
         },
         [](Hands& hands) { hands.history.redo(); });
+}
+
+void add_selection(Actions& actions) {
     add(actions,
         {"edit.select_all",
          "Edit",
@@ -151,6 +152,9 @@ void add_edit_actions(Actions& actions) {
         {"edit.select_none", "Edit", "Deselect all", "Clears the selection.", "Esc", ""},
         has_selection,
         [](Hands& hands) { hands.session.selected.clear(); });
+}
+
+void add_joining(Actions& actions) {
     add(actions,
         {"edit.smooth",
          "Edit",
@@ -178,6 +182,14 @@ void add_edit_actions(Actions& actions) {
          ""},
         has_patches,
         [](Hands& hands) { join(hands, geometry::Continuity::tangent); });
+}
+
+} // namespace
+
+void add_edit_actions(Actions& actions) {
+    add_history(actions);
+    add_selection(actions);
+    add_joining(actions);
 }
 
 } // namespace millwright::actions

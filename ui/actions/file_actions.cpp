@@ -37,9 +37,7 @@ Permission can_change_file(const Workbench& now) {
     return now.job.running ? Permission::refused("A job is running.") : Permission{};
 }
 
-} // namespace
-
-void add_file_actions(Actions& actions) {
+void add_project_files(Actions& actions) {
     add(actions,
         {"file.new",
          "File",
@@ -75,6 +73,9 @@ void add_file_actions(Actions& actions) {
         {"file.save_as", "File", "Save as ...", "Saves the project to another file.", "Ctrl+Shift+S", ""},
         always,
         [](Hands& hands) { ask_for(hands, FileQuestion::save_as); });
+}
+
+void add_program_files(Actions& actions) {
     add(actions,
         {"file.write_program",
          "File",
@@ -102,6 +103,13 @@ void add_file_actions(Actions& actions) {
          ""},
         can_change_file,
         [](Hands& hands) { hands.workshop.close_file(); });
+}
+
+} // namespace
+
+void add_file_actions(Actions& actions) {
+    add_project_files(actions);
+    add_program_files(actions);
 }
 
 void add_quit_action(Actions& actions) {

@@ -137,9 +137,7 @@ void add_strategy_actions(Actions& actions) {
     add_use<StrategyInput::fewest_points>(actions, "path.fewest_points");
 }
 
-} // namespace
-
-void add_grid_actions(Actions& actions) {
+void add_making(Actions& actions) {
     add(actions,
         {"grid.adapt",
          "Grid",
@@ -185,6 +183,9 @@ void add_grid_actions(Actions& actions) {
          icons::play},
         has_surface,
         start_adaptation<GridMethod::redistribution>);
+}
+
+void add_watched_adaptation(Actions& actions) {
     add(actions,
         {"grid.play", "Grid", "Play the adaptation", "Runs the adaptation continuously.", "", icons::play},
         can_adapt_further,
@@ -211,6 +212,9 @@ void add_grid_actions(Actions& actions) {
          icons::reset},
         is_watched,
         [](Hands& hands) { hands.pipeline.reset_adaptation(); });
+}
+
+void add_grid_choice(Actions& actions) {
     add(actions,
         {"grid.use_uniform",
          "Grid",
@@ -241,6 +245,9 @@ void add_grid_actions(Actions& actions) {
         always,
         choose<GridMethod::elliptic>,
         is_chosen<GridMethod::elliptic>);
+}
+
+void add_choice_of_tracks(Actions& actions) {
     add(actions,
         {"grid.use_harmonic",
          "Grid",
@@ -271,8 +278,9 @@ void add_grid_actions(Actions& actions) {
         always,
         choose<GridMethod::chain>,
         is_chosen<GridMethod::chain>);
-    add_strategy_actions(actions);
-    add_tool_actions(actions);
+}
+
+void add_cancel(Actions& actions) {
     add(
         actions,
         {"work.cancel",
@@ -287,6 +295,18 @@ void add_grid_actions(Actions& actions) {
                                            : Permission{};
         },
         [](Hands& hands) { hands.workshop.cancel_work(); });
+}
+
+} // namespace
+
+void add_grid_actions(Actions& actions) {
+    add_making(actions);
+    add_watched_adaptation(actions);
+    add_grid_choice(actions);
+    add_choice_of_tracks(actions);
+    add_strategy_actions(actions);
+    add_tool_actions(actions);
+    add_cancel(actions);
 }
 
 } // namespace millwright::actions

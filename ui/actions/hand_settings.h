@@ -4,10 +4,10 @@
 #include "ui/actions/controller.h"
 #include "ui/actions/tool_changes.h"
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::actions {
@@ -17,9 +17,8 @@ enum class ArmFrame : std::uint8_t { joints, base, tool };
 
 struct HandSettings {
     machine::DriverChoice choice;
-    /// Of the other kinds, by DriverKind: each keeps its own.
-    std::array<std::string, 7> addresses{"", "", "tcp:127.0.0.1:5007", "", "", "", "tcp:127.0.0.1:1025"};
-    double step = 0.0; ///< mm or deg of one press; 0: as long as it is held
+    std::map<std::string, std::string> addresses; ///< of the other drivers, by name, where one was given
+    double step = 0.0;                            ///< mm or deg of one press; 0: as long as it is held
     double speed_mm_per_min = 1000.0;
     double turn_deg_per_min = 720.0;
     bool keys_armed = false; ///< arrow and page keys move the machine
@@ -42,5 +41,11 @@ struct HandSettings {
 
     friend bool operator==(const HandSettings&, const HandSettings&) = default;
 };
+
+/// Of the driver of that name: what a person gave, else the usual one.
+[[nodiscard]] std::string address_for(const HandSettings& hand, std::string_view driver);
+
+/// Each driver keeps its own address.
+void choose_driver(HandSettings& hand, std::string_view driver);
 
 } // namespace millwright::actions

@@ -106,7 +106,7 @@ Permission program_ready(const Workbench& now) {
             return {};
         }
         const bool real =
-            now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
+            now.controller.connected() && now.controller.choice.driver != machine::virtual_driver;
         if (real && !now.opened->unplaced.empty()) { // it has no work offsets of its own
             return Permission::refused(to_text(now.opened->unplaced.front()));
         }

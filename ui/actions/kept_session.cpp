@@ -18,7 +18,6 @@ namespace millwright::actions {
 
 namespace {
 
-using machine::DriverKind;
 using project::WindowSettings;
 
 /// One value: how it is written, and how it is read. False if the text cannot be right.
@@ -130,18 +129,12 @@ void add_window(std::vector<KeptValue>& values) {
                       }});
 }
 
-/// Of kind `n`: that of the chosen one is in the choice itself.
-KeptValue kept_address(int n) {
-    const auto kind = static_cast<DriverKind>(n);
-    const auto index = static_cast<std::size_t>(n);
-    return {fmt::format("address.{}", to_text(kind)),
-            [kind, index](const Session& session) {
-                return session.hand.choice.kind == kind ? session.hand.choice.address
-                                                        : session.hand.addresses[index];
-            },
-            [kind, index](Session& session, const std::string& text) {
-                session.hand.addresses[index] = text;
-                if (session.hand.choice.kind == kind) {
+KeptValue kept_address(std::string_view driver) {
+    return {fmt::format("address.{}", driver),
+            [driver](const Session& session) { return address_for(session.hand, driver); },
+            [driver](Session& session, const std::string& text) {
+                session.hand.addresses[std::string(driver)] = text;
+                if (session.hand.choice.driver == driver) {
                     session.hand.choice.address = text;
                 }
                 return true;
@@ -189,17 +182,17 @@ void add_records(std::vector<KeptValue>& values) {
 
 void add_machine(std::vector<KeptValue>& values) {
     values.push_back({"driver",
-                      [](const Session& session) { return std::string(to_text(session.hand.choice.kind)); },
+                      [](const Session& session) { return session.hand.choice.driver; },
                       [](Session& session, const std::string& text) {
                           try {
-                              session.hand.choice.kind = machine::driver_kind(text);
+                              session.hand.choice.driver = machine::driver_row(text).name;
                               return true;
                           } catch (const Error&) {
                               return false;
                           }
                       }});
-    for (int n = 0; n < std::ssize(HandSettings().addresses); ++n) {
-        values.push_back(kept_address(n));
+    for (const machine::DriverRow& row : machine::driver_rows()) {
+        values.push_back(kept_address(row.name));
     }
     values.push_back(kept_text(
         "machine.axes", [](auto& session) -> auto& { return session.hand.choice.axes; }));

@@ -65,9 +65,7 @@ Permission position_ready(const Workbench& now, int from_line) {
 
 /// Those inside this program are run without a question.
 bool moves_a_machine(const Workbench& now) {
-    const machine::DriverKind kind = now.controller.choice.kind;
-    return now.controller.connected() && kind != machine::DriverKind::virtual_machine &&
-           kind != machine::DriverKind::cordic;
+    return now.controller.connected() && now.controller.row().kind != machine::MachineKind::simulated;
 }
 
 Permission nothing_asked(const Workbench& now) {
@@ -404,7 +402,9 @@ void add_queue_actions(Actions& actions) {
         [](Hands& hands) { hands.workshop.queue().open().remove_done(); });
 }
 
-void add_machine_actions(Actions& actions) {
+namespace {
+
+void add_start(Actions& actions) {
     add(actions,
         {"machine.run",
          "Machine",
@@ -439,6 +439,9 @@ void add_machine_actions(Actions& actions) {
         can_trace,
         trace_box);
     add(actions, {"start.cancel", dialog_menu, "Cancel", "Nothing moves.", "", ""}, always, leave_start);
+}
+
+void add_running_job(Actions& actions) {
     add(actions,
         {"machine.hold",
          "Machine",
@@ -465,6 +468,13 @@ void add_machine_actions(Actions& actions) {
         {"machine.emergency_stop", "Machine", "Emergency stop", "Stops immediately.", "F8", icons::danger},
         can_stop_at_once,
         stop_at_once);
+}
+
+} // namespace
+
+void add_machine_actions(Actions& actions) {
+    add_start(actions);
+    add_running_job(actions);
 }
 
 } // namespace millwright::actions

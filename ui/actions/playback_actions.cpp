@@ -101,9 +101,7 @@ void jump(Hands& hands, double time) {
     hands.session.file.step.reset();
 }
 
-} // namespace
-
-void add_playback_actions(Actions& actions) {
+void add_play(Actions& actions) {
     add(actions,
         {"play.toggle",
          "Step-through",
@@ -155,6 +153,9 @@ void add_playback_actions(Actions& actions) {
          icons::skip_last},
         can_play_program,
         [](Hands& hands) { jump(hands, hands.now.duration()); });
+}
+
+void add_lines_and_search(Actions& actions) {
     add(actions,
         {"play.line_forward",
          "Step-through",
@@ -200,6 +201,13 @@ void add_playback_actions(Actions& actions) {
          icons::search},
         has_text,
         [](Hands& hands) { hands.session.file.find_next = -1; });
+}
+
+} // namespace
+
+void add_playback_actions(Actions& actions) {
+    add_play(actions);
+    add_lines_and_search(actions);
 }
 
 } // namespace millwright::actions

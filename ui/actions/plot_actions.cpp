@@ -62,9 +62,7 @@ template <render::StandardView side> void look(Hands& hands) {
     hands.session.side_wanted = side;
 }
 
-} // namespace
-
-void add_plot_actions(Actions& actions) {
+void add_plot_views(Actions& actions) {
     constexpr std::string_view menu = "Plot";
     add(actions,
         {"plot.flat", menu, "Top view", "Shows the drawing as it lies on the table.", "", ""},
@@ -99,6 +97,10 @@ void add_plot_actions(Actions& actions) {
         },
         [](Hands& hands) { hands.session.picture_shown = !hands.session.picture_shown; },
         [](const Workbench& now) { return now.session.picture_shown; });
+}
+
+void add_plot_files(Actions& actions) {
+    constexpr std::string_view menu = "Plot";
     add(actions,
         {"plot.write_program",
          menu,
@@ -138,6 +140,10 @@ void add_plot_actions(Actions& actions) {
          icons::machine},
         can_send_plot,
         [](Hands& hands) { hands.workshop.write_plot(true); });
+}
+
+void add_plot_table(Actions& actions) {
+    constexpr std::string_view menu = "Plot";
     add(actions,
         {"plot.play_table",
          menu,
@@ -172,6 +178,14 @@ void add_plot_actions(Actions& actions) {
         {"plot.stop_table", menu, "Stop the table", "Sends no more points.", "", icons::stop},
         is_table_moving,
         [](Hands& hands) { hands.workshop.plot().table().stop(); });
+}
+
+} // namespace
+
+void add_plot_actions(Actions& actions) {
+    add_plot_views(actions);
+    add_plot_files(actions);
+    add_plot_table(actions);
 }
 
 } // namespace millwright::actions

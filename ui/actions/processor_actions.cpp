@@ -152,7 +152,7 @@ void add_steps(Actions& actions) {
         [](Hands& hands) { hands.workshop.processor().pause(); });
 }
 
-void add_texts(Actions& actions) {
+void add_assembler_texts(Actions& actions) {
     constexpr std::string_view menu = "Processor";
     add(actions,
         {"processor.assembler",
@@ -200,6 +200,10 @@ void add_texts(Actions& actions) {
          icons::save},
         can_execute,
         ask_for_processor_file<FileQuestion::save_image>);
+}
+
+void add_microprogram_texts(Actions& actions) {
+    constexpr std::string_view menu = "Processor";
     add(actions,
         {"processor.own_microprogram",
          menu,
@@ -237,6 +241,11 @@ void add_texts(Actions& actions) {
          icons::save},
         has_microprogram,
         ask_for_processor_file<FileQuestion::save_microprogram>);
+}
+
+void add_texts(Actions& actions) {
+    add_assembler_texts(actions);
+    add_microprogram_texts(actions);
 }
 
 } // namespace

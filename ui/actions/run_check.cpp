@@ -41,7 +41,7 @@ bool same_abilities(const drivers::Capabilities& a, const drivers::Capabilities&
 }
 
 bool same_machine(const ControllerView& a, const ControllerView& b) {
-    return a.link == b.link && a.choice.kind == b.choice.kind && a.axes == b.axes &&
+    return a.link == b.link && a.choice.driver == b.choice.driver && a.axes == b.axes &&
            a.status.modes == b.status.modes && a.status.tool == b.status.tool &&
            a.status.position_doubt == b.status.position_doubt &&
            a.status.position_lost == b.status.position_lost && same_abilities(a.can, b.can) &&

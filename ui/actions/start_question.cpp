@@ -11,7 +11,7 @@ StartWish start_wish(jobs::Job job, std::optional<jobs::QueuedJobId> queued, con
     StartWish wish;
     wish.job = std::make_shared<const jobs::Job>(std::move(job));
     wish.queued = queued;
-    wish.machine = (machine.firmware.empty() ? std::string(to_text(machine.choice.kind)) : machine.firmware) +
+    wish.machine = (machine.firmware.empty() ? machine.choice.driver : machine.firmware) +
                    (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
     wish.survey.dialect = machine.can.dialect.value_or(gcode::Dialect::linuxcnc);
     wish.survey.axes = machine.axes;

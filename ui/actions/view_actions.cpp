@@ -109,10 +109,7 @@ void keep_result(Hands& hands) {
     hands.session.beside = {{}, true};
 }
 
-} // namespace
-
-void add_view_actions(Actions& actions) {
-    using project::GridMethod;
+void add_workspaces(Actions& actions) {
     add(actions,
         {"view.design", "View", "Design", "Control points and surface.", "F2", ""},
         always,
@@ -158,6 +155,10 @@ void add_view_actions(Actions& actions) {
         always,
         show_workspace<Workspace::arm>,
         is_in<Workspace::arm>);
+}
+
+void add_grids_shown(Actions& actions) {
+    using project::GridMethod;
     add_show<GridMethod::uniform>(
         actions, "view.show_uniform", "Show the uniform grid", "Draws path and error of the uniform grid.");
     add_show<GridMethod::redistribution>(
@@ -178,6 +179,9 @@ void add_view_actions(Actions& actions) {
         "view.show_chain",
         "Show the whole chain's grid",
         "Draws path and error of the best grid, once it has been chosen for the program.");
+}
+
+void add_shown(Actions& actions) {
     add(
         actions,
         {"view.show_path",
@@ -210,6 +214,9 @@ void add_view_actions(Actions& actions) {
         always,
         [](Hands& hands) { hands.session.fit_wanted_in(hands.session.workspace) = true; });
     add_sides(actions);
+}
+
+void add_panes_shown(Actions& actions) {
     add(
         actions,
         {"view.four", "View", "Four views", "Top, front, right and free view side by side.", "Ctrl+4", ""},
@@ -231,6 +238,9 @@ void add_view_actions(Actions& actions) {
         always,
         toggle_pane<&PaneSizes::lower_shown>,
         has_pane<&PaneSizes::lower_shown>);
+}
+
+void add_window(Actions& actions) {
     add(
         actions,
         {"view.theme",
@@ -263,6 +273,16 @@ void add_view_actions(Actions& actions) {
          icons::search},
         always,
         [](Hands& hands) { hands.session.search_wanted = true; });
+}
+
+} // namespace
+
+void add_view_actions(Actions& actions) {
+    add_workspaces(actions);
+    add_grids_shown(actions);
+    add_shown(actions);
+    add_panes_shown(actions);
+    add_window(actions);
 }
 
 } // namespace millwright::actions

@@ -4,7 +4,7 @@
 
 #include "core/cordic/endless_watch.h"
 #include "core/cordic/run_report.h"
-#include "core/cordic/sewing.h"
+#include "core/cordic_control/sewing.h"
 #include "ui/actions/latest_work.h"
 
 #include <cstdint>

@@ -73,7 +73,7 @@ struct Workbench {
 
     /// The connected controller moves an arm.
     [[nodiscard]] bool arm_connected() const {
-        return controller.connected() && controller.choice.kind == machine::DriverKind::pmac;
+        return controller.connected() && controller.row().kind == machine::MachineKind::arm;
     }
     /// The opened file is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;

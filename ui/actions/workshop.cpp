@@ -232,13 +232,14 @@ void Workshop::connect() {
     HandSettings& hand = session_.hand;
     hand.keys_armed = hand.pad_armed = hand.arm_keys = hand.single_block = false;
     machine::DriverChoice choice = hand.choice;
-    if (choice.kind != machine::DriverKind::records) {
+    if (choice.driver != "records") {
         choice.record.reset(); // of the table alone: a coordinate stream has lines of its own here
     }
     std::shared_ptr<const arm::ArmModel> arm;
-    if (choice.kind == machine::DriverKind::pmac) {
+    if (const machine::DriverRow& row = machine::driver_row(choice.driver);
+        row.kind == machine::MachineKind::arm) {
         if (!arm_->loaded()) {
-            arm_->load("motoman-l3");
+            arm_->load(std::string(row.arm));
         }
         arm = {arm_->look(), &arm_->arm()};
     }

@@ -93,7 +93,7 @@ bool Workshop::follow_arm(double seconds) {
     follow_arm_work();
     const ControllerView controller = controller_->view();
     arm_->card_run().follow(controller.status, seconds);
-    if (controller.connected() && controller.choice.kind == machine::DriverKind::pmac) {
+    if (controller.connected() && controller.row().kind == machine::MachineKind::arm) {
         arm_->follow(controller.status.position, controller.status.position_known);
     }
     return arm_->advance(seconds);

@@ -383,7 +383,7 @@ void Workshop::continue_broken_job() {
     open(file);
     session_.workspace = Workspace::machine;
     if (!controller_->view().connected()) {
-        session_.hand.choice.kind = machine::driver_kind(story.start.driver);
+        session_.hand.choice.driver = machine::driver_row(story.start.driver).name;
         session_.hand.choice.address = story.start.address;
     }
     const bool in_the_middle = jobs::why_not_from_line(story).empty();

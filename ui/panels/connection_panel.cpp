@@ -12,7 +12,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -22,33 +25,21 @@ namespace icons = widgets::icons;
 using actions::LinkState;
 using drivers::DriverState;
 using machine::DriverChoice;
-using machine::DriverKind;
+using machine::DriverField;
+using machine::DriverRow;
 using widgets::Rank;
 
-constexpr std::array<widgets::Option, 7> driver_kind_options{
-    {{"virtual", "Virtual machine", {}, "Simulated machine; no hardware required"},
-     {"grbl", "Grbl", {}, "Grbl 1.1, grblHAL or FluidNC controller on a serial port or TCP address"},
-     {"linuxcnc", "LinuxCNC", {}, "A running LinuxCNC, connected through linuxcncrsh"},
-     {"stream",
-      "Coordinate stream",
-      {},
-      "Machine that receives axis positions at a fixed rate and sends no feedback"},
-     {"cordic",
-      "CORDIC processor",
-      {},
-      "Simulated G-code processor with a simulated machine; X, Y and Z only"},
-     {"records",
-      "Record-based XYZ table",
-      {},
-      "XYZ table that takes one record per move, such as t x y z a s"},
-     {"pmac", "PMAC", {}, "Motor controller card of a robot arm, on a serial port or TCP address"}}};
+std::vector<widgets::Option> driver_options() {
+    std::vector<widgets::Option> options;
+    for (const DriverRow& row : machine::driver_rows()) {
+        options.push_back({row.name, row.label, {}, row.tip});
+    }
+    return options;
+}
 
-std::string kind_text(DriverKind kind) {
-    return kind == DriverKind::virtual_machine ? "virtual machine"
-           : kind == DriverKind::stream        ? "coordinate stream"
-           : kind == DriverKind::records
-               ? "XYZ table"
-               : std::string(driver_kind_options[static_cast<std::size_t>(kind)].label);
+int index_of(const DriverRow& row) {
+    const auto rows = machine::driver_rows();
+    return static_cast<int>(std::ranges::find(rows, row.name, &DriverRow::name) - rows.begin());
 }
 
 /// Changes one thing of what was chosen.
@@ -61,11 +52,8 @@ std::string advice(const Workbench& now) {
     if (now.controller.status.link_lost) {
         return "Inspect the machine, then reconnect. Reconnecting does not move it.";
     }
-    if (now.controller.choice.kind == DriverKind::pmac) {
-        return "Inspect the arm, then unlock it. Unlocking does not enable the motors.";
-    }
-    if (now.controller.choice.kind == DriverKind::linuxcnc) { // which homes once it is switched on
-        return "Inspect the machine and unlock it, then home it unless you are sure the position is correct.";
+    if (const std::string_view of_driver = now.controller.row().in_alarm; !of_driver.empty()) {
+        return std::string(of_driver);
     }
     return now.controller.can.home
                ? "Inspect the machine, then home it - or unlock it if you are sure the position is correct."
@@ -87,10 +75,9 @@ std::string driver_state_text(const drivers::DriverStatus& status) {
     return text;
 }
 
-/// The counts of a degree are those of one arm's drives, whichever arm is drawn.
-void draw_arm_of_card(Ui& ui, const Workbench& now) {
-    constexpr std::string_view own = "motoman-l3";
-    if (now.arm.loaded() && now.arm.name() != own) {
+/// The counts per degree are those of one arm's drives, whichever arm is drawn.
+void draw_note(Ui& ui, const Workbench& now, const DriverRow& row) {
+    if (!row.arm.empty() && now.arm.loaded() && now.arm.name() != row.arm) {
         (void)widgets::banner(ui,
                               "other_arm",
                               {widgets::Severity::warning,
@@ -98,16 +85,51 @@ void draw_arm_of_card(Ui& ui, const Workbench& now) {
                                            "and limits would be those of the displayed arm, '{}'.",
                                            now.arm.arm().name()),
                                {}});
-    } else {
-        ui.note("Drives the joints of a Motoman L-3. Connecting does not move the arm.");
+    } else if (!row.note.empty()) {
+        ui.note(row.note);
     }
 }
+
+/// Draws the field of each kind, and asks for the change that was committed.
+class FieldDrawing {
+public:
+    FieldDrawing(Ui& ui, const DriverChoice& choice, ActionQueue& ask, const DriverField& field)
+        : ui_(ui), choice_(choice), ask_(ask), field_(field) {}
+
+    void operator()(const machine::ToggleField& of) const {
+        change(ui_.toggle(field_.id, field_.label, of.value(choice_), field_.tip), of.set);
+    }
+    void operator()(const machine::TextField& of) const {
+        change(ui_.text_field(field_.id, field_.label, of.value(choice_), field_.tip), of.set);
+    }
+    void operator()(const machine::LineEndField& of) const {
+        change(ending_field(ui_, of.value(choice_)), of.set);
+    }
+    void operator()(const machine::NumberField& of) const {
+        const widgets::FieldInfo info{
+            field_.id, field_.label, of.unit, field_.tip, of.least, of.most, of.usual, of.decimals};
+        change(ui_.number(of.value(choice_), info), of.set);
+    }
+
+private:
+    template <class Value, class Set> void change(const std::optional<Value>& value, Set set) const {
+        if (value) {
+            change_hand_settings(
+                ask_, [value = *value, set](actions::HandSettings& hand) { set(hand.choice, value); });
+        }
+    }
+
+    Ui& ui_;
+    const DriverChoice& choice_;
+    ActionQueue& ask_;
+    const DriverField& field_;
+};
 
 } // namespace
 
 std::string controller_text(const Workbench& now) {
     const actions::ControllerView& machine = now.controller;
-    const std::string name = kind_text(machine.choice.kind) +
+    const std::string name = std::string(machine.row().within_a_text) +
                              (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
     switch (machine.link) {
     case LinkState::none:
@@ -158,96 +180,28 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
         ui.permitted(now.controller.link == LinkState::none
                          ? widgets::Permission{}
                          : widgets::Permission::refused("The machine is being connected."));
-    if (const auto kind = ui.choice("driver", "Driver", static_cast<int>(choice.kind), driver_kind_options)) {
-        change_hand_settings(ask, [kind = *kind](actions::HandSettings& hand) {
-            hand.addresses[static_cast<std::size_t>(hand.choice.kind)] = hand.choice.address;
-            hand.choice.kind = static_cast<DriverKind>(kind);
-            hand.choice.address = hand.addresses[static_cast<std::size_t>(kind)];
-        });
+    const DriverRow& row = machine::driver_row(choice.driver);
+    if (const auto chosen = ui.choice("driver", "Driver", index_of(row), driver_options())) {
+        const std::string_view name = machine::driver_rows()[static_cast<std::size_t>(*chosen)].name;
+        change_hand_settings(ask, [name](actions::HandSettings& hand) { choose_driver(hand, name); });
     }
-    if (choice.kind == DriverKind::virtual_machine || choice.kind == DriverKind::cordic) {
-        return;
+    if (row.address) {
+        draw_address(ui, now, ask);
     }
-    draw_address(ui, now, ask);
-    if (choice.kind == DriverKind::grbl) {
-        if (const auto on = ui.toggle("one_by_one",
-                                      "Send line by line",
-                                      choice.one_by_one,
-                                      "Wait for the response to each line before sending the next. Slower; "
-                                      "for controllers with a small buffer")) {
-            change_hand_settings(ask,
-                                 [on = *on](actions::HandSettings& hand) { hand.choice.one_by_one = on; });
-        }
-    } else if (choice.kind == DriverKind::linuxcnc) {
-        if (const auto axes = ui.text_field(
-                "axes", "Axes", choice.axes, "Axis letters of the machine: XYZ, followed by any of ABC")) {
-            change_hand_settings(ask,
-                                 [axes = *axes](actions::HandSettings& hand) { hand.choice.axes = axes; });
-        }
-    } else if (choice.kind == DriverKind::records) {
-        draw_records(ui, now, ask);
-    } else if (choice.kind == DriverKind::pmac) {
-        if (const auto on = ui.toggle("fifth_axis",
-                                      "Axis 5",
-                                      choice.axes.find('B') != std::string::npos,
-                                      "Motor 5 drives joint 5, on a second row of outputs or simulated in "
-                                      "the card; the card must be configured for it")) {
-            change_hand_settings(
-                ask, [on = *on](actions::HandSettings& hand) { hand.choice.axes = on ? "XYZAB" : "XYZA"; });
-        }
-        draw_arm_of_card(ui, now);
-    } else {
-        const widgets::FieldInfo info{"period", "Period", "ms", "Sample period", 0.5, 1000.0, 10.0, 1};
-        if (const auto ms = ui.number(1e3 * choice.period, info)) {
-            change_hand_settings(ask,
-                                 [ms = *ms](actions::HandSettings& hand) { hand.choice.period = 1e-3 * ms; });
-        }
-        ui.note("This machine sends no feedback. It must be at zero when it is connected.");
+    for (const DriverField& field : row.fields) {
+        std::visit(FieldDrawing(ui, choice, ask, field), field.value);
     }
-}
-
-void ConnectionPanel::draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const drivers::RecordFormat format = now.session.hand.choice.record.value_or(drivers::RecordFormat());
-    const auto change = [&](const std::function<void(drivers::RecordFormat&)>& what) {
-        change_hand_settings(ask, [what](actions::HandSettings& hand) {
-            drivers::RecordFormat changed = hand.choice.record.value_or(drivers::RecordFormat());
-            what(changed);
-            hand.choice.record = changed;
-        });
-    };
-    if (const auto pattern =
-            ui.text_field("record",
-                          "Record",
-                          format.pattern,
-                          "Record format: axis letters in braces, {s} speed, {a} acceleration")) {
-        change([text = *pattern](drivers::RecordFormat& f) { f.pattern = text; });
-    }
-    if (const auto ending = ending_field(ui, format.ending)) {
-        change([bytes = *ending](drivers::RecordFormat& f) { f.ending = bytes; });
-    }
-    if (const auto answer =
-            ui.text_field("answer", "Response", format.answer, "Response to each record; empty: none")) {
-        change([text = *answer](drivers::RecordFormat& f) { f.answer = text; });
-    }
-    if (const auto on =
-            ui.toggle("relative", "Relative", format.relative, "Records contain distances, not positions")) {
-        change([on = *on](drivers::RecordFormat& f) { f.relative = on; });
-    }
-    ui.note("When it is connected, the table must be at the start point of the program, otherwise at zero.");
+    draw_note(ui, now, row);
 }
 
 void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const DriverChoice& choice = now.session.hand.choice;
-    const bool shell = choice.kind == DriverKind::linuxcnc;
-    const std::string_view tip = shell ? "tcp:HOST:PORT of linuxcncrsh; the usual port is 5007"
-                                 : choice.kind == DriverKind::grbl || choice.kind == DriverKind::pmac
-                                     ? "Serial port such as /dev/ttyUSB0, or tcp:HOST:PORT"
-                                     : "Serial port such as /dev/ttyUSB0, tcp:HOST:PORT, or file:PATH";
-    if (const auto address = ui.text_field("address", shell ? "Address" : "Port", choice.address, tip)) {
+    const machine::DriverAddress& of = *machine::driver_row(choice.driver).address;
+    if (const auto address = ui.text_field("address", of.label, choice.address, of.tip)) {
         change_hand_settings(
             ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
     }
-    if (!shell) {
+    if (of.serial) {
         draw_ports(ui, now, ask);
         if (const auto address = serial_fields(ui, choice.address)) {
             change_hand_settings(
@@ -332,8 +286,8 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
 void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const actions::ControllerView& machine = now.controller;
     const DriverChoice& chosen = now.session.hand.choice; // a link that nobody wants any more is not told of
-    const bool is_of_it = machine.link != LinkState::none ||
-                          (machine.choice.kind == chosen.kind && machine.choice.address == chosen.address);
+    const bool is_of_it = machine.link != LinkState::none || (machine.choice.driver == chosen.driver &&
+                                                              machine.choice.address == chosen.address);
     if (machine.failure && is_of_it) {
         const std::string hint = machine.failure->hint.empty() ? "" : " (" + machine.failure->hint + ")";
         (void)widgets::banner(
@@ -343,7 +297,8 @@ void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask)
         action_button(ui, now, ask, catalogue_, "machine.connect", Rank::primary);
         return;
     }
-    ui.value("state", capitalised(kind_text(machine.choice.kind)), driver_state_text(machine.status));
+    ui.value(
+        "state", capitalised(std::string(machine.row().within_a_text)), driver_state_text(machine.status));
     ui.value("position_known", "Position", position_text(machine.status));
     if (!machine.firmware.empty()) {
         ui.value("firmware", "Firmware", machine.firmware);

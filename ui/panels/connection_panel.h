@@ -20,7 +20,6 @@ private:
     [[nodiscard]] static bool warns(const actions::ControllerView& machine);
     [[nodiscard]] static bool has_messages(const actions::ControllerView& machine);
     void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_records(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_address(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask);
     void draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const;

@@ -59,7 +59,7 @@ Permission can_type(const Workbench& now) {
 }
 
 Permission can_send(const Workbench& now) {
-    if (now.controller.choice.kind == machine::DriverKind::pmac && !now.controller.status.link_lost) {
+    if (now.controller.row().kind == machine::MachineKind::arm && !now.controller.status.link_lost) {
         return {}; // it is asked and stopped by lines while it moves, and says itself what has to wait
     }
     const bool busy = now.job.running && !actions::waits_for_tool(now.controller.status);

@@ -75,22 +75,7 @@ void override_row(Ui& ui,
     }
 }
 
-} // namespace
-
-void ControlsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    draw_finding(ui, now, ask);
-    draw_overrides(ui, now, ask);
-    draw_spindle(ui, now, ask);
-}
-
-void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("finding", "Homing and probing");
-    if (!section) {
-        return;
-    }
-    const ControllerView& machine = now.controller;
-    action_button(ui, now, ask, catalogue_, "machine.home");
-    const actions::HandSettings& hand = now.session.hand;
+void probe_fields(Ui& ui, ActionQueue& ask, const actions::HandSettings& hand) {
     hand_number(ui,
                 ask,
                 {"probe_way",
@@ -115,6 +100,36 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
                  0},
                 hand.probe_mm_per_min,
                 &actions::HandSettings::probe_mm_per_min);
+}
+
+/// `z`: of the axis Z among those of the position.
+void probed_value(Ui& ui, const drivers::Probing& last, std::optional<std::size_t> z) {
+    const bool known = z && last.position.size() > static_cast<Eigen::Index>(*z);
+    ui.value("probed",
+             "Last probe",
+             !last.touched ? "no contact"
+             : known       ? "Z " + fixed(last.position[static_cast<Eigen::Index>(*z)], 3)
+                           : "contact",
+             last.touched && known ? "mm" : "");
+}
+
+} // namespace
+
+void ControlsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    draw_finding(ui, now, ask);
+    draw_overrides(ui, now, ask);
+    draw_spindle(ui, now, ask);
+}
+
+void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("finding", "Homing and probing");
+    if (!section) {
+        return;
+    }
+    const ControllerView& machine = now.controller;
+    action_button(ui, now, ask, catalogue_, "machine.home");
+    const actions::HandSettings& hand = now.session.hand;
+    probe_fields(ui, ask, hand);
     const auto z = axis_named(machine, 'Z');
     Permission can =
         machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
@@ -136,14 +151,7 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
                                     machine.status));
     }
     if (machine.status.probe) {
-        const drivers::Probing& last = *machine.status.probe;
-        const bool known = z && last.position.size() > static_cast<Eigen::Index>(*z);
-        ui.value("probed",
-                 "Last probe",
-                 !last.touched ? "no contact"
-                 : known       ? "Z " + fixed(last.position[static_cast<Eigen::Index>(*z)], 3)
-                               : "contact",
-                 last.touched && known ? "mm" : "");
+        probed_value(ui, *machine.status.probe, z);
     }
 }
 

@@ -191,11 +191,8 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
     }
 }
 
-void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("watch", "Grid optimisation");
-    if (!section) {
-        return;
-    }
+/// The methods that can be run.
+void GridPanel::draw_methods(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     {
         const auto row = ui.row(3);
         action_button(ui,
@@ -227,45 +224,63 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
                       method_button_rank(now, GridMethod::harmonic),
                       "Harmonic map");
     }
+}
+
+void GridPanel::draw_playing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto row = ui.row(3);
+    const bool playing = now.watched->playing;
+    action_button(ui,
+                  now,
+                  ask,
+                  catalogue_,
+                  playing ? "grid.pause" : "grid.play",
+                  widgets::Rank::normal,
+                  playing ? "Pause" : "Play");
+    action_button(ui, now, ask, catalogue_, "grid.step", widgets::Rank::normal, "Step");
+    action_button(ui, now, ask, catalogue_, "grid.reset", widgets::Rank::normal, "Reset");
+}
+
+namespace {
+
+void watched_values(Ui& ui, const Workbench& now, const grid::ImproverState& state) {
+    if (now.watched->method != GridMethod::redistribution) { // which is done in one go
+        ui.value("rounds", "Rounds completed", fmt::format("{}", state.round));
+        ui.value("iterations", "Iteration", fmt::format("{}", state.iteration));
+        ui.value("norm", "Norm", fmt::format("{:.3e}", state.norm));
+    }
+    ui.value("before", "Mean error, start", length_text(state.start.mean), "mm");
+    ui.value("now", "Mean error, now", length_text(state.now.mean), "mm");
+    const WatchedLabels labels = watched_labels(state.status);
+    ui.value("best", labels.best, length_text(state.of_best.mean), "mm");
+    ui.value("gain", labels.change, change_text(state.start.mean, state.of_best.mean));
+    if (turns_the_tool(now)) {
+        ui.value("axis",
+                 labels.axis,
+                 angle_text(state.start.axis_max) + " \u2192 " + angle_text(state.of_best.axis_max),
+                 "deg",
+                 "Largest angle between tool axis and surface normal along the path: start grid \u2192 "
+                 "best grid");
+    }
+    if (const std::string note = watched_note(state); !note.empty()) {
+        ui.note(note);
+    }
+}
+
+} // namespace
+
+void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("watch", "Grid optimisation");
+    if (!section) {
+        return;
+    }
+    draw_methods(ui, now, ask);
     if (!now.watched) {
         ui.note("The optimisation starts from the uniform grid; the view shows every step.");
         return;
     }
-    {
-        const auto row = ui.row(3);
-        const bool playing = now.watched->playing;
-        action_button(ui,
-                      now,
-                      ask,
-                      catalogue_,
-                      playing ? "grid.pause" : "grid.play",
-                      widgets::Rank::normal,
-                      playing ? "Pause" : "Play");
-        action_button(ui, now, ask, catalogue_, "grid.step", widgets::Rank::normal, "Step");
-        action_button(ui, now, ask, catalogue_, "grid.reset", widgets::Rank::normal, "Reset");
-    }
+    draw_playing(ui, now, ask);
     if (const auto& state = now.watched->state) {
-        if (now.watched->method != GridMethod::redistribution) { // which is done in one go
-            ui.value("rounds", "Rounds completed", fmt::format("{}", state->round));
-            ui.value("iterations", "Iteration", fmt::format("{}", state->iteration));
-            ui.value("norm", "Norm", fmt::format("{:.3e}", state->norm));
-        }
-        ui.value("before", "Mean error, start", length_text(state->start.mean), "mm");
-        ui.value("now", "Mean error, now", length_text(state->now.mean), "mm");
-        const WatchedLabels labels = watched_labels(state->status);
-        ui.value("best", labels.best, length_text(state->of_best.mean), "mm");
-        ui.value("gain", labels.change, change_text(state->start.mean, state->of_best.mean));
-        if (turns_the_tool(now)) {
-            ui.value("axis",
-                     labels.axis,
-                     angle_text(state->start.axis_max) + " \u2192 " + angle_text(state->of_best.axis_max),
-                     "deg",
-                     "Largest angle between tool axis and surface normal along the path: start grid \u2192 "
-                     "best grid");
-        }
-        if (const std::string note = watched_note(*state); !note.empty()) {
-            ui.note(note);
-        }
+        watched_values(ui, now, *state);
     }
     ui.note(status_text(*now.watched));
     if (const auto& state = now.watched->state) {
@@ -329,6 +344,28 @@ void GridPanel::draw_chain(Ui& ui, const Workbench& now, ActionQueue& ask) const
         });
 }
 
+namespace {
+
+/// Of the weight, where it has a part in it.
+void expression_field(Ui& ui, ActionQueue& ask, const project::EllipticInput& input) {
+    const bool has_formula = input.weight == project::WeightSource::expression ||
+                             (input.weight == project::WeightSource::mixed && input.mix.expression > 0.0);
+    if (has_formula) {
+        if (const auto text = ui.expression(
+                "expression",
+                "w =",
+                input.expression,
+                [](std::string_view typed) { return fault_of_expression(typed); },
+                "Expression in u, v, i, j, x, y, z, nx, ny, nz, k1, k2, err; positive, large where cells "
+                "should be small")) {
+            ask.edit("Change the weight's expression",
+                     [t = *text](Project& p) { p.grid.elliptic.expression = t; });
+        }
+    }
+}
+
+} // namespace
+
 void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const bool harmonic = is_in_hand(now, GridMethod::harmonic);
     const auto section = ui.section("elliptic", harmonic ? "Harmonic map" : "Elliptic adaptation");
@@ -348,20 +385,7 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
     if (input.weight == project::WeightSource::mixed) {
         draw_mix(ui, ask, input);
     }
-    const bool has_formula = input.weight == project::WeightSource::expression ||
-                             (input.weight == project::WeightSource::mixed && input.mix.expression > 0.0);
-    if (has_formula) {
-        if (const auto text = ui.expression(
-                "expression",
-                "w =",
-                input.expression,
-                [](std::string_view typed) { return fault_of_expression(typed); },
-                "Expression in u, v, i, j, x, y, z, nx, ny, nz, k1, k2, err; positive, large where cells "
-                "should be small")) {
-            ask.edit("Change the weight's expression",
-                     [t = *text](Project& p) { p.grid.elliptic.expression = t; });
-        }
-    }
+    expression_field(ui, ask, input);
     if (ui.toggle("show_weight",
                   "Show weight",
                   now.session.layers_now().weight,

@@ -16,6 +16,8 @@ public:
 private:
     void draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_methods(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_playing(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_redistribution(Ui& ui, const Workbench& now, ActionQueue& ask) const;
     void draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const;

@@ -192,6 +192,32 @@ void pad_wishes(const Workbench& now, Wish& wish, std::vector<double>& before) {
     before = std::move(amounts);
 }
 
+/// Sets work zeros at the present position.
+void zero_buttons(Ui& ui, const ControllerView& machine, ActionQueue& ask) {
+    const Permission can = can_command(machine);
+    std::string all;
+    {
+        const auto row = ui.row(static_cast<int>(machine.axes.size()) + 1);
+        for (const program::ProgramAxis& axis : machine.axes) {
+            const std::string line = drivers::set_work_position(axis, 0.0);
+            all += line + "\n";
+            const std::string letter = letter_of(axis);
+            if (ui.button("zero_" + letter,
+                          letter + " = 0",
+                          can,
+                          {{}, Rank::normal, -1.0F, "Set the current position as work zero of this axis"})) {
+                command(ask, line);
+            }
+        }
+        if (ui.button("zero_all",
+                      "All",
+                      can,
+                      {{}, Rank::normal, -1.0F, "Set the current position as work zero of all axes"})) {
+            command(ask, all);
+        }
+    }
+}
+
 } // namespace
 
 void HandPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -245,28 +271,7 @@ void HandPanel::draw_position(Ui& ui, const Workbench& now, ActionQueue& ask) co
     widgets::readout(ui, "axes", axes, system);
     const auto [words, tone] = position_words(machine);
     ui.words(words, tone); // always one line, so that no button below moves while a hand goes to it
-    const Permission can = can_command(machine);
-    std::string all;
-    {
-        const auto row = ui.row(static_cast<int>(machine.axes.size()) + 1);
-        for (const program::ProgramAxis& axis : machine.axes) {
-            const std::string line = drivers::set_work_position(axis, 0.0);
-            all += line + "\n";
-            const std::string letter = letter_of(axis);
-            if (ui.button("zero_" + letter,
-                          letter + " = 0",
-                          can,
-                          {{}, Rank::normal, -1.0F, "Set the current position as work zero of this axis"})) {
-                command(ask, line);
-            }
-        }
-        if (ui.button("zero_all",
-                      "All",
-                      can,
-                      {{}, Rank::normal, -1.0F, "Set the current position as work zero of all axes"})) {
-            command(ask, all);
-        }
-    }
+    zero_buttons(ui, machine, ask);
 }
 
 void HandPanel::draw_jog(Ui& ui, const Workbench& now, ActionQueue& ask) {

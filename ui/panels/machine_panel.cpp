@@ -44,12 +44,12 @@ int speed_index(double speed) {
 /// A controller is chosen and not connected.
 bool waits_for_a_link(const Workbench& now) {
     return now.controller.link == actions::LinkState::none &&
-           now.session.hand.choice.kind != machine::DriverKind::virtual_machine;
+           now.session.hand.choice.driver != machine::virtual_driver;
 }
 
 std::string checked_sentence(const Workbench& now, const std::string& name) {
     const bool another =
-        now.controller.connected() && now.controller.choice.kind != machine::DriverKind::virtual_machine;
+        now.controller.connected() && now.controller.choice.driver != machine::virtual_driver;
     const auto is_bounded = [](const auto& axis) { return axis.min.has_value() && axis.max.has_value(); };
     const bool both = another && now.run_check != nullptr && now.run_check->faults.empty() &&
                       now.run_check->wish->source.as_text &&
@@ -66,13 +66,11 @@ std::string checked_sentence(const Workbench& now, const std::string& name) {
 
 /// 1/min that the program shown begins with, on a machine that has no words for its spindle.
 std::optional<double> spindle_by_hand(const Workbench& now) {
-    using machine::DriverKind;
-    const DriverKind kind = now.controller.choice.kind;
     const bool in_file = now.in_file();
     const auto program = !in_file             ? now.program()
                          : now.opened->motion ? now.opened->motion->program
                                               : nullptr;
-    if (!now.controller.connected() || (kind != DriverKind::records && kind != DriverKind::stream) ||
+    if (!now.controller.connected() || now.controller.row().kind != machine::MachineKind::positioned ||
         !program) {
         return std::nullopt;
     }
@@ -142,12 +140,8 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
     (void)widgets::banner(ui, "findings", {widgets::Severity::warning, where + first.message + more, {}});
 }
 
-void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const auto section = ui.section("job", "Job");
-    if (!section) {
-        return;
-    }
-    ui.value("program", "Program", now.in_file() ? now.opened->file.filename().string() : now.project.name);
+/// How a program is run: how fast, or block by block.
+void MachinePanel::draw_mode(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     if (now.controller.link == actions::LinkState::none) {
         if (const auto chosen = ui.choice("speed",
                                           "Virtual machine",
@@ -168,18 +162,10 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
             ask.run("machine.single_block");
         }
     }
-    begin_fields(ui, now, ask);
-    const actions::BeginAt& begin = now.session.begin;
-    action_button(ui,
-                  now,
-                  ask,
-                  catalogue_,
-                  "machine.run",
-                  waits_for_a_link(now) ? widgets::Rank::normal : widgets::Rank::primary,
-                  begin.on ? fmt::format("Run from line {}", begin.line) : std::string("Run"));
-    if (waits_for_a_link(now)) {
-        ui.note("Not connected: Run simulates on the virtual machine.");
-    }
+}
+
+/// What acts on a running job.
+void MachinePanel::draw_stops(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     {
         const drivers::DriverStatus& status = now.controller.status;
         const bool waits = actions::waits_for_tool(status) && !status.tool_change->held;
@@ -196,6 +182,28 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     }
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", widgets::Rank::danger);
     ui.keep_clear(ui.path("machine_emergency_stop"));
+}
+
+void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+    const auto section = ui.section("job", "Job");
+    if (!section) {
+        return;
+    }
+    ui.value("program", "Program", now.in_file() ? now.opened->file.filename().string() : now.project.name);
+    draw_mode(ui, now, ask);
+    begin_fields(ui, now, ask);
+    const actions::BeginAt& begin = now.session.begin;
+    action_button(ui,
+                  now,
+                  ask,
+                  catalogue_,
+                  "machine.run",
+                  waits_for_a_link(now) ? widgets::Rank::normal : widgets::Rank::primary,
+                  begin.on ? fmt::format("Run from line {}", begin.line) : std::string("Run"));
+    if (waits_for_a_link(now)) {
+        ui.note("Not connected: Run simulates on the virtual machine.");
+    }
+    draw_stops(ui, now, ask);
     if (const auto rpm = spindle_by_hand(now)) {
         (void)widgets::banner(ui,
                               "spindle_by_hand",

@@ -20,6 +20,8 @@ public:
 private:
     void draw_position(Ui& ui, const Workbench& now) const;
     void draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_mode(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_stops(Ui& ui, const Workbench& now, ActionQueue& ask) const;
 
     void draw_findings(Ui& ui, const Workbench& now) const;
     void draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const;

@@ -116,39 +116,41 @@ float PicturePane::map_height(const Ui& ui) const {
     return std::clamp(filling, fitting, std::max(fitting, ui.px(most_height)));
 }
 
+void PicturePane::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) {
+    const int side = shown_->picture.file_pixels;
+    const auto line = ui.row(3);
+    const auto& region = now.plot.settings().picture.region;
+    if (ui.button("whole",
+                  "Whole picture",
+                  region ? widgets::Permission{}
+                         : widgets::Permission::refused("The whole picture is already selected."),
+                  {{}, widgets::Rank::normal, -1.0F, "Clear the region and cut the whole picture"})) {
+        first_.reset();
+        change_region(ask, "Cut the whole picture", std::nullopt);
+    }
+    const auto size_button =
+        [&](std::string_view id, std::string_view label, MapSize size, std::string_view tip) {
+            const auto rank = size_ == size ? widgets::Rank::primary : widgets::Rank::normal;
+            if (ui.button(id, label, {}, {{}, rank, -1.0F, tip})) {
+                size_ = size_ == size ? MapSize::readable : size;
+            }
+        };
+    size_button("fit", "Fit to pane", MapSize::pane, "Show the whole map");
+    size_button("fill", "Fit to width", MapSize::width, "Larger map with scrolling");
+    ui.note(first_     ? "Click the opposite corner of the region."
+            : side > 1 ? fmt::format("Each cell is the mean of {0} x {0} pixels. Click two opposite "
+                                     "corners to select a region.",
+                                     side)
+                       : "Click two opposite corners to select the region to cut.");
+}
+
 void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     if (!made || !made->shown_picture) {
         return;
     }
     follow(made->shown_picture);
-    const int side = shown_->picture.file_pixels;
-    {
-        const auto line = ui.row(3);
-        const auto& region = now.plot.settings().picture.region;
-        if (ui.button("whole",
-                      "Whole picture",
-                      region ? widgets::Permission{}
-                             : widgets::Permission::refused("The whole picture is already selected."),
-                      {{}, widgets::Rank::normal, -1.0F, "Clear the region and cut the whole picture"})) {
-            first_.reset();
-            change_region(ask, "Cut the whole picture", std::nullopt);
-        }
-        const auto size_button =
-            [&](std::string_view id, std::string_view label, MapSize size, std::string_view tip) {
-                const auto rank = size_ == size ? widgets::Rank::primary : widgets::Rank::normal;
-                if (ui.button(id, label, {}, {{}, rank, -1.0F, tip})) {
-                    size_ = size_ == size ? MapSize::readable : size;
-                }
-            };
-        size_button("fit", "Fit to pane", MapSize::pane, "Show the whole map");
-        size_button("fill", "Fit to width", MapSize::width, "Larger map with scrolling");
-        ui.note(first_     ? "Click the opposite corner of the region."
-                : side > 1 ? fmt::format("Each cell is the mean of {0} x {0} pixels. Click two opposite "
-                                         "corners to select a region.",
-                                         side)
-                           : "Click two opposite corners to select the region to cut.");
-    }
+    draw_buttons(ui, now, ask);
     widgets::HeatMapView view;
     view.title = "G(i,j)";
     view.x_label = "x";

@@ -16,6 +16,7 @@ public:
     void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
 
 private:
+    void draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask);
     struct Cell {
         int row = 0; ///< from the top
         int column = 0;

@@ -2,7 +2,7 @@
 // computed with the format and the steps of the Processor workspace: the result beside the exact one.
 #pragma once
 
-#include "core/cordic/single_pass.h"
+#include "core/cordic_study/single_pass.h"
 #include "ui/actions/processor_bench.h"
 #include "ui/panels/panel.h"
 

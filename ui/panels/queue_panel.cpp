@@ -66,6 +66,27 @@ void QueuePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_table(ui, now);
 }
 
+namespace {
+
+/// `job`: null if none is selected.
+void open_button(Ui& ui, ActionQueue& ask, const QueuedJob* job, bool can_start) {
+    const Permission can = job == nullptr ? Permission::refused("Select a job first.")
+                           : can_start    ? Permission{}
+                                          : Permission::refused("Only waiting or held jobs can be started.");
+    if (ui.button(
+            "open",
+            "Open program",
+            can,
+            {{},
+             Rank::normal,
+             -1.0F,
+             "Read the program of the job again for the connected machine. The machine does not move"})) {
+        ask.open_queued(job->id);
+    }
+}
+
+} // namespace
+
 void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     const QueuedJob* job = chosen(now);
     const Permission none = Permission::refused("Select a job first.");
@@ -92,19 +113,7 @@ void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) co
             ask.queue([change, which = job->id](JobQueue& queue) { change(queue, which); });
         }
     };
-    const Permission openable = job == nullptr || waits.allowed || held.allowed
-                                    ? (job == nullptr ? none : Permission{})
-                                    : Permission::refused("Only waiting or held jobs can be started.");
-    if (ui.button(
-            "open",
-            "Open program",
-            openable,
-            {{},
-             Rank::normal,
-             -1.0F,
-             "Read the program of the job again for the connected machine. The machine does not move"})) {
-        ask.open_queued(job->id);
-    }
+    open_button(ui, ask, job, waits.allowed || held.allowed);
     on_chosen("earlier",
               "Move up",
               waits.allowed && place == 0 ? Permission::refused("This is the first waiting job.") : waits,

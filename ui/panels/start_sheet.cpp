@@ -142,6 +142,29 @@ std::string axis_values_text(const actions::ControllerView& machine) {
     return text;
 }
 
+/// What would be started, where, and what is known of it.
+void draw_wish(Ui& ui, const Workbench& now, const actions::StartWish& wish) {
+    const drivers::DriverStatus& status = now.controller.status;
+    const auto labels = ui.label_share(0.2F);
+    ui.value("program",
+             "Program",
+             wish.job->from_line > 1
+                 ? fmt::format("{}, from line {}", wish.job->name, wish.job->from_line)
+                 : fmt::format("{}, {}", wish.job->name, counted(wish.job->block_count(), "block")));
+    ui.value("machine", "Machine", wish.machine);
+    const bool verified = status.position_known && status.position_doubt.empty();
+    ui.value(
+        "position",
+        "Position",
+        fmt::format("{} ({})", axis_values_text(now.controller), verified ? "verified" : "not verified"));
+    if (now.start_check && now.start_check->wish == now.session.start) {
+        draw_extents(ui, *now.start_check);
+        draw_spindle_and_tool(ui, now.start_check->survey, status);
+    } else {
+        ui.note("Checking the program \u2026");
+    }
+}
+
 } // namespace
 
 void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
@@ -151,26 +174,7 @@ void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     const actions::StartWish& wish = *now.session.start;
     const drivers::DriverStatus& status = now.controller.status;
-    {
-        const auto labels = ui.label_share(0.2F);
-        ui.value("program",
-                 "Program",
-                 wish.job->from_line > 1
-                     ? fmt::format("{}, from line {}", wish.job->name, wish.job->from_line)
-                     : fmt::format("{}, {}", wish.job->name, counted(wish.job->block_count(), "block")));
-        ui.value("machine", "Machine", wish.machine);
-        const bool verified = status.position_known && status.position_doubt.empty();
-        ui.value(
-            "position",
-            "Position",
-            fmt::format("{} ({})", axis_values_text(now.controller), verified ? "verified" : "not verified"));
-        if (now.start_check && now.start_check->wish == now.session.start) {
-            draw_extents(ui, *now.start_check);
-            draw_spindle_and_tool(ui, now.start_check->survey, status);
-        } else {
-            ui.note("Checking the program \u2026");
-        }
-    }
+    draw_wish(ui, now, wish);
     if (!status.position_doubt.empty()) {
         (void)widgets::banner(
             ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(status.position_doubt), {}});

@@ -138,6 +138,28 @@ bool shows_import(const Workbench& now) {
     return now.session.workspace == Workspace::design && now.import.latest() != nullptr;
 }
 
+void show_planned(const Workbench& now, viewport::Scene& scene) {
+    const plan::Plan& plan = now.plan->plan;
+    viewport::show_plan(scene, plan);
+    scene.shown = now.shown();
+    scene.cut = plan.cut_of(now.project, scene.shown.get());
+    scene.machine_solids = now.machine_solids;
+    if (now.set_up && plan::same_but_for_place(now.set_up->project, now.project)) {
+        scene.set_up = now.set_up;
+        scene.set_up_place = now.set_up_place();
+    }
+    scene.start = now.evaluation(project::GridMethod::uniform);
+    scene.surface_tool = surface_tool_of(now);
+    if (now.watched && now.session.workspace == Workspace::grid) {
+        scene.watched = now.watched->state;
+    }
+    scene.now = now.moment();
+    const bool same_path = scene.shown == now.program_path();
+    if (scene.now && !same_path) {
+        scene.now->move = -1; // the path that is drawn is not the one that is executed
+    }
+}
+
 viewport::Scene scene_of(const Workbench& now) {
     viewport::Scene scene;
     scene.layers = now.session.layers_now();
@@ -180,25 +202,7 @@ viewport::Scene scene_of(const Workbench& now) {
         show_import(now, scene);
         return scene;
     }
-    const plan::Plan& plan = now.plan->plan;
-    viewport::show_plan(scene, plan);
-    scene.shown = now.shown();
-    scene.cut = plan.cut_of(now.project, scene.shown.get());
-    scene.machine_solids = now.machine_solids;
-    if (now.set_up && plan::same_but_for_place(now.set_up->project, now.project)) {
-        scene.set_up = now.set_up;
-        scene.set_up_place = now.set_up_place();
-    }
-    scene.start = now.evaluation(project::GridMethod::uniform);
-    scene.surface_tool = surface_tool_of(now);
-    if (now.watched && now.session.workspace == Workspace::grid) {
-        scene.watched = now.watched->state;
-    }
-    scene.now = now.moment();
-    const bool same_path = scene.shown == now.program_path();
-    if (scene.now && !same_path) {
-        scene.now->move = -1; // the path that is drawn is not the one that is executed
-    }
+    show_planned(now, scene);
     return scene;
 }
 

@@ -139,6 +139,29 @@ void follow_writing(Ui& ui,
     written.text = answer.text ? *answer.text : std::string(before);
 }
 
+/// Line numbers, and what is marked.
+void draw_behind_text(
+    Ui& ui, const Rect& whole, float gutter, float top, float step, const TextAreaView& view) {
+    draw_gutter(ui, whole, gutter, top, step, view);
+    if (view.marked) {
+        draw_marked(ui, view.text, *view.marked, whole.x + gutter, top, step);
+        if (view.follow_marked) {
+            bring_into_sight(line_of(view.text, view.marked->from), step, whole.h);
+            ui.change_in(0.0);
+        }
+    }
+}
+
+/// Whether the text was changed.
+bool write_in(const std::string& path, std::string& text, const ImVec2& size, Writing& writing) {
+    return ImGui::InputTextMultiline(("##" + path).c_str(),
+                                     &text,
+                                     size,
+                                     ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo,
+                                     on_writing,
+                                     &writing);
+}
+
 } // namespace
 
 TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) {
@@ -159,14 +182,7 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
         const float step = ImGui::GetTextLineHeight();
         const float needed = step * static_cast<float>(line_count(view.text) + 1);
         const float top = ImGui::GetCursorScreenPos().y;
-        draw_gutter(ui, whole, gutter, top, step, view);
-        if (view.marked) {
-            draw_marked(ui, view.text, *view.marked, whole.x + gutter, top, step);
-            if (view.follow_marked) {
-                bring_into_sight(line_of(view.text, view.marked->from), step, whole.h);
-                ui.change_in(0.0);
-            }
-        }
+        draw_behind_text(ui, whole, gutter, top, step, view);
         ImGui::SetCursorScreenPos({whole.x + gutter, top});
         Ui::State::Written& written = ui.state().written;
         const bool known = written.path == path; // it was being written in the last frame
@@ -175,13 +191,8 @@ TextAreaAnswer text_area(Ui& ui, std::string_view id, const TextAreaView& view) 
         if (known && written.text != view.text) {
             writing.given = view.text;
         }
-        const bool changed =
-            ImGui::InputTextMultiline(("##" + path).c_str(),
-                                      &text,
-                                      {whole.w - gutter - ui.px(14.0F), std::max(needed, whole.h - 2.0F)},
-                                      ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo,
-                                      on_writing,
-                                      &writing);
+        const ImVec2 size{whole.w - gutter - ui.px(14.0F), std::max(needed, whole.h - 2.0F)};
+        const bool changed = write_in(path, text, size, writing);
         answer.left = ImGui::IsItemDeactivated();
         const bool typing = ImGui::IsItemActive();
         // ImGui takes all back that was typed since the field was entered; here it stays.

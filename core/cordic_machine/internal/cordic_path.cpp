@@ -1,7 +1,7 @@
 #include "core/cordic_machine/internal/cordic_path.h"
 
 #include "core/base/numbers.h"
-#include "core/gcode/programmed_feed.h"
+#include "core/gcode_programs/programmed_feed.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "core/base/units.h"
 #include "core/gcode/axes.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/machine_program.h"
+#include "core/gcode_programs/work_origin.h"
 
 #include <fmt/format.h>
 

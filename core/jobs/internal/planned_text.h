@@ -1,7 +1,7 @@
 // Jobs of G-code files whose motion is planned here.
 #pragma once
 
-#include "core/gcode/work_origin.h"
+#include "core/gcode_programs/work_origin.h"
 #include "core/geometry/vectors.h"
 #include "core/jobs/job.h"
 

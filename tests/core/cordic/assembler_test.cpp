@@ -1,9 +1,6 @@
 #include "core/cordic/assembler.h"
 
 #include "core/cordic/disassembler.h"
-#include "core/cordic/input_changes.h"
-#include "core/cordic/microcode.h"
-#include "core/cordic/plc_assembler.h"
 #include "core/cordic/processor.h"
 #include "tests/core/cordic/wrong_text.h"
 
@@ -115,18 +112,6 @@ TEST(Assembler, PassesOverTheMarkInFrontOfUtf8) {
     EXPECT_TRUE(made.errors.empty());
     EXPECT_EQ(made.image.code.size(), 1U);
     EXPECT_EQ(made.lines.front().column, 1);
-}
-
-TEST(Assembler, TextInUtf16IsAnErrorOfItsFirstLineInEveryLanguage) {
-    const std::string text("N\0O\0P\0\n\0", 8);
-    const std::vector<std::vector<Diagnostic>> found{assemble(text, "a.txt").errors,
-                                                     assemble_microprogram(text, "a.txt", {}).errors,
-                                                     assemble_plc(text, "a.txt").errors,
-                                                     read_inputs(text, "a.txt").errors};
-    for (const std::vector<Diagnostic>& errors : found) {
-        ASSERT_EQ(errors.size(), 1U);
-        EXPECT_THAT(to_text(errors[0]), HasSubstr("a.txt:1: the file is text in UTF-16"));
-    }
 }
 
 TEST(Assembler, RefusesAnInstructionAcrossTheEndOfAPage) {

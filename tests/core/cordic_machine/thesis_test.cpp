@@ -1,18 +1,18 @@
 // What a model of the thesis's processor has to do, one test a promise, from the core of the arithmetic to
 // the programs that run on it. The folders' own tests go deeper.
 #include "core/base/units.h"
-#include "core/cordic/comparison.h"
 #include "core/cordic/disassembler.h"
 #include "core/cordic/fold.h"
 #include "core/cordic/interpolation.h"
 #include "core/cordic/pipeline.h"
-#include "core/cordic/plc_assembler.h"
 #include "core/cordic/processor.h"
 #include "core/cordic/run_report.h"
-#include "core/cordic/sewing.h"
-#include "core/cordic/supervised_run.h"
 #include "core/cordic/vcd.h"
+#include "core/cordic_control/plc_assembler.h"
+#include "core/cordic_control/sewing.h"
+#include "core/cordic_control/supervised_run.h"
 #include "core/cordic_machine/cordic_program.h"
+#include "core/cordic_study/comparison.h"
 #include "core/gcode/interpreter.h"
 #include "tests/core/cordic/golden.h"
 

@@ -2,8 +2,8 @@
 // go.
 #include "core/base/error.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
 #include "core/gcode/tool_table.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
 #include "core/posts/post_file.h"

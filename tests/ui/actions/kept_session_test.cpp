@@ -5,8 +5,6 @@
 namespace millwright::actions {
 namespace {
 
-using machine::DriverKind;
-
 /// Everything that is kept, other than at first.
 Session changed_session() {
     Session session = new_session();
@@ -14,10 +12,10 @@ Session changed_session() {
     session.window = {{1600, 900}, true};
     session.panes.inspector = 412.5F;
     session.panes.lower_shown = false;
-    session.hand.choice.kind = DriverKind::grbl;
+    session.hand.choice.driver = "grbl";
     session.hand.choice.address = "/dev/ttyUSB3,57600,8E1";
     session.hand.choice.one_by_one = true;
-    session.hand.addresses[static_cast<std::size_t>(DriverKind::stream)] = "file:/tmp/out";
+    session.hand.addresses["stream"] = "file:/tmp/out";
     session.hand.choice.record = drivers::RecordFormat{.pattern = "G{X}", .ending = "\r\n", .relative = true};
     session.hand.step = 0.1;
     session.folders["program"] = "/home/me/nc";
@@ -33,7 +31,7 @@ TEST(KeptSession, ComesBackAsItWas) {
     EXPECT_EQ(after.panes.inspector, before.panes.inspector);
     EXPECT_FALSE(after.panes.lower_shown);
     EXPECT_EQ(after.hand.choice, before.hand.choice);
-    EXPECT_EQ(after.hand.addresses[static_cast<std::size_t>(DriverKind::stream)], "file:/tmp/out");
+    EXPECT_EQ(after.hand.addresses["stream"], "file:/tmp/out");
     EXPECT_EQ(after.hand.step, 0.1);
     EXPECT_EQ(after.folders, before.folders);
 }
@@ -59,7 +57,7 @@ TEST(KeptSession, SaysWhatCannotBeRightAndKeepsWhatItDoesNotKnow) {
                                   {"of a later version", "1"}});
     EXPECT_EQ(refused.size(), 2U);
     EXPECT_EQ(session.panes.inspector, PaneSizes().inspector);
-    EXPECT_EQ(session.hand.choice.kind, DriverKind::virtual_machine);
+    EXPECT_EQ(session.hand.choice.driver, "virtual");
     EXPECT_EQ(session.theme, widgets::Theme::light);
     EXPECT_EQ(kept_of(session, {{"of a later version", "1"}}).at("of a later version"), "1");
 }

@@ -14,7 +14,7 @@ namespace millwright::test {
 struct ArmAtPmac {
     explicit ArmAtPmac(const render::PixelSize& screen = {1280, 800}) : person(screen) {
         person.workshop().run("view.arm");
-        person.workshop().session().hand.choice.kind = machine::DriverKind::pmac;
+        person.workshop().session().hand.choice.driver = "pmac";
         person.workshop().session().hand.choice.address = pmac.address();
         person.workshop().session().hand.arm_percent = 100;
         person.frames(4);

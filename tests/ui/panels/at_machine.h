@@ -26,7 +26,7 @@ inline void connect(Person& person) {
 }
 
 inline void connect(Person& person, GrblBench& grbl) {
-    person.workshop().session().hand.choice.kind = machine::DriverKind::grbl;
+    person.workshop().session().hand.choice.driver = "grbl";
     person.workshop().session().hand.choice.address = grbl.port();
     connect(person);
 }

@@ -14,7 +14,6 @@ namespace millwright::panels {
 namespace {
 
 using drivers::DriverState;
-using machine::DriverKind;
 using render::Gamepad;
 using test::GrblBench;
 using test::Person;
@@ -26,7 +25,7 @@ protected:
 
     void SetUp() override {
         person.workshop().run("view.machine");
-        person.workshop().session().hand.choice.kind = DriverKind::grbl;
+        person.workshop().session().hand.choice.driver = "grbl";
         person.workshop().session().hand.choice.address = grbl.port();
         person.frames(3);
         person.click("inspector/connection/machine_connect");

@@ -26,7 +26,6 @@ namespace {
 using actions::LinkState;
 using actions::Workspace;
 using drivers::DriverState;
-using machine::DriverKind;
 using test::GrblBench;
 using test::Person;
 
@@ -73,7 +72,7 @@ protected:
 
     void connect() {
         person.workshop().run("view.machine");
-        person.workshop().session().hand.choice = {DriverKind::grbl, grbl.port()};
+        person.workshop().session().hand.choice = {"grbl", grbl.port()};
         person.workshop().session().hand.speed_mm_per_min = jog_speed_mm_per_min;
         person.frames(3);
         person.click("inspector/connection/machine_connect");
@@ -143,7 +142,7 @@ TEST_F(MachineByHand, ShowsTheConnectedMachineWithItsPositionsOffsetsAndSettings
 
 TEST_F(MachineByHand, SaysWhyNoLinkWasMade) {
     person.workshop().run("view.machine");
-    person.workshop().session().hand.choice = {DriverKind::grbl, "/dev/no-such-port"};
+    person.workshop().session().hand.choice = {"grbl", "/dev/no-such-port"};
     person.frames(3);
     person.click("inspector/connection/machine_connect");
     ASSERT_TRUE(live_until([this] { return machine().failure.has_value(); }));

@@ -21,7 +21,6 @@ namespace {
 
 using actions::LinkState;
 using drivers::DriverState;
-using machine::DriverKind;
 using test::Person;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -36,13 +35,13 @@ protected:
     }
 
     /// By the drop-down and the field, as a person does it.
-    void choose(DriverKind kind, const std::string& address) {
+    void choose(const std::string& driver, const std::string& address) {
         person.workshop().run("view.machine");
         person.frames(3);
         person.click("inspector/connection/driver");
-        person.click("inspector/connection/driver/" + std::string(to_text(kind)));
+        person.click("inspector/connection/driver/" + driver);
         person.frames(2);
-        ASSERT_EQ(person.workshop().session().hand.choice.kind, kind);
+        ASSERT_EQ(person.workshop().session().hand.choice.driver, driver);
         person.fill_in("inspector/connection/address", address);
     }
     void connect() {
@@ -52,7 +51,7 @@ protected:
     }
     /// The Grbl at `port` goes away while it moves.
     void lose(std::unique_ptr<emulators::GrblServer>& grbl, std::uint16_t port) {
-        choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(port));
+        choose("grbl", "tcp:127.0.0.1:" + std::to_string(port));
         connect();
         person.workshop().run("machine.reset");
         ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
@@ -85,7 +84,7 @@ private:
 
 TEST_F(MachineLink, SendsACoordinateStreamAndMakesALostLinkAgainWithoutMoving) {
     auto receiver = std::make_unique<Receiver>();
-    choose(DriverKind::stream, receiver->address());
+    choose("stream", receiver->address());
     person.keep("machine-stream-choice");
     connect();
     person.workshop().session().hand.step = 1.0;
@@ -172,7 +171,7 @@ TEST_F(MachineLink, AGrblThatStillMovesIsConnectedAndStopped) {
     SteadyClock clock;
     auto listener = std::make_unique<links::TcpServer>(0);
     listener->open();
-    choose(DriverKind::grbl, "tcp:127.0.0.1:" + std::to_string(listener->port()));
+    choose("grbl", "tcp:127.0.0.1:" + std::to_string(listener->port()));
     std::vector<std::unique_ptr<links::Link>> links;
     links.push_back(std::move(listener));
     emulators::GrblServer server(std::move(links), clock);
@@ -199,7 +198,7 @@ TEST_F(MachineLink, AGrblThatStillMovesIsConnectedAndStopped) {
 /// A link that is made again is a new driver, which cannot know that the old one was reset under way.
 TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
     test::GrblBench grbl;
-    choose(DriverKind::grbl, grbl.port());
+    choose("grbl", grbl.port());
     connect();
     const auto doubt = [this] { return machine().status.position_doubt; };
     person.frames(3);
@@ -263,7 +262,7 @@ TEST_F(MachineLink, RunsAProgramOnTheCordicProcessorWithoutAnAddress) {
 }
 
 TEST_F(MachineLink, SaysWhyLinuxCncIsNotConnected) {
-    choose(DriverKind::linuxcnc, "tcp:127.0.0.1:9");
+    choose("linuxcnc", "tcp:127.0.0.1:9");
     EXPECT_TRUE(person.sees("inspector/connection/axes"));
     person.click("inspector/connection/machine_connect");
     ASSERT_TRUE(person.live_until([this] { return machine().failure.has_value(); }));
@@ -271,7 +270,7 @@ TEST_F(MachineLink, SaysWhyLinuxCncIsNotConnected) {
     person.frames(3);
     person.keep("machine-linuxcnc");
     // Each kind keeps its own address.
-    choose(DriverKind::grbl, "/dev/no-such-port");
+    choose("grbl", "/dev/no-such-port");
     person.click("inspector/connection/driver");
     person.click("inspector/connection/driver/linuxcnc");
     person.frames(2);

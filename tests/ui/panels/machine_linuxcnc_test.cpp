@@ -225,7 +225,7 @@ TEST_F(HomedLinuxCnc, IsJoggedByButtonAndStepAndZeroed) {
 
 TEST_F(MachineLinuxCnc, ShowsFiveAxesAndJogsThoseThatItCan) {
     LinuxCncBench five("ac-table");
-    person.workshop().session().hand.choice = {machine::DriverKind::linuxcnc, five.address(), "XYZAC"};
+    person.workshop().session().hand.choice = {"linuxcnc", five.address(), "XYZAC"};
     test::connect(person);
     person.frames(3);
     EXPECT_TRUE(person.sees("hand/position/axes/C"));

@@ -40,7 +40,7 @@ protected:
     void connect() {
         person.open(rows(person.folder()));
         auto& choice = person.workshop().session().hand.choice;
-        choice.kind = machine::DriverKind::records;
+        choice.driver = "records";
         choice.address = table.port();
         choice.record.emplace();
         choice.record->answer = "ok";
@@ -185,7 +185,7 @@ unsigned baud_of(const std::string& path) {
 TEST_F(MachineTable, IsConnectedToAtTheRateThatIsChosenInTheWindow) {
     person.open(rows(person.folder()));
     auto& choice = person.workshop().session().hand.choice;
-    choice.kind = machine::DriverKind::records;
+    choice.driver = "records";
     choice.address = table.port();
     choice.record.emplace();
     choice.record->answer = "ok";
@@ -216,7 +216,7 @@ TEST_F(MachineTable, EndsItsRecordsAsIsChosenInTheWindow) {
     write_file(person.folder() / "short.ngc", program + "M2\n");
     person.open(person.folder() / "short.ngc");
     auto& choice = person.workshop().session().hand.choice;
-    choice.kind = machine::DriverKind::records;
+    choice.driver = "records";
     choice.address = "file:" + sent.string();
     person.workshop().run("view.machine");
     person.frames(3);

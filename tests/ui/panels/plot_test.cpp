@@ -375,7 +375,7 @@ void choose_table(Person& person,
                   const std::string& port,
                   const std::string& pattern = drivers::RecordFormat().pattern) {
     auto& choice = person.workshop().session().hand.choice;
-    choice.kind = machine::DriverKind::records;
+    choice.driver = "records";
     choice.address = port;
     choice.record.emplace();
     choice.record->pattern = pattern;

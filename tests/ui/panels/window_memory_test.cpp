@@ -48,7 +48,7 @@ TEST(WindowMemory, TheNextStartBeginsAsTheLastOneEnded) {
     EXPECT_EQ(session.theme, widgets::Theme::light);
     EXPECT_FALSE(session.panes.outline_shown);
     EXPECT_FLOAT_EQ(session.panes.inspector, inspector);
-    EXPECT_EQ(session.hand.choice.kind, machine::DriverKind::grbl);
+    EXPECT_EQ(session.hand.choice.driver, "grbl");
     EXPECT_EQ(session.hand.choice.address, "/dev/ttyUSB7");
     EXPECT_EQ(session.window.size, (render::PixelSize{1500, 900}));
     EXPECT_FALSE(person.workshop().look().controller.connected()); // nothing is connected unasked

@@ -5,7 +5,7 @@
 #include "core/drivers/hand_lines.h"
 #include "core/drivers/modal_lines.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 
 #include <fmt/format.h>
 

@@ -222,6 +222,20 @@ int Controller::store_setting(std::string_view line) {
     return error;
 }
 
+namespace {
+
+/// Grbl's number of what a FluidNC calls by a path, of axis `n` from 0; 0: it has none.
+int number_of_item(std::string_view item, int n) {
+    return item == "steps_per_mm"               ? 100 + n
+           : item == "max_rate_mm_per_min"      ? 110 + n
+           : item == "acceleration_mm_per_sec2" ? 120 + n
+           : item == "max_travel_mm"            ? 130 + n
+           : item == "homing/cycle"             ? homing_setting
+                                                : 0;
+}
+
+} // namespace
+
 /// $/axes/x/max_travel_mm of a FluidNC: a question, or with = a value that is in force at once.
 int Controller::named_setting(std::string_view line) {
     if (!build_.is(EmulatedFirmware::fluidnc)) {
@@ -249,13 +263,7 @@ int Controller::named_setting(std::string_view line) {
         return error_code::unknown_command;
     }
     const std::string item = name.substr(axes.size() + 2);
-    const int n = static_cast<int>(axis);
-    const int number = item == "steps_per_mm"               ? 100 + n
-                       : item == "max_rate_mm_per_min"      ? 110 + n
-                       : item == "acceleration_mm_per_sec2" ? 120 + n
-                       : item == "max_travel_mm"            ? 130 + n
-                       : item == "homing/cycle"             ? homing_setting
-                                                            : 0;
+    const int number = number_of_item(item, static_cast<int>(axis));
     const bool homes = axis < 3;
     if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
         const std::string text(line.substr(equals + 1));

@@ -4,7 +4,7 @@
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/machine_program.h"
+#include "core/gcode_programs/machine_program.h"
 #include "core/motion/planner.h"
 
 #include <fmt/format.h>

@@ -350,6 +350,31 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
     }
 }
 
+void PmacSession::refused_command(const Request& request, bool loop_is_open, const std::string& why) {
+    if (command_goes_on_) {
+        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        command_refused_ = true;
+        if (starts_with_word(request.line, "OPEN")) {
+            skip_buffer();
+        }
+        next_command();
+        return;
+    }
+    command_lines_.clear();
+    if (loop_is_open) {
+        if (buffer_open_) {
+            ask("CLOSE");
+        }
+        ask_whose_loop_is_open(why);
+        return;
+    }
+    answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+    if (buffer_open_) {
+        ask("CLOSE");
+    }
+    finish_command(drivers::CommandAnswer::State::refused);
+}
+
 void PmacSession::refused(const Request& request, int error) {
     if (starts_with_word(request.line, "CLOSE")) {
         buffer_open_ = false;
@@ -368,35 +393,13 @@ void PmacSession::refused(const Request& request, int error) {
         readings_.give_up();
         return;
     }
-    if (request.kind == Kind::command && command_goes_on_) {
-        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
-        command_refused_ = true;
-        if (starts_with_word(request.line, "OPEN")) {
-            skip_buffer();
-        }
-        next_command();
-        return;
-    }
     constexpr int loop_is_open = 12;
-    if (request.kind == Kind::command && error == loop_is_open) {
-        command_lines_.clear();
-        if (buffer_open_) {
-            ask("CLOSE");
-        }
-        ask_whose_loop_is_open(why);
+    if (request.kind == Kind::command) {
+        refused_command(request, error == loop_is_open, why);
         return;
     }
     if (request.kind == Kind::definitions) { // a card that does not tell
         explain_open_loop(run_refusal_);
-        return;
-    }
-    if (request.kind == Kind::command) {
-        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
-        command_lines_.clear();
-        if (buffer_open_) {
-            ask("CLOSE");
-        }
-        finish_command(drivers::CommandAnswer::State::refused);
         return;
     }
     if (stage_ == Stage::greeting && request.kind == Kind::greet) {

@@ -147,6 +147,7 @@ private:
     void ask(std::string line, Kind kind = Kind::step) { queue_.push_back({std::move(line), kind, 0}); }
     void handle(const GuardedLine::Reply& reply, double now);
     void refused(const Request& request, int error);
+    void refused_command(const Request& request, bool loop_is_open, const std::string& why);
     void answered(const Request& request, const std::vector<std::string>& lines, double now);
     [[nodiscard]] static std::string asked(const Request& request);
     void next_command();

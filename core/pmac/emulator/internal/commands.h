@@ -76,6 +76,8 @@ private:
     // commands_buffers.cpp
     std::optional<Code> store(const std::vector<Token>& words);
     Code keyword(Words& words);
+    Code undefine(bool all);
+    Code home_all_here();
     Code open(Words& words);
     Code clear();
     Code close();

@@ -157,6 +157,32 @@ Commands::Code Commands::modal(Words& words) {
     return 0;
 }
 
+Commands::Code Commands::undefine(bool all) {
+    for (int n = 0; n < Card::systems; ++n) {
+        if ((all || n == system_) && card_.system(n).running()) {
+            return error_code::program_running;
+        }
+    }
+    for (int n = 0; n < Card::systems; ++n) {
+        if (all || n == system_) {
+            card_.system(n).undefine();
+        }
+    }
+    return 0;
+}
+
+Commands::Code Commands::home_all_here() {
+    for (int n = 0; n < Card::motors; ++n) {
+        if (system().running()) {
+            return error_code::program_running;
+        }
+        if (system().definition(n).exists()) {
+            card_.motor(n).home_here();
+        }
+    }
+    return 0;
+}
+
 Commands::Code Commands::keyword(Words& words) {
     const std::string name = words.now().text;
     if (name == "INC" || name == "ABS" || name == "FRAX") {
@@ -186,18 +212,7 @@ Commands::Code Commands::keyword(Words& words) {
         return home(name == "HOMEZ");
     }
     if (name == "UNDEFINE") {
-        const bool all = words.take("ALL");
-        for (int n = 0; n < Card::systems; ++n) {
-            if ((all || n == system_) && card_.system(n).running()) {
-                return error_code::program_running;
-            }
-        }
-        for (int n = 0; n < Card::systems; ++n) {
-            if (all || n == system_) {
-                card_.system(n).undefine();
-            }
-        }
-        return 0;
+        return undefine(words.take("ALL"));
     }
     if (name == "DELETE") {
         return words.take("GATHER") || words.take("TRACE") || words.take("STIMULUS")
@@ -205,15 +220,7 @@ Commands::Code Commands::keyword(Words& words) {
                    : error_code::unknown_command;
     }
     if (name == "ZZ") {
-        for (int n = 0; n < Card::motors; ++n) {
-            if (system().running()) {
-                return error_code::program_running;
-            }
-            if (system().definition(n).exists()) {
-                card_.motor(n).home_here();
-            }
-        }
-        return 0;
+        return home_all_here();
     }
     if (name == "SIZE") {
         constexpr int free_words = 41301;

@@ -180,6 +180,18 @@ void CoordinateSystem::set_modal(const Statement& statement) {
         }
     };
     switch (statement.verb) {
+    case Verb::linear:
+        mode_ = Mode::linear;
+        break;
+    case Verb::rapid:
+        mode_ = Mode::rapid;
+        break;
+    case Verb::circle_clockwise:
+        mode_ = Mode::clockwise;
+        break;
+    case Verb::circle_counter_clockwise:
+        mode_ = Mode::counter_clockwise;
+        break;
     case Verb::absolute:
     case Verb::incremental:
         each(incremental_, statement.verb == Verb::incremental);
@@ -202,18 +214,6 @@ CoordinateSystem::Next CoordinateSystem::service(const Statement& statement) {
     ++at_.statement;
     const double data = statement.data ? statement.data.value(*card_) : 0.0;
     switch (statement.verb) {
-    case Verb::linear:
-        mode_ = Mode::linear;
-        break;
-    case Verb::rapid:
-        mode_ = Mode::rapid;
-        break;
-    case Verb::circle_clockwise:
-        mode_ = Mode::clockwise;
-        break;
-    case Verb::circle_counter_clockwise:
-        mode_ = Mode::counter_clockwise;
-        break;
     case Verb::normal:
         normal_ = Vec3::Zero();
         for (const Statement::AxisWord& word : statement.words) {

@@ -161,11 +161,6 @@ void Port::control(char character) {
     if (const auto told = report(character)) {
         return answer({*told}, true);
     }
-    const auto each_system = [&](auto&& act) {
-        for (int n = 0; n < Card::systems; ++n) {
-            act(card_.system(n));
-        }
-    };
     switch (character | '@') {
     case 'A':
         card_.abort_all();
@@ -193,18 +188,6 @@ void Port::control(char character) {
     case 'N':
         output_ += sum_of(line_);
         break;
-    case 'O':
-        each_system([](CoordinateSystem& system) { system.hold(); });
-        break;
-    case 'Q':
-        each_system([](CoordinateSystem& system) { system.quit(); });
-        break;
-    case 'R':
-        each_system([](CoordinateSystem& system) { (void)system.run(false); });
-        break;
-    case 'S':
-        each_system([](CoordinateSystem& system) { (void)system.run(true); });
-        break;
     case 'T':
         echoes_ = !echoes_;
         break;
@@ -218,6 +201,31 @@ void Port::control(char character) {
         output_.clear();
         line_.clear();
         overrun_ = bad_character_ = false;
+        break;
+    default:
+        control_systems(character);
+        break;
+    }
+}
+
+void Port::control_systems(char character) {
+    const auto each_system = [&](auto&& act) {
+        for (int n = 0; n < Card::systems; ++n) {
+            act(card_.system(n));
+        }
+    };
+    switch (character | '@') {
+    case 'O':
+        each_system([](CoordinateSystem& system) { system.hold(); });
+        break;
+    case 'Q':
+        each_system([](CoordinateSystem& system) { system.quit(); });
+        break;
+    case 'R':
+        each_system([](CoordinateSystem& system) { (void)system.run(false); });
+        break;
+    case 'S':
+        each_system([](CoordinateSystem& system) { (void)system.run(true); });
         break;
     default: // ^Z: this is the only port
         break;

@@ -24,6 +24,7 @@ public:
 private:
     void take(char character);
     void control(char character);
+    void control_systems(char character); ///< what acts on the programs of all coordinate systems
     [[nodiscard]] std::optional<std::string> report(char character) const;
     void enter(const std::string& line);
     void answer(const std::vector<std::string>& lines, bool closes);
