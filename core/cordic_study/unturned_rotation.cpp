@@ -1,8 +1,8 @@
 #include "core/cordic_study/unturned_rotation.h"
 
 #include "core/cordic/arithmetic.h"
-#include "core/cordic_study/internal/entered_numbers.h"
 #include "core/cordic/kernel.h"
+#include "core/cordic_study/internal/entered_numbers.h"
 
 #include <fmt/format.h>
 

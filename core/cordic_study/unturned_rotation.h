@@ -4,7 +4,7 @@
 
 #include "core/cordic/number_format.h"
 #include "core/cordic/sequence.h"
-#include "core/cordic/single_pass.h"
+#include "core/cordic_study/single_pass.h"
 
 #include <optional>
 #include <string>
