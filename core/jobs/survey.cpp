@@ -171,7 +171,8 @@ void read_into(Survey& found,
         }
     }
     std::ranges::sort(found.unread_lines);
-    found.unread_lines.erase(std::unique(found.unread_lines.begin(), found.unread_lines.end()), found.unread_lines.end());
+    found.unread_lines.erase(std::unique(found.unread_lines.begin(), found.unread_lines.end()),
+                             found.unread_lines.end());
     const int last = reader.place().file == 0 ? reader.place().line : 0;
     const bool ended_by_it = !found.unread_lines.empty() && found.unread_lines.back() == last;
     found.unread_from = ended_by_it ? last : 0;
