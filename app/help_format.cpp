@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <string_view>
 #include <vector>
 
 namespace millwright::app {
@@ -14,6 +15,10 @@ namespace millwright::app {
 namespace {
 
 std::string plain_name(const std::string& type) {
+    constexpr std::string_view of_checked_text = "TEXT:"; // what the check asks for comes behind it
+    if (type.starts_with(of_checked_text)) {
+        return type.substr(of_checked_text.size());
+    }
     return type == "FLOAT" ? "NUMBER" : type == "INT" || type == "UINT" ? "N" : type;
 }
 
@@ -27,6 +32,11 @@ std::optional<double> number_in(const std::string& text) {
 bool is_between(const std::string& text, double least, double most) {
     const auto value = number_in(text);
     return !value || (*value >= least && *value <= most);
+}
+
+/// "1,2" of "[1,2]".
+std::string plain_default(const std::string& value) {
+    return value.starts_with('[') && value.ends_with(']') ? value.substr(1, value.size() - 2) : value;
 }
 
 /// A default that says something: no empty text, no empty list, no number in place of a name, and none beyond
@@ -79,7 +89,8 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
         return {};
     }
     const ValueText value = value_text(option->get_type_name());
-    std::string text = value.name.empty() ? std::string() : " " + value.name;
+    const bool is_named = option->get_positional() && value.name == "TEXT"; // by its own name
+    std::string text = value.name.empty() || is_named ? std::string() : " " + value.name;
     if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
         text += " ...";
     }
@@ -90,7 +101,7 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
     if (option->get_required()) {
         remarks.emplace_back("required");
     } else if (is_told(option->get_default_str(), value)) {
-        remarks.push_back("default " + option->get_default_str());
+        remarks.push_back("default " + plain_default(option->get_default_str()));
     }
     if (!option->get_envname().empty()) {
         remarks.push_back("else $" + option->get_envname());

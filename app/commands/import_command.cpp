@@ -272,18 +272,21 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
     return json;
 }
 
-void print_points_off(const project::PointFit& points, const project::SurfaceInput& surface) {
+void print_points_off(const project::PointFit& points,
+                      const project::SurfaceInput& surface,
+                      const char* numbered) {
     const geometry::ControlNet& net = surface.patches.front();
     const exchange::Deviation& off = points.deviation;
     fmt::print("{}, {}\n"
                "{} of degree {} x {}\n"
-               "points to surface: at most {:.4g} mm (line {}), {:.4g} mm on average, {:.4g} mm rms\n",
+               "points to surface: at most {:.4g} mm ({} {}), {:.4g} mm on average, {:.4g} mm rms\n",
                counted(points.points.size(), "point"),
                rows_text(points.rows, points.columns),
                surface.patches.size() == 1 ? "patch" : "patches",
                net.rows - 1,
                net.columns - 1,
                off.max,
+               numbered,
                points.worst_line(),
                off.mean,
                off.rms);
@@ -299,7 +302,7 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
         return;
     }
     if (const auto& points = imported.points) {
-        print_points_off(*points, imported.surface);
+        print_points_off(*points, imported.surface, exchange::is_mesh_file(options.file) ? "point" : "line");
     } else if (const auto& fit = imported.fit) {
         const char* source = exchange::is_mesh_file(options.file) ? "mesh" : "face";
         fmt::print("patch of degree {} x {}\n"

@@ -36,6 +36,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace millwright::app {
 
@@ -310,9 +311,18 @@ int carve(const PlotOptions& options) {
     }
     fine.program.chord_tolerance = fine.reading.arc_tolerance;
     WatchedWork work;
-    const Strokes strokes =
-        is_program(options) ? program_strokes(options.file, fine.program) : read_plot_to_use(fine).strokes;
-    carve_strokes(strokes, options.file, options.carving, work);
+    CarvingOptions carving = options.carving;
+    Strokes strokes;
+    if (is_program(options)) {
+        const bool given = options.command->count("--safe-height") > 0;
+        fine.program.safe_height = given ? std::optional(carving.cutting.safe_height) : std::nullopt;
+        ProgramStrokes read = program_strokes(options.file, fine.program);
+        carving.cutting.safe_height = given ? carving.cutting.safe_height : read.safe_height;
+        strokes = std::move(read.strokes);
+    } else {
+        strokes = read_plot_to_use(fine).strokes;
+    }
+    carve_strokes(strokes, options.file, carving, work);
     return 0;
 }
 

@@ -26,6 +26,7 @@
 #include <filesystem>
 #include <set>
 #include <span>
+#include <utility>
 
 namespace millwright::app {
 
@@ -379,8 +380,10 @@ std::vector<Vec3> program_points(const std::string& file,
     return plot::decode_path(program.path, decoding, fastest).points;
 }
 
-plot::Strokes program_strokes(const std::string& file, const ProgramReading& reading) {
-    return read_cut_program_to_cut(file, reading).strokes;
+ProgramStrokes program_strokes(const std::string& file, const ProgramReading& reading) {
+    CutProgram program = read_cut_program_to_cut(file, reading);
+    const double height = reading.safe_height ? *reading.safe_height : safe_height_of(program, file);
+    return {std::move(program.strokes), height};
 }
 
 int program_toolpath(const std::string& file,

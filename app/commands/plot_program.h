@@ -48,9 +48,13 @@ int program_view(const std::string& file,
                                                plot::DecodeSettings decoding,
                                                const std::optional<double>& fastest,
                                                bool flat);
-/// What it cuts, whatever the height. Throws Error as read_cut_program(), and where nobody can say where it
-/// is.
-[[nodiscard]] plot::Strokes program_strokes(const std::string& file, const ProgramReading& reading);
+struct ProgramStrokes {
+    plot::Strokes strokes;
+    double safe_height = 0.0; ///< at which the program goes across, at least the usual one, mm
+};
+/// What it cuts, whatever the height. Says on standard error where it travels higher than usual. Throws Error
+/// as read_cut_program(), and where nobody can say where it is.
+[[nodiscard]] ProgramStrokes program_strokes(const std::string& file, const ProgramReading& reading);
 /// As it stands, or anew of its strokes where an option of `command` shapes these.
 int program_toolpath(const std::string& file,
                      const ProgramReading& reading,

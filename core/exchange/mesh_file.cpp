@@ -38,17 +38,14 @@ std::vector<int> first_in_place(const std::vector<Vec3>& points) {
     return first;
 }
 
-/// Each place once, and triangles with an area alone.
+/// Each place once, in the order of the file, and triangles with an area alone.
 MeshFile joined(const TriangleMesh& soup) {
     const std::vector<int> first = first_in_place(soup.points);
     MeshFile result;
-    std::vector<int> place(soup.points.size(), -1);
-    const auto placed = [&](int corner) {
-        int& at = place[static_cast<std::size_t>(first[static_cast<std::size_t>(corner)])];
-        if (at < 0) {
-            at = static_cast<int>(result.mesh.points.size());
-            result.mesh.points.push_back(soup.points[static_cast<std::size_t>(corner)]);
-        }
+    std::vector<bool> used(soup.points.size(), false);
+    const auto first_of = [&](int corner) {
+        const int at = first[static_cast<std::size_t>(corner)];
+        used[static_cast<std::size_t>(at)] = true;
         return at;
     };
     for (std::size_t n = 0; n < soup.triangles.size(); ++n) {
@@ -57,7 +54,19 @@ MeshFile joined(const TriangleMesh& soup) {
             ++result.without_area;
             continue;
         }
-        result.mesh.triangles.push_back({placed(a), placed(b), placed(c)});
+        result.mesh.triangles.push_back({first_of(a), first_of(b), first_of(c)});
+    }
+    std::vector<int> number(soup.points.size(), -1);
+    for (std::size_t n = 0; n < used.size(); ++n) {
+        if (used[n]) {
+            number[n] = static_cast<int>(result.mesh.points.size());
+            result.mesh.points.push_back(soup.points[n]);
+        }
+    }
+    for (std::array<int, 3>& triangle : result.mesh.triangles) {
+        for (int& corner : triangle) {
+            corner = number[static_cast<std::size_t>(corner)];
+        }
     }
     return result;
 }

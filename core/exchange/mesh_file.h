@@ -22,7 +22,8 @@ struct MeshFile {
 /// Whether the name ends like that of a mesh that can be read, in any case.
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& file);
 
-/// Faces of more corners are cut into triangles, points in the same place are one. Throws Error, naming the
+/// Faces of more corners are cut into triangles, points in the same place are one; the order is that of the
+/// file. Throws Error, naming the
 /// file, for another kind of file, damaged or empty ones, numbers that are not finite, and more than
 /// `most_mesh_triangles`; Cancelled.
 [[nodiscard]] MeshFile

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 #include <span>
 #include <string>
@@ -147,6 +149,37 @@ std::optional<PointGrid> rows_of(const MeasuredPoints& measured, const std::file
                    measured.lines};
     turn_rows(grid);
     return grid;
+}
+
+std::optional<MeasuredPoints> raster_points(const TriangleMesh& mesh) {
+    MeasuredPoints measured{
+        .points = mesh.points, .lines = std::vector<int>(mesh.points.size()), .begins = {0}};
+    std::iota(measured.lines.begin(), measured.lines.end(), 1);
+    const auto grid = rows_of(measured, {});
+    if (!grid) {
+        return std::nullopt;
+    }
+    std::vector<int> place(mesh.points.size()); // in the grid, of each point
+    for (std::size_t n = 0; n < grid->lines.size(); ++n) {
+        place[static_cast<std::size_t>(grid->lines[n] - 1)] = static_cast<int>(n);
+    }
+    constexpr int triangles_per_cell = 2;
+    std::map<std::pair<int, int>, int> triangles_in; // by the cell's row and column
+    for (const std::array<int, 3>& triangle : mesh.triangles) {
+        std::array<int, 3> rows{}, columns{};
+        for (std::size_t k = 0; k < triangle.size(); ++k) {
+            const int at = place[static_cast<std::size_t>(triangle[k])];
+            rows[k] = at / grid->columns;
+            columns[k] = at % grid->columns;
+        }
+        const auto [top, bottom] = std::ranges::minmax(rows);
+        const auto [left, right] = std::ranges::minmax(columns);
+        if (bottom - top != 1 || right - left != 1 || ++triangles_in[{top, left}] > triangles_per_cell) {
+            return std::nullopt;
+        }
+    }
+    const auto cells = static_cast<std::size_t>((grid->rows - 1) * (grid->columns - 1));
+    return mesh.triangles.size() == triangles_per_cell * cells ? std::optional(measured) : std::nullopt;
 }
 
 PointCloud cloud_of(const MeasuredPoints& measured) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/exchange/point_file.h"
+#include "core/exchange/triangle_mesh.h"
 
 #include <filesystem>
 #include <optional>
@@ -28,6 +29,10 @@ struct PointGrid {
 /// there twice.
 [[nodiscard]] std::optional<PointGrid> rows_of(const MeasuredPoints& measured,
                                                const std::filesystem::path& file);
+
+/// The points of a mesh that joins points in rows: each cell between two rows is two triangles, and the order
+/// of the points is that of the rows; `lines` are the numbers of the points, from 1. Nothing for others.
+[[nodiscard]] std::optional<MeasuredPoints> raster_points(const TriangleMesh& mesh);
 
 /// The points without those that repeat an earlier one, as a cloud may have them; `repeated`: the lines of
 /// the others.

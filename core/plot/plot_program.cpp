@@ -127,6 +127,7 @@ private:
         case TipKind::v:
             cutter.half_angle = tip.angle / 2.0;
             cutter.corner_radius = tip.end_radius;
+            cutter.tip_diameter = tip.end_width;
             cutter.kind = "engraving tool";
             break;
         }

@@ -23,6 +23,9 @@ std::string cutter_comment(const ProgramCutter& cutter, double unit) {
     if (cutter.half_angle) {
         text += " TAPER=" + angle.text(to_degrees(*cutter.half_angle)) + "DEG";
     }
+    if (cutter.tip_diameter > 0.0) {
+        text += " TIP=" + length.text(cutter.tip_diameter / unit);
+    }
     if (!cutter.kind.empty()) {
         text += " - ";
         std::ranges::transform(cutter.kind, std::back_inserter(text), [](unsigned char c) {

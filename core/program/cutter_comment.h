@@ -7,7 +7,8 @@
 
 namespace millwright::program {
 
-/// "T1 D=6. CR=0. - FLAT END MILL", of a cone with "TAPER=45DEG" behind CR; lengths in `unit`, mm. The reader
+/// "T1 D=6. CR=0. - FLAT END MILL", of a cone with "TAPER=45DEG" behind CR and,
+/// where its end is flat, "TIP=0.2"; lengths in `unit`, mm. The reader
 /// of tool comments takes it.
 [[nodiscard]] std::string cutter_comment(const ProgramCutter& cutter, double unit);
 

@@ -96,6 +96,7 @@ struct ProgramCutter {
     double diameter = 0.0;                 ///< > 0, mm
     std::optional<double> corner_radius{}; ///< mm; half of the diameter: a ball; nullopt: not known
     std::optional<double> half_angle{};    ///< of a cone, between axis and flank, rad
+    double tip_diameter = 0.0;             ///< of a cone's flat end, mm; 0: a point or a round end
     std::string kind{};                    ///< as "flat end mill"; may be empty
 
     friend bool operator==(const ProgramCutter&, const ProgramCutter&) = default;

@@ -2,6 +2,8 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/exchange/grid_surface.h"
+#include "core/exchange/point_rows.h"
 #include "core/project/internal/imported_points.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/settings.h"
@@ -71,8 +73,30 @@ void take_fit(ImportedSurface& imported, exchange::MeshFit fit) {
     imported.fit = std::move(fit);
 }
 
-ImportedSurface
-import_mesh(const exchange::MeshFile& read, const ImportChoice& choice, const Progress& progress) {
+/// The points of a mesh that is a raster, so few that one patch goes through all of them.
+std::optional<exchange::MeasuredPoints> points_for_one_patch(const TriangleMesh& mesh) {
+    constexpr std::size_t most = exchange::most_points_of_one_span * exchange::most_points_of_one_span;
+    auto points = mesh.points.size() <= most ? exchange::raster_points(mesh) : std::nullopt;
+    const auto grid = points ? exchange::rows_of(*points, {}) : std::nullopt;
+    const bool fits = grid && std::max(grid->rows, grid->columns) <= exchange::most_points_of_one_span;
+    return fits ? std::move(points) : std::nullopt;
+}
+
+ImportedSurface import_mesh(const exchange::MeshFile& read,
+                            const ImportChoice& choice,
+                            const std::filesystem::path& file,
+                            const Progress& progress) {
+    const auto raster = choice.degrees ? std::nullopt : points_for_one_patch(read.mesh);
+    if (raster) { // facets between so few points are no shape to fit
+        ImportedSurface imported = import_points(*raster, choice, file, progress);
+        imported.notes.insert(imported.notes.begin(), read.notes.begin(), read.notes.end());
+        imported.notes.push_back(fmt::format(
+            "the mesh joins {} rows of {} points: the patch goes through all of them, not along the "
+            "facets; give a degree to fit the facets",
+            imported.points->rows,
+            imported.points->columns));
+        return imported;
+    }
     ImportedSurface imported;
     imported.notes = read.notes;
     if (read.without_area > 0) {
@@ -288,7 +312,7 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
         const double unit = choice.mm_per_unit;
         check_reach(what, points, unit, source.file);
         check_imported_size(what, points, unit, source.file);
-        imported = source.mesh ? import_mesh(*source.mesh, choice, progress)
+        imported = source.mesh ? import_mesh(*source.mesh, choice, source.file, progress)
                                : import_points(*source.points, choice, source.file, progress);
         tell(imported, doubt_of_size(unit * size_of(points), unit));
     } else {

@@ -36,7 +36,7 @@ struct ImportChoice {
     int face = 0;             ///< of a STEP or IGES file, from 1; 0: the only one
     double mm_per_unit = 1.0; ///< of a mesh or of points; the other files tell
     std::optional<FitDegrees> degrees =
-        {};                         ///< meshes are always fitted, a face or rows only if these are given
+        {};                         ///< meshes but rasters are always fitted, others only if these are given
     std::optional<Vec3> along = {}; ///< unit, out of the part: the side of a mesh or of points that is fitted
     bool cloud = false;             ///< points are fitted as a cloud, whether they are in rows or not
 
@@ -47,7 +47,7 @@ struct ImportChoice {
 struct PointFit {
     int rows = 0, columns = 0;     ///< 0: a cloud
     std::vector<Vec3> points;      ///< mm
-    std::vector<int> lines;        ///< of the file
+    std::vector<int> lines;        ///< of the file; of a mesh the numbers of the points, from 1
     exchange::Deviation deviation; ///< of the points; none of the patch
 
     [[nodiscard]] int worst_line() const;

@@ -248,6 +248,9 @@ fs::path from_folder(const fs::path& file, const fs::path& folder) {
 
 /// What lies in the folder or below it is called from there, so that both can move together.
 fs::path to_folder(const fs::path& file, const fs::path& folder) {
+    if (file.empty()) { // which would be "." in the current folder
+        return file;
+    }
     const fs::path from_there = file.lexically_relative(folder);
     return from_there.empty() || *from_there.begin() == ".." ? file : from_there;
 }

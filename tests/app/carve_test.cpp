@@ -104,6 +104,21 @@ TEST_F(CarveCommand, AGCodeProgramIsCarvedByItsClosedCuts) {
     EXPECT_NEAR(json::parse(ended.out).at("depth_mm").get<double>(), 10.0, 1e-3);
 }
 
+// It went across 5 mm above the work, whatever stands there.
+TEST_F(CarveCommand, AGCodeProgramIsCarvedFromTheHeightAtWhichItTravels) {
+    drawing = folder / "outline.ngc";
+    write_content(drawing,
+                  "G21 G90\nG0 Z20\nG0 X10 Y10\nG1 Z-1 F300\nG1 X30\nG1 Y30\nG1 X10\nG1 Y10\nG0 Z20\nM2\n");
+    const Ended ended = carve({"--tool", "v:90:40"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("the tool travels at 20.000 mm, as high as in the program"));
+    EXPECT_THAT(content_of(program), HasSubstr("G0 Z20.0000"));
+    const Ended lower = carve({"--tool", "v:90:40", "--safe-height", "8"});
+    ASSERT_EQ(lower.exit_code, 0) << lower.err;
+    EXPECT_THAT(content_of(program), HasSubstr("G0 Z8.0000"));
+    EXPECT_THAT(content_of(program), testing::Not(HasSubstr("Z20.0000")));
+}
+
 TEST_F(CarveCommand, SaysWhatIsWrongWithItsPlace) {
     write_content(drawing, "IN;SP1;PU0,0;PD800,0,800,800,0,800;PU;");
     const Ended open = carve({});

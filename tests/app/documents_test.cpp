@@ -298,6 +298,15 @@ TEST(DocumentsTest, FindsTheFilesThatADocumentShows) {
     EXPECT_THAT(files, testing::ElementsAre(testing::Pair("my-arm.json", "{}\n")));
 }
 
+TEST(DocumentsTest, FindsWhatADocumentSaysThatACommandPrints) {
+    const auto listings = listings_of("```sh\na\nb --c   # why\n```\n\nIt prints\n\n```\n1 2\n3\n```\n\n"
+                                      "A file:\n\n```\nG21\n```\n");
+    ASSERT_EQ(listings.size(), 1U);
+    EXPECT_EQ(listings[0].command, "b --c");
+    EXPECT_EQ(listings[0].text, "1 2\n3\n");
+    EXPECT_EQ(listings_of(content_of("docs/user/tutorials/dome.md")).size(), 1U);
+}
+
 TEST(DocumentsTest, FindsCommandsAndLeavesOutWhatStandsForAny) {
     EXPECT_THAT(indented_commands_of("text\n    millwright plan a.json --out b   # why\n"
                                      "    millwright plan PROJECT --out DIR\n    millwright run a [--yes]\n"),

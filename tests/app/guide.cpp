@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string_view>
@@ -85,6 +87,32 @@ std::map<std::string, std::string> files_of(const std::string& document) {
     return files;
 }
 
+std::vector<Listing> listings_of(const std::string& document) {
+    std::vector<Listing> listings;
+    std::string before; // text or commands
+    std::string block;  // its language; "```": none
+    bool prints = false;
+    std::istringstream text(document);
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with("```") && block.empty()) {
+            block = line;
+            if (block == "```" && prints) {
+                const std::vector<std::string> commands = commands_of(before);
+                listings.push_back({commands.empty() ? "" : commands.back(), ""});
+            }
+        } else if (line == "```") {
+            block.clear();
+            prints = false;
+        } else if (block == "```" && prints) {
+            listings.back().text += line + "\n";
+        } else if (block.empty() && !line.empty()) {
+            prints = line.ends_with("prints");
+        }
+        before += line + "\n";
+    }
+    return listings;
+}
+
 std::vector<fs::path> documents_in(const fs::path& folder) {
     std::vector<fs::path> found;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -122,7 +150,14 @@ int Guide::follow_document(const std::string& document) {
     for (const auto& [name, text] : files_of(document)) {
         write_content(checkout / name, text);
     }
-    return follow(commands_of(document)) + follow(indented_commands_of(document));
+    const int tried = follow(commands_of(document)) + follow(indented_commands_of(document));
+    for (const Listing& listing : listings_of(document)) {
+        EXPECT_NE(printed_[listing.command].find(listing.text), std::string::npos)
+            << "`" << listing.command << "` does not print\n"
+            << listing.text << "but\n"
+            << printed_[listing.command];
+    }
+    return tried;
 }
 
 int Guide::follow(const std::vector<std::string>& commands) {
@@ -224,6 +259,11 @@ void Guide::run_shown(const std::string& command) {
         run = shell(checkout.path(), environment + here(command));
     }
     EXPECT_EQ(run.exit_code, 0) << command << '\n' << run.output;
+    printed_[command] = run.output;
+    if (const char* const log = std::getenv("MILLWRIGHT_DOCUMENT_LOG"); log != nullptr) {
+        std::ofstream(log, std::ios::app) << "| `" << command << "` | " << run.exit_code << " | "
+                                          << run.output.substr(0, run.output.find('\n')) << " |\n";
+    }
     std::smatch file;
     if (std::regex_search(command, file, out)) {
         EXPECT_TRUE(fs::exists(checkout / file[1].str())) << command;

@@ -19,6 +19,14 @@ namespace millwright::test {
 /// "`NAME.ending`:".
 [[nodiscard]] std::map<std::string, std::string> files_of(const std::string& document);
 
+/// What a document says that a command prints: the block without a language behind a line that ends with
+/// "prints", and the last command of the shell before it.
+struct Listing {
+    std::string command;
+    std::string text;
+};
+[[nodiscard]] std::vector<Listing> listings_of(const std::string& document);
+
 /// Markdown pages in `folder` and below it, sorted.
 [[nodiscard]] std::vector<std::filesystem::path> documents_in(const std::filesystem::path& folder);
 
@@ -29,7 +37,7 @@ protected:
     ~Guide() override;
 
     /// Writes the files that the document shows and runs its commands: those of its blocks, then those four
-    /// blanks in. The number of commands.
+    /// blanks in. Each prints what a listing behind it shows. The number of commands.
     int follow_document(const std::string& document);
 
     /// Runs the commands, an emulator in the background until the test ends. The number of commands.
@@ -43,10 +51,12 @@ private:
     /// In the background, until the test ends; its port is there then.
     void start(const std::string& command);
     void stop_emulators();
-    /// To its end, with 0; what it names by --out is there then.
+    /// To its end, with 0; what it names by --out is there then. With MILLWRIGHT_DOCUMENT_LOG set to a file,
+    /// its exit code and first line of output are added there.
     void run_shown(const std::string& command);
 
-    std::vector<std::string> emulators_; ///< process numbers
+    std::vector<std::string> emulators_;         ///< process numbers
+    std::map<std::string, std::string> printed_; ///< by commands that ended
 };
 
 } // namespace millwright::test

@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -37,6 +40,28 @@ struct Series : testing::Test {
             "send", "--driver", "grbl", "--port", port, "--log", logs, "--unlock"};
         words.insert(words.end(), more.begin(), more.end());
         return run(words, input);
+    }
+    /// One job held and one waiting, as docs/reference/job-log.md shows them: member by member.
+    void expect_documented_queue() const {
+        const std::string page = content_of("docs/reference/job-log.md");
+        const auto begin = page.find("```json\n", page.find("## A queue of jobs"));
+        ASSERT_NE(begin, std::string::npos);
+        const auto from = page.find('{', begin);
+        const auto shown = nlohmann::json::parse(page.substr(from, page.find("```", from) - from));
+        const auto written = nlohmann::json::parse(content_of(logs + "/queue.json"));
+        const auto names = [](const nlohmann::json& object) {
+            std::set<std::string> found;
+            for (const auto& [name, value] : object.items()) {
+                found.insert(name);
+            }
+            return found;
+        };
+        EXPECT_EQ(names(written), names(shown));
+        ASSERT_EQ(shown.at("jobs").size(), 2U);
+        for (std::size_t n = 0; n < 2; ++n) {
+            EXPECT_EQ(names(written.at("jobs")[n]), names(shown.at("jobs")[n])) << n;
+            EXPECT_EQ(written.at("jobs")[n].at("state"), shown.at("jobs")[n].at("state"));
+        }
     }
     /// File names and states of the queue on disk.
     [[nodiscard]] std::string queue() const {
@@ -91,6 +116,7 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
         (void)emulator.stop();
     }
     EXPECT_EQ(queue(), "a held b waiting ");
+    expect_documented_queue();
     Emulator emulator(port, {"--speed", "50"});
     Ended ended = send({"--continue", "--yes"});
     EXPECT_EQ(ended.exit_code, 1);

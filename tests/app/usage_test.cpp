@@ -156,7 +156,7 @@ std::vector<std::vector<std::string>> all_commands(const std::vector<std::string
     return found;
 }
 
-// It had FLOAT:FLOAT in [0 - 1], TEXT:{nearest,travel} and GOAL(6x).
+// It had FLOAT:FLOAT in [0 - 1], TEXT:{nearest,travel}, TEXT:WIDTHxHEIGHT, FILE TEXT, [0,0] and GOAL(6x).
 TEST(Usage, HelpSpeaksPlainly) {
     const auto commands = all_commands();
     EXPECT_GE(commands.size(), 50U);
@@ -164,7 +164,7 @@ TEST(Usage, HelpSpeaksPlainly) {
         command.emplace_back("--help");
         const std::string help = run(command).out;
         static const std::regex leftover(
-            R"(\b(FLOAT|INT|UINT|REQUIRED)\b|TEXT:\{| in \[|\([0-9]+x\)|(Excludes|Needs):)");
+            R"(\b(FLOAT|INT|UINT|REQUIRED)\b|TEXT:|\n  [A-Z]+ TEXT|default \[| in \[|\([0-9]+x\)|(Excludes|Needs):)");
         std::smatch found;
         EXPECT_FALSE(std::regex_search(help, found, leftover))
             << testing::PrintToString(command) << ": " << found.str();
@@ -181,6 +181,8 @@ TEST(Usage, HelpSpeaksPlainly) {
     EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--largest-step NUMBER (0 to 180)"));
     EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--sequencing nearest|travel|error|time"));
     EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--post NAME|FILE (default linuxcnc)"));
+    EXPECT_THAT(run({"render", "--help"}).out, HasSubstr("--size WIDTHxHEIGHT (default 1280x800)"));
+    EXPECT_THAT(run({"arm", "reach", "--help"}).out, HasSubstr("(default 0,0,0,0,0,0)"));
     EXPECT_THAT(run({"arm", "ik", "--help"}).out, HasSubstr("arm ik [OPTIONS] X Y Z AX AY AZ"));
 }
 

@@ -197,7 +197,7 @@ void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, 
     }
 }
 
-void draw_points_off(Ui& ui, const project::PointFit& points) {
+void draw_points_off(Ui& ui, const project::PointFit& points, const char* numbered) {
     ui.value("rows",
              "Points",
              points.rows > 0 ? fmt::format("{} x {}", points.rows, points.columns)
@@ -207,7 +207,7 @@ void draw_points_off(Ui& ui, const project::PointFit& points) {
         "Largest deviation",
         deviation_text(points.deviation.max),
         "mm",
-        fmt::format("Largest distance of a point from the surface (point in line {})", points.worst_line()));
+        fmt::format("Largest distance of a point from the surface ({} {})", numbered, points.worst_line()));
     ui.value("mean", "Mean deviation", deviation_text(points.deviation.mean), "mm");
     ui.value("rms", "RMS deviation", deviation_text(points.deviation.rms), "mm");
 }
@@ -228,7 +228,7 @@ void draw_found(Ui& ui, const ImportResult& found) {
     }
     ui.value("patches", "Patches", std::to_string(found.surface->surface.patches.size()));
     if (const auto& points = found.surface->points) {
-        draw_points_off(ui, *points);
+        draw_points_off(ui, *points, found.source->mesh ? "point" : "point in line");
     } else if (const auto& fit = found.surface->fit) {
         ui.value("max",
                  "Largest deviation",

@@ -93,8 +93,8 @@ public:
     Pruning(MedialAxis& axis, double tolerance)
         : axis_(axis), tolerance_(tolerance), edges_at_(axis.nodes.size()), kept_(axis.edges.size(), true) {
         for (std::size_t n = 0; n < axis.edges.size(); ++n) {
-            at(axis.edges[n].from).push_back(n);
-            at(axis.edges[n].to).push_back(n);
+            at(axis.edges[n].from).add(n);
+            at(axis.edges[n].to).add(n);
         }
         for (const AxisNode& node : axis.nodes) {
             reach_.push_back(node.clearance);
@@ -120,15 +120,30 @@ public:
     }
 
 private:
-    std::vector<std::size_t>& at(int node) { return edges_at_[static_cast<std::size_t>(node)]; }
+    /// Edges at a node. Their numbers are combined, so that the last one left is known without a search.
+    struct EdgesLeft {
+        std::size_t count = 0;
+        std::size_t combined = 0;
+
+        void add(std::size_t edge) {
+            ++count;
+            combined ^= edge;
+        }
+        void remove(std::size_t edge) {
+            --count;
+            combined ^= edge;
+        }
+    };
+
+    EdgesLeft& at(int node) { return edges_at_[static_cast<std::size_t>(node)]; }
     double& reach(int node) { return reach_[static_cast<std::size_t>(node)]; }
 
     /// The node behind the branch that ends at `end`, if it was taken away; else -1.
     int cut_off(int end) {
-        if (at(end).size() != 1) {
+        if (at(end).count != 1) {
             return -1;
         }
-        const std::size_t n = at(end).front();
+        const std::size_t n = at(end).combined;
         const AxisEdge& edge = axis_.edges[n];
         const int behind = edge.from == end ? edge.to : edge.from;
         // Along the branch a disc reaches no farther than this from the node behind it.
@@ -138,14 +153,14 @@ private:
         }
         reach(behind) = std::max(reach(behind), reached);
         kept_[n] = false;
-        at(end).clear();
-        std::erase(at(behind), n);
+        at(end).remove(n);
+        at(behind).remove(n);
         return behind;
     }
 
     MedialAxis& axis_;
     double tolerance_;
-    std::vector<std::vector<std::size_t>> edges_at_;
+    std::vector<EdgesLeft> edges_at_;
     std::vector<bool> kept_;
     std::vector<double> reach_; ///< from each node, of discs at it and on what was taken away behind it
 };

@@ -5,9 +5,10 @@
 #include "core/plot/carving/internal/axis_trails.h"
 #include "core/plot/carving/internal/carving_outlines.h"
 #include "core/plot/carving/internal/carving_path.h"
-#include "core/plot/carving/internal/segment_tree.h"
+#include "core/plot/carving/internal/path_deviation.h"
 #include "core/plot/carving/medial_axis.h"
 #include "core/plot/compensation.h"
+#include "core/plot/path_bound.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +26,7 @@ using internal::CutLine;
 using internal::PartPasses;
 
 constexpr double finest_tolerance = 1e-4; // mm; places are rounded to 1e-6 mm
+constexpr double finest_pass = 0.002;     // mm; shallower ones are a slip, and take hours
 constexpr double most_passes = 10'000.0;
 
 void expect_carving_settings(const CarvingSettings& settings) {
@@ -55,6 +57,10 @@ void expect_carving_settings(const CarvingSettings& settings) {
     };
     expect_above_zero("the largest depth", settings.largest_depth.value_or(1.0));
     expect_above_zero("the depth per pass", settings.depth_per_pass.value_or(1.0));
+    if (settings.depth_per_pass && *settings.depth_per_pass < finest_pass) {
+        throw Error(fmt::format(
+            "the depth per pass must be {:g} mm or more, not {:g}", finest_pass, *settings.depth_per_pass));
+    }
     expect_above_zero("the step-over", settings.step_over.value_or(1.0));
     expect_above_zero("the largest gap to close", settings.close_gaps);
     expect_above_zero("the cutting speed", settings.cutting);
@@ -101,7 +107,16 @@ public:
           bit_(settings.tip,
                settings.largest_depth.value_or(std::numeric_limits<double>::infinity()),
                settings.tolerance / 4.0),
-          cuts_(static_cast<std::size_t>(axis.parts)) {}
+          cuts_(static_cast<std::size_t>(axis.parts)), regions_(static_cast<std::size_t>(axis.parts)),
+          widest_(static_cast<std::size_t>(axis.parts), 0.0) {
+        for (std::size_t n = 0; n < axis.region.size(); ++n) {
+            regions_[static_cast<std::size_t>(axis.ring_parts[n])].push_back(axis.region[n]);
+        }
+        for (const AxisNode& node : axis.nodes) {
+            double& widest = widest_[static_cast<std::size_t>(node.part)];
+            widest = std::max(widest, node.clearance);
+        }
+    }
 
     [[nodiscard]] Carving run(const Progress& progress) {
         made_.parts = axis_.parts;
@@ -113,20 +128,20 @@ public:
             }
         }
         progress.check();
-        for (int part = 0; part < axis_.parts; ++part) {
+        for (std::size_t part = 0; part < cuts_.size(); ++part) {
             add_floor(part, progress);
         }
         find_narrow();
         std::vector<PartPasses> parts;
         for (const std::vector<CutLine>& cuts : cuts_) {
-            parts.push_back(passes_of(cuts));
+            parts.push_back(passes_of(cuts, progress));
             progress.check();
         }
         made_.path = internal::carving_path(parts, settings_, progress.part(0.2, 0.6));
         for (const CutPoint& point : made_.path) {
             made_.deepest = std::max(made_.deepest, -point.at.z());
         }
-        made_.deviation = deviation(progress);
+        made_.deviation = internal::path_deviation(made_.path, axis_.region, settings_.tip, progress);
         return std::move(made_);
     }
 
@@ -137,17 +152,13 @@ private:
 
     /// Along the edge of the floor, and on inside. The axis itself is cut there, too, so that no place of a
     /// cleared floor is farther from a pass than half of the step-over.
-    void add_floor(int part, const Progress& progress) {
-        Region region;
-        for (std::size_t n = 0; n < axis_.region.size(); ++n) {
-            if (axis_.ring_parts[n] == part) {
-                region.push_back(axis_.region[n]);
-            }
-        }
-        if (!is_wide(part)) {
+    void add_floor(std::size_t part, const Progress& progress) {
+        if (!(widest_[part] > bit_.widest())) {
             return;
         }
-        Region edge = shrunk(region, bit_.widest());
+        const Region& region = regions_[part];
+        const Region floor = shrunk(region, bit_.widest());
+        Region edge = floor;
         made_.floor_area += area_of(edge);
         if (!settings_.clear_floor) {
             made_.floor_left += area_of(shrunk(region, bit_.widest() + bit_.narrowest()));
@@ -165,7 +176,7 @@ private:
         for (int n = 1; !edge.empty(); ++n) {
             for (const Ring& ring : edge) {
                 points += ring.size();
-                cuts_[static_cast<std::size_t>(part)].push_back(closed_cut(ring, -bit_.largest()));
+                cuts_[part].push_back(closed_cut(ring, -bit_.largest()));
             }
             if (!settings_.clear_floor) {
                 return;
@@ -181,14 +192,8 @@ private:
             progress.check();
             made_.ridge =
                 std::max(made_.ridge, rise(settings_.tip, std::min(step / 2.0, radius(settings_.tip))));
-            edge = shrunk(region, bit_.widest() + n * step);
+            edge = shrunk(floor, n * step); // has fewer corners than the outline
         }
-    }
-
-    [[nodiscard]] bool is_wide(int part) const {
-        return std::ranges::any_of(axis_.nodes, [&](const AxisNode& node) {
-            return node.part == part && node.clearance > bit_.widest();
-        });
     }
 
     [[nodiscard]] double step_over() const {
@@ -205,7 +210,7 @@ private:
         }
     }
 
-    [[nodiscard]] PartPasses passes_of(const std::vector<CutLine>& cuts) const {
+    [[nodiscard]] PartPasses passes_of(const std::vector<CutLine>& cuts, const Progress& progress) {
         double deepest = 0.0;
         for (const CutLine& line : cuts) {
             for (const Vec3& at : line) {
@@ -225,51 +230,27 @@ private:
         }
         PartPasses passes;
         for (double n = 1.0; n <= count; n += 1.0) {
+            progress.check();
             std::vector<CutLine>& pass = passes.emplace_back();
             for (const CutLine& line : cuts) {
                 for (CutLine& cut :
                      internal::pass_of(line, (n - 1.0) / count * deepest, n / count * deepest)) {
+                    pass_points_ += cut.size();
                     pass.push_back(std::move(cut));
                 }
             }
+            expect_not_too_long(pass_points_);
         }
         return passes;
-    }
-
-    /// Of the path itself, at its places and between them.
-    [[nodiscard]] double deviation(const Progress& progress) const {
-        std::vector<internal::Segment2> segments;
-        for (const Ring& ring : axis_.region) {
-            for (std::size_t n = 0; n < ring.size(); ++n) {
-                segments.push_back({ring[n], ring[(n + 1) % ring.size()]});
-            }
-        }
-        const internal::SegmentTree outline(std::move(segments));
-        double worst = -std::numeric_limits<double>::infinity();
-        for (std::size_t n = 1; n < made_.path.size(); ++n) {
-            constexpr std::size_t often = 1000;
-            if (n % often == 0) {
-                progress.check();
-            }
-            if (made_.path[n].move != CutMove::cut && made_.path[n].move != CutMove::plunge) {
-                continue;
-            }
-            const Vec3& from = made_.path[n].move == CutMove::cut ? made_.path[n - 1].at : made_.path[n].at;
-            for (const double t : {0.25, 0.5, 0.75, 1.0}) {
-                const Vec3 at = from + t * (made_.path[n].at - from);
-                if (at.z() < 0.0) {
-                    worst = std::max(worst,
-                                     mouth_radius(settings_.tip, -at.z()) - outline.distance(at.head<2>()));
-                }
-            }
-        }
-        return worst;
     }
 
     const MedialAxis& axis_;
     const CarvingSettings& settings_;
     BitDepth bit_;
     std::vector<std::vector<CutLine>> cuts_; ///< by part
+    std::vector<Region> regions_;            ///< the same
+    std::vector<double> widest_;             ///< clearance, by part
+    std::size_t pass_points_ = 0;            ///< of all passes so far
     Carving made_;
 };
 

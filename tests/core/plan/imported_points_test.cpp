@@ -92,6 +92,48 @@ TEST_F(ImportedPoints, ACloudIsFittedByOneFairPatch) {
     EXPECT_EQ(made.points->worst_line(), 110) << "the point that is nowhere near";
 }
 
+/// A hill of 4 x 4 points on 60 x 60 mm, joined by faces of four corners; the first `count` of them.
+std::string hill_as_obj(int count = 9) {
+    std::string text;
+    for (const double x : {-30.0, -10.0, 10.0, 30.0}) {
+        for (const double y : {-30.0, -10.0, 10.0, 30.0}) {
+            const double z = (std::abs(x) < 20.0 ? 7.0 : 0.0) + (std::abs(y) < 20.0 ? 7.0 : 0.0);
+            text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+        }
+    }
+    for (int n = 0; n < count; ++n) {
+        const int first = 4 * (n / 3) + n % 3 + 1;
+        text += "f";
+        for (const int corner : {first, first + 4, first + 5, first + 1}) {
+            text += " " + std::to_string(corner);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+// A patch of degree 5 near its facets was up to 0.41 mm away, with control points 24 mm beside the part.
+TEST_F(ImportedPoints, OfAMeshThatIsARasterAreOnThePatch) {
+    const auto file = folder_ / "hill.obj";
+    write_file(file, hill_as_obj());
+    const ImportedSurface made = import_surface(file, {}, {});
+    ASSERT_TRUE(made.points);
+    EXPECT_FALSE(made.fit);
+    EXPECT_EQ(made.points->rows, 4);
+    EXPECT_EQ(made.points->columns, 4);
+    EXPECT_LT(made.points->deviation.max, 1e-9);
+    ASSERT_EQ(made.surface.patches.size(), 1U);
+    for (const Vec3& point : made.surface.patches[0].points) {
+        EXPECT_LE(std::max(std::abs(point.x()), std::abs(point.y())), 30.0 + 1e-9) << point.transpose();
+    }
+    EXPECT_THAT(made.notes, ::testing::ElementsAre(HasSubstr("the mesh joins 4 rows of 4 points")));
+    ImportChoice fitted;
+    fitted.degrees = FitDegrees{3, 3};
+    EXPECT_TRUE(import_surface(file, fitted, {}).fit) << "to the facets, if a degree is given";
+    write_file(file, hill_as_obj(8));
+    EXPECT_TRUE(import_surface(file, {}, {}).fit) << "a cell is missing: no raster";
+}
+
 TEST_F(ImportedPoints, SayWhatIsWrongWithFileAndLine) {
     EXPECT_THAT(
         why_not("0 0 0\n0 1 0\n\n1 0 0\n"),

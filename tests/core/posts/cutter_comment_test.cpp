@@ -43,6 +43,13 @@ TEST(CutterComment, IsWrittenAsFusionDoes) {
               "(T12 D=3.175 CR=1.5 - BALL END MILL)");
     EXPECT_EQ(only({.number = 2, .diameter = 6.0, .corner_radius = 0.0, .half_angle = from_degrees(22.5)}),
               "(T2 D=6. CR=0. TAPER=22.5DEG)");
+    EXPECT_EQ(only({.number = 1,
+                    .diameter = 12.0,
+                    .corner_radius = 0.0,
+                    .half_angle = from_degrees(45.0),
+                    .tip_diameter = 0.2,
+                    .kind = "engraving tool"}),
+              "(T1 D=12. CR=0. TAPER=45DEG TIP=0.2 - ENGRAVING TOOL)");
     EXPECT_EQ(only({.number = 0, .diameter = 6.35}), "(D=6.35)");
 }
 
@@ -87,6 +94,9 @@ TEST(CutterComment, NamesTheToolsOfAPlotAndNoPoint) {
     const Program program = plot::plot_program(path, {.tips = tips});
     EXPECT_THAT(posts::write_gcode(program, {}).text,
                 HasSubstr("(T1 D=6. CR=0. TAPER=30DEG - ENGRAVING TOOL)\n(T4 D=2. CR=1. - BALL END MILL)\n"));
+    tips.usual.end_width = 0.25;
+    EXPECT_THAT(posts::write_gcode(plot::plot_program(path, {.tips = tips}), {}).text,
+                HasSubstr("(T1 D=6. CR=0. TAPER=30DEG TIP=0.25 - ENGRAVING TOOL)"));
     tips.usual.kind = plot::TipKind::point;
     const auto without = plot::plot_program(path, {.tips = tips}).cutters;
     ASSERT_EQ(without.size(), 1U);

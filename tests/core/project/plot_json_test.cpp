@@ -104,6 +104,18 @@ TEST(PlotOfAProject, BesideItsProjectMovesWithIt) {
     EXPECT_EQ(read_project(other / "part.json").plot.file, "/elsewhere/sign.plt");
 }
 
+// It was "." in a project that was written to the current folder.
+TEST(PlotOfAProject, WithoutAFileNamesNone) {
+    const test::ScratchFolder scratch;
+    const fs::path before = fs::current_path();
+    fs::current_path(scratch.path());
+    write_project(project_from_preset("dome"), "part.json");
+    const Project read = read_project("part.json");
+    fs::current_path(before);
+    EXPECT_EQ(read, project_from_preset("dome"));
+    EXPECT_THAT(read_file(scratch / "part.json"), Not(HasSubstr("\"plot\"")));
+}
+
 TEST(PlotOfAProject, FaultsComeWithTheirField) {
     EXPECT_EQ(plot_fault("{}"), "no fault");
     EXPECT_THAT(plot_fault(R"({"link_mm": -1})"), HasSubstr("plot/link_mm: -1 is not between 0 and 100"));

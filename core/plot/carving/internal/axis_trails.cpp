@@ -1,8 +1,12 @@
 #include "core/plot/carving/internal/axis_trails.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <limits>
+#include <iterator>
+#include <numbers>
+#include <set>
+#include <utility>
 
 namespace millwright::plot::internal {
 namespace {
@@ -10,11 +14,12 @@ namespace {
 /// Takes edges away from the axis, trail by trail.
 class TrailWalk {
 public:
-    explicit TrailWalk(const MedialAxis& axis)
-        : axis_(axis), edges_at_(axis.nodes.size()), used_(axis.edges.size()) {
+    explicit TrailWalk(const MedialAxis& axis) : axis_(axis), edges_at_(axis.nodes.size()) {
         for (std::size_t n = 0; n < axis.edges.size(); ++n) {
-            at(axis.edges[n].from).push_back(n);
-            at(axis.edges[n].to).push_back(n);
+            const AxisEdge& edge = axis.edges[n];
+            const std::vector<Vec3>& way = edge.way;
+            at(edge.from).insert({turn_of(way[1] - way[0]), n});
+            at(edge.to).insert({turn_of(way[way.size() - 2] - way.back()), n});
         }
     }
 
@@ -38,10 +43,21 @@ public:
     }
 
 private:
-    std::vector<std::size_t>& at(int node) { return edges_at_[static_cast<std::size_t>(node)]; }
-    std::size_t left_at(int node) {
-        std::erase_if(at(node), [&](std::size_t n) { return used_[n]; });
-        return at(node).size();
+    /// Direction of an edge that begins at a node, rad, and the number of the edge.
+    using EdgeFrom = std::pair<double, std::size_t>;
+
+    std::set<EdgeFrom>& at(int node) { return edges_at_[static_cast<std::size_t>(node)]; }
+    [[nodiscard]] std::size_t left_at(int node) const {
+        return edges_at_[static_cast<std::size_t>(node)].size();
+    }
+
+    [[nodiscard]] static double turn_of(const Vec3& along) { return std::atan2(along.y(), along.x()); }
+
+    void take(std::size_t n) {
+        const AxisEdge& edge = axis_.edges[n];
+        const std::vector<Vec3>& way = edge.way;
+        at(edge.from).erase({turn_of(way[1] - way[0]), n});
+        at(edge.to).erase({turn_of(way[way.size() - 2] - way.back()), n});
     }
 
     [[nodiscard]] std::vector<Vec3> way_from(std::size_t edge, int node) const {
@@ -54,30 +70,25 @@ private:
 
     /// The edge that goes on straightest; the first at the beginning of a trail.
     std::size_t next_edge(int node, const std::vector<Vec3>& way) {
-        std::size_t best = at(node).front();
+        const std::set<EdgeFrom>& edges = at(node);
         if (way.size() < 2) {
-            return best;
+            return std::ranges::min_element(edges, {}, &EdgeFrom::second)->second;
         }
-        const Vec2 before = (way.back() - way[way.size() - 2]).head<2>();
-        double straightest = -std::numeric_limits<double>::infinity();
-        for (const std::size_t n : at(node)) {
-            const std::vector<Vec3> on = way_from(n, node);
-            const Vec2 behind = (on[1] - on[0]).head<2>();
-            const double length = before.norm() * behind.norm();
-            const double straight = length > 0.0 ? before.dot(behind) / length : 0.0;
-            if (straight > straightest) {
-                straightest = straight;
-                best = n;
-            }
-        }
-        return best;
+        const double ahead = turn_of(way.back() - way[way.size() - 2]);
+        auto after = edges.lower_bound({ahead, 0});
+        auto before = after == edges.begin() ? std::prev(edges.end()) : std::prev(after);
+        after = after == edges.end() ? edges.begin() : after;
+        const auto off = [&](const EdgeFrom& edge) {
+            return std::abs(std::remainder(edge.first - ahead, 2.0 * std::numbers::pi));
+        };
+        return off(*before) < off(*after) ? before->second : after->second;
     }
 
     void walk(int node) {
         AxisTrail trail{axis_.nodes[static_cast<std::size_t>(node)].part, {}};
         while (left_at(node) > 0) {
             const std::size_t n = next_edge(node, trail.way);
-            used_[n] = true;
+            take(n);
             const std::vector<Vec3> on = way_from(n, node);
             trail.way.insert(trail.way.end(), on.begin() + (trail.way.empty() ? 0 : 1), on.end());
             const AxisEdge& edge = axis_.edges[n];
@@ -87,8 +98,7 @@ private:
     }
 
     const MedialAxis& axis_;
-    std::vector<std::vector<std::size_t>> edges_at_;
-    std::vector<bool> used_;
+    std::vector<std::set<EdgeFrom>> edges_at_; ///< those that are left
     std::vector<AxisTrail> trails_;
 };
 

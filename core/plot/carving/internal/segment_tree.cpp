@@ -71,6 +71,19 @@ double SegmentTree::distance(const Vec2& place) const {
     return best;
 }
 
+bool SegmentTree::surrounds(const Vec2& place) const {
+    bool inside = false;
+    const Vec2 far(std::numeric_limits<double>::infinity(), place.y());
+    near(place, far, [&](int n) { // those that the ray in +x may cross
+        const auto& [a, b] = segments_[static_cast<std::size_t>(n)];
+        if ((a.y() > place.y()) != (b.y() > place.y())) {
+            const double share = (place.y() - a.y()) / (b.y() - a.y());
+            inside = inside != (a.x() + share * (b.x() - a.x()) > place.x());
+        }
+    });
+    return inside;
+}
+
 void SegmentTree::nearest_in(int at, const Vec2& place, double& best) const {
     const Node& node = nodes_[static_cast<std::size_t>(at)];
     if (node.left < 0) {

@@ -1,4 +1,5 @@
-// Straight segments in a tree of boxes: which is nearest to a place, and which meet a box. Any one unit.
+// Straight segments in a tree of boxes: which is nearest to a place, which meet a box, and what they
+// surround. Any one unit.
 #pragma once
 
 #include "core/geometry/vectors.h"
@@ -19,6 +20,9 @@ public:
 
     /// From `place` to the nearest segment; infinite without segments.
     [[nodiscard]] double distance(const Vec2& place) const;
+
+    /// Whether closed outlines of the segments surround `place`, by the even-odd rule. On an outline either.
+    [[nodiscard]] bool surrounds(const Vec2& place) const;
 
     /// Calls `visit(n)` for each segment n whose box meets that from `lower` to `upper`.
     template <class Visit> void near(const Vec2& lower, const Vec2& upper, const Visit& visit) const {

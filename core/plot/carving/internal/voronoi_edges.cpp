@@ -67,6 +67,18 @@ private:
         }
     }
 
+    /// Those of for_each_edge() that begin or end there.
+    template <class Visit> static void for_each_edge_at(const BoostVertex& vertex, const Visit& visit) {
+        const BoostEdge* const first = vertex.incident_edge();
+        const BoostEdge* edge = first;
+        do {
+            if (edge->is_primary() && edge->is_finite()) {
+                visit(edge < edge->twin() ? *edge : *edge->twin());
+            }
+            edge = edge->rot_next();
+        } while (edge != first);
+    }
+
     [[nodiscard]] const OutlineSegment& segment_of(const BoostCell& cell) const {
         return outlines_.segments[cell.source_index()];
     }
@@ -123,28 +135,32 @@ private:
 
     /// An edge crosses no segment: it is where its ends are.
     void mark_between_points() const {
+        std::vector<const BoostVertex*> known;
+        for (const BoostVertex& vertex : diagram_.vertices()) {
+            if (where(vertex) == Where::inside || where(vertex) == Where::outside) {
+                known.push_back(&vertex);
+            }
+        }
+        while (!known.empty()) {
+            const BoostVertex& from = *known.back();
+            known.pop_back();
+            for_each_edge_at(from, [&](const BoostEdge& edge) {
+                if (where(edge) == Where::unknown) {
+                    const BoostVertex& to = edge.vertex0() == &from ? *edge.vertex1() : *edge.vertex0();
+                    const bool is_new = where(to) == Where::unknown;
+                    mark(edge, where(from));
+                    if (is_new) {
+                        known.push_back(&to);
+                    }
+                }
+            });
+        }
         std::vector<const BoostEdge*> unknown;
         for_each_edge([&](const BoostEdge& edge) {
             if (where(edge) == Where::unknown) {
                 unknown.push_back(&edge);
             }
         });
-        const auto known = [](const BoostVertex& vertex) {
-            return where(vertex) == Where::inside || where(vertex) == Where::outside;
-        };
-        bool more = true;
-        while (more) {
-            more = false;
-            std::erase_if(unknown, [&](const BoostEdge* edge) {
-                const BoostVertex* from = known(*edge->vertex0()) ? edge->vertex0() : edge->vertex1();
-                if (!known(*from)) {
-                    return false;
-                }
-                mark(*edge, where(*from));
-                more = true;
-                return true;
-            });
-        }
         for (const BoostEdge* edge : unknown) { // that points alone are near
             const Vec2 middle = bisector_of(*edge).at(0.5).head<2>();
             const bool inside = contains(outlines_.rings, outlines_.origin + outlines_.unit * middle);

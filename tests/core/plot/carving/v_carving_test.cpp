@@ -61,7 +61,6 @@ double length_in_work(const CutPath& path) {
     return length;
 }
 
-/// The report of the path knows distances from the outlines and not their sides.
 void expect_inside(const Carving& carving, const Region& region) {
     constexpr double just_below = 1e-3; // where the bit is on the outline it is at the top
     for (const CutPoint& point : carving.path) {
@@ -421,13 +420,34 @@ TEST(VCarving, RefusesSettingsOutOfTheirRange) {
     EXPECT_THAT(refused(square, with([](CarvingSettings& s) { s.depth_per_pass = -1.0; })),
                 HasSubstr("the depth per pass must be above 0, not -1"));
     EXPECT_THAT(refused(square, with([](CarvingSettings& s) { s.depth_per_pass = 1e-6; })),
-                HasSubstr("passes"));
+                HasSubstr("the depth per pass must be 0.002 mm or more, not 1e-06"));
+    const Strokes wide = strokes_around({box_ring({0, 0}, {60, 60})});
+    CarvingSettings thin = with_bit(wide_bit);
+    thin.depth_per_pass = 0.002; // of 52 mm
+    EXPECT_THAT(refused(wide, thin), HasSubstr("needs more than 10000 passes"));
     EXPECT_THAT(refused(square, with([nan](CarvingSettings& s) { s.step_over = nan; })),
                 HasSubstr("the step-over"));
     EXPECT_THAT(refused(square, with([](CarvingSettings& s) { s.tolerance = 1e-5; })),
                 HasSubstr("the tolerance must be 0.0001 mm or more, not 1e-05"));
     EXPECT_THAT(refused(square, with([](CarvingSettings& s) { s.close_gaps = 0.0; })),
                 HasSubstr("the largest gap"));
+}
+
+// Each spike has a branch to the middle and a floor beside it: with loops over all of them this took minutes.
+TEST(VCarving, OfManySpikesIsMade) {
+    Ring ring;
+    constexpr int spikes = 300;
+    for (int n = 0; n < 2 * spikes; ++n) {
+        const double angle = pi * n / spikes;
+        ring.emplace_back((n % 2 == 0 ? 60.0 : 40.0) * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    CarvingSettings settings = with_bit({TipKind::v, 12.0, from_degrees(60.0)});
+    settings.tolerance = 0.05;
+    const Carving carving = carved({ring}, settings);
+    EXPECT_NEAR(carving.deepest, 6.0 / half_tan, 1e-9);
+    EXPECT_LT(carving.deviation, settings.tolerance);
+    EXPECT_GE(runs_of(carving.path), spikes / 2); // a trail goes up one spike and down another
+    expect_inside(carving, {ring});
 }
 
 TEST(VCarving, OfManySegmentsIsMadeAndCanBeCancelled) {
