@@ -37,12 +37,13 @@ struct Rank {
     int rank;
 };
 constexpr std::array core_order = {
-    Rank{"base", 0},     Rank{"geometry", 1},       Rank{"cordic", 1},     Rank{"links", 1},
-    Rank{"exchange", 2}, Rank{"kinematics", 2},     Rank{"grid", 2},       Rank{"arm", 3},
-    Rank{"toolpath", 3}, Rank{"program", 4},        Rank{"plot", 5},       Rank{"motion", 5},
-    Rank{"gcode", 6},    Rank{"project", 6},        Rank{"simulation", 6}, Rank{"posts", 7},
-    Rank{"drivers", 7},  Rank{"cordic_machine", 8}, Rank{"emulators", 8},  Rank{"jobs", 8},
-    Rank{"pmac", 9},     Rank{"plan", 9},           Rank{"machine", 10},   Rank{"studies", 10},
+    Rank{"base", 0},     Rank{"geometry", 1},   Rank{"cordic", 1},         Rank{"links", 1},
+    Rank{"exchange", 2}, Rank{"kinematics", 2}, Rank{"grid", 2},           Rank{"region", 2},
+    Rank{"arm", 3},      Rank{"toolpath", 3},   Rank{"program", 4},        Rank{"plot", 5},
+    Rank{"motion", 5},   Rank{"gcode", 6},      Rank{"project", 6},        Rank{"simulation", 6},
+    Rank{"posts", 7},    Rank{"drivers", 7},    Rank{"cordic_machine", 8}, Rank{"emulators", 8},
+    Rank{"jobs", 8},     Rank{"pmac", 9},       Rank{"plan", 9},           Rank{"machine", 10},
+    Rank{"studies", 10},
 };
 
 /// core/grid/adapt.h -> grid; empty outside the core.

@@ -6,7 +6,7 @@
 
 namespace millwright::toolpath {
 
-PathPoint contact_point(const geometry::BezierPatch& patch, const Vec2& uv, bool flipped) {
+PathPoint contact_point(const geometry::ParametricSurface& patch, const Vec2& uv, bool flipped) {
     const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     const auto normal = patch.unit_normal(at);
     if (!normal) {
@@ -24,7 +24,7 @@ PathPoint contact_point(const geometry::BezierPatch& patch, const Vec2& uv, bool
     return point;
 }
 
-Vec2 place_with_normal(const geometry::BezierPatch& patch,
+Vec2 place_with_normal(const geometry::ParametricSurface& patch,
                        const geometry::OutlineTree* outline,
                        const Vec2& uv) {
     if (outline == nullptr || patch.unit_normal(uv.x(), uv.y()) || outline->contains(uv)) {
