@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace millwright::geometry {
 
@@ -101,6 +102,19 @@ HomogeneousPoint homogeneous_at(const BsplineNet& net, std::span<const Vec4> poi
         }
     }
     return sum;
+}
+
+/// The normal beside a side of the parameters that is one point in space: from inside, S_v goes to zero there
+/// as
+/// +-u S_uv. Nothing where that does not tell either.
+std::optional<Vec3> limit_of_normal(double smallest, const SurfaceDerivatives& at, double u, double v) {
+    const auto inwards = [](double t) { return t < 0.5 ? 1.0 : -1.0; };
+    const bool has_du = at.du.norm() > smallest, has_dv = at.dv.norm() > smallest;
+    if (has_du == has_dv) {
+        return std::nullopt;
+    }
+    return has_du ? unit_normal(smallest, at.du, inwards(u) * at.duv)
+                  : unit_normal(smallest, inwards(v) * at.duv, at.dv);
 }
 
 /// The points of one span's Bezier curve from those of the B-spline that count in it, `stride` apart. The
@@ -251,11 +265,12 @@ SurfaceDerivatives BsplineSurface::derivatives(double u, double v) const {
 
 SurfacePoint BsplineSurface::point(double u, double v) const {
     const HomogeneousPoint h = homogeneous_at<1>(net_, homogeneous_, u, v);
-    if (!rational_) {
-        return {h.s.head<3>(), geometry::unit_normal(smallest_tangent_, h.u.head<3>(), h.v.head<3>())};
+    SurfaceDerivatives at{h.s.head<3>(), h.u.head<3>(), h.v.head<3>()};
+    if (rational_) {
+        at = projected(h);
     }
-    const SurfaceDerivatives at = projected(h);
-    return {at.position, geometry::unit_normal(smallest_tangent_, at.du, at.dv)};
+    auto normal = geometry::unit_normal(smallest_tangent_, at.du, at.dv);
+    return {at.position, normal ? normal : limit_of_normal(smallest_tangent_, derivatives(u, v), u, v)};
 }
 
 std::vector<SurfacePiece> BsplineSurface::pieces() const {

@@ -60,6 +60,7 @@ public:
     /// of the span behind it, at 1 of the last.
     [[nodiscard]] Vec3 position(double u, double v) const override;
     [[nodiscard]] SurfaceDerivatives derivatives(double u, double v) const override;
+    /// At a side of the parameters that is one point in space the normal is the limit of those beside it.
     [[nodiscard]] SurfacePoint point(double u, double v) const override;
     [[nodiscard]] const Box3& control_box() const override { return box_; }
     [[nodiscard]] double smallest_tangent() const override { return smallest_tangent_; }

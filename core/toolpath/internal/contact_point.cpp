@@ -7,8 +7,7 @@
 namespace millwright::toolpath {
 
 PathPoint contact_point(const geometry::ParametricSurface& patch, const Vec2& uv, bool flipped) {
-    const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
-    const auto normal = patch.unit_normal(at);
+    const auto [position, normal] = patch.point(uv.x(), uv.y());
     if (!normal) {
         throw Error(
             fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: its control points coincide "
@@ -17,7 +16,7 @@ PathPoint contact_point(const geometry::ParametricSurface& patch, const Vec2& uv
                         uv.y()));
     }
     PathPoint point;
-    point.contact = at.position;
+    point.contact = position;
     point.normal = flipped ? Vec3(-*normal) : *normal;
     point.pose = {point.contact, point.normal};
     point.origin.uv = uv;

@@ -217,6 +217,30 @@ TEST(BsplineSurface, TurnedOverHasTheOppositeNormal) {
     EXPECT_EQ(turned_over(turned_over(net)), net);
 }
 
+// A lens: two sides are points, as the root of a blade has. The normals just inside are the judge.
+TEST(BsplineSurface, HasANormalWhereASideIsAPoint) {
+    BsplineNet net = net_of(2, 2, {0.4}, {}, false, 1);
+    for (int i = 0; i < net.rows; ++i) {
+        for (int j = 0; j < net.columns; ++j) {
+            const bool tip = i == 0 || i == net.rows - 1;
+            net.points[net.index(i, j)] = {
+                10.0 * i, tip ? 0.0 : 8.0 * (j - 1), tip ? 0.0 : 3.0 - 0.5 * j * j};
+        }
+    }
+    for (const bool over : {false, true}) {
+        const BsplineSurface surface(over ? turned_over(net) : net);
+        for (const double end : {0.0, 1.0}) {
+            for (const double along : {0.0, 0.3, 1.0}) {
+                const double near = end > 0.5 ? 1.0 - 1e-7 : 1e-7;
+                const auto at_tip = over ? surface.point(along, end) : surface.point(end, along);
+                const auto beside = over ? surface.point(along, near) : surface.point(near, along);
+                ASSERT_TRUE(at_tip.normal && beside.normal);
+                EXPECT_LT((*at_tip.normal - *beside.normal).norm(), 1e-5) << end << ' ' << along;
+            }
+        }
+    }
+}
+
 // Beside two knots that almost touch, the second derivatives must not drown in rounding.
 TEST(BsplineSurface, BearsSpansOfATenMillionth) {
     BsplineNet net = net_of(3, 2, {0.5, 0.5 + 2e-8}, {}, false, 1);
