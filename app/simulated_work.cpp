@@ -284,8 +284,8 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
 Box3 box_of(const geometry::Surface& surface) {
     Box3 box;
     constexpr int steps = 60;
-    for (std::size_t n = 0; n < surface.patches().size(); ++n) {
-        for (const Vec3& point : geometry::tessellate(surface.patches()[n], steps, steps).positions) {
+    for (const geometry::ParametricSurface* part : surface.parts()) {
+        for (const Vec3& point : geometry::tessellate(*part, steps, steps).positions) {
             box.extend(point);
         }
     }

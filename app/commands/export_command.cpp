@@ -2,8 +2,8 @@
 
 #include "app/watched_work.h"
 #include "core/exchange/surface_file.h"
-#include "core/geometry/surface.h"
 #include "core/project/export_note.h"
+#include "core/project/surface.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -25,13 +25,9 @@ struct ExportOptions {
 
 int export_design(const ExportOptions& options) {
     const OpenedProject opened = open_project(options.project);
-    std::vector<geometry::BezierPatch> patches;
-    for (const geometry::ControlNet& net : opened.project.surface.patches) {
-        patches.emplace_back(net);
-    }
     WatchedWork work;
     exchange::write_surface(
-        geometry::Surface(std::move(patches)), options.out, options.tolerance, work.progress());
+        project::surface_of(opened.project.surface), options.out, options.tolerance, work.progress());
     work.finish();
     fmt::print("{}\n", options.out);
     if (const std::string note = project::left_out_text(opened.project.surface); !note.empty()) {

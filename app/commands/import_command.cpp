@@ -40,6 +40,7 @@ struct ImportOptions {
     std::string along;                 ///< empty: found
     std::optional<double> mm_per_unit; ///< of a mesh
     int face = 0;
+    bool exact = false;
     bool cloud = false;
     bool json = false;
 };
@@ -74,8 +75,10 @@ std::string fault_of_degrees(const std::string& text) {
 }
 
 project::ImportChoice choice_of(const ImportOptions& options) {
-    project::ImportChoice choice{
-        .face = options.face, .mm_per_unit = options.mm_per_unit.value_or(1.0), .cloud = options.cloud};
+    project::ImportChoice choice{.face = options.face,
+                                 .mm_per_unit = options.mm_per_unit.value_or(1.0),
+                                 .exact = options.exact,
+                                 .cloud = options.cloud};
     if (!options.degrees.empty()) {
         choice.degrees = degrees_from(options.degrees);
     }
@@ -250,6 +253,12 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
     ordered_json json{{"patches", imported.surface.patches.size()},
                       {"notes", imported.notes},
                       {"warnings", imported.warnings}};
+    if (const auto& face = imported.surface.face) {
+        const auto [u, v] = geometry::BsplineSurface(face->net).spans();
+        json["face"] = {{"degree", {face->net.degree_u, face->net.degree_v}},
+                        {"spans", {u, v}},
+                        {"trimmed", !face->trim.everything()}};
+    }
     if (const auto& points = imported.points) {
         json["points"] = {{"count", points->points.size()},
                           {"rows", points->rows},
@@ -318,6 +327,16 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
                    fixed(fit->deviation.patch_max, 4),
                    fixed(fit->deviation.patch_mean, 4));
     }
+    if (const auto& face = imported.surface.face) {
+        const auto [u, v] = geometry::BsplineSurface(face->net).spans();
+        fmt::print("exact face of degree {} x {}, {} x {} spans\n{}: 1 face\n",
+                   face->net.degree_u,
+                   face->net.degree_v,
+                   u,
+                   v,
+                   options.out);
+        return;
+    }
     fmt::print("{}: {} {}\n",
                options.out,
                imported.surface.patches.size(),
@@ -335,6 +354,12 @@ int import_file(const ImportOptions& options) {
     }
     if (options.cloud && !exchange::is_measured_point_file(options.file)) {
         throw UsageError("--cloud applies only to a file of points", options.file);
+    }
+    if (options.exact && !exchange::is_cad_file(options.file)) {
+        throw UsageError("--exact applies only to a face of a STEP or IGES file", options.file);
+    }
+    if (options.exact && !options.degrees.empty()) {
+        throw UsageError("--exact and --degree exclude each other", options.file, "leave one of them out");
     }
     if (options.out.empty()) {
         return tell_of(options);
@@ -399,6 +424,11 @@ void add_import_command(CLI::App& app, Command& chosen) {
             "--deviation", options->deviation, "CSV file for the distance of each point from the surface")
         ->needs(&out)
         ->type_name("FILE");
+    command
+        .add_flag("--exact",
+                  options->exact,
+                  "Take a STEP or IGES face of several patches as one exact surface, without a fit")
+        ->needs(&out);
     command.add_flag("--cloud", options->cloud, "Fit points as a cloud, even if they are in rows");
     command.add_flag("--json", options->json, "Print the result as JSON");
     command.callback([&chosen, options] { chosen = [options] { return import_file(*options); }; });

@@ -9,6 +9,7 @@
 #include "core/base/files.h"
 #include "core/kinematics/rotary_tilt_machine.h"
 #include "core/project/settings.h"
+#include "core/project/surface.h"
 #include "core/toolpath/thesis_files.h"
 
 #include <CLI/Config.hpp>
@@ -46,7 +47,7 @@ toolpath::ListingGrid listing_grid(const PictureOptions& options, const project:
 /// By the listing's formulas where the machine is built like the thesis's, else by its own kinematics.
 std::vector<Vec3> mid_points(const PictureOptions& options,
                              const OpenedProject& opened,
-                             const geometry::BezierPatch& patch,
+                             const geometry::ParametricSurface& patch,
                              const toolpath::ListingGrid& grid) {
     const auto faults =
         options.with_faults ? toolpath::ListingFaults::all : toolpath::ListingFaults::corrected;
@@ -69,8 +70,7 @@ std::vector<Vec3> mid_points(const PictureOptions& options,
 
 int write_pictures(const PictureOptions& options) {
     const OpenedProject opened = open_project(options.project);
-    const auto n = static_cast<std::size_t>(opened.project.surface.machined_patch);
-    const geometry::BezierPatch patch(opened.project.surface.patches.at(n));
+    const region::Region patch = project::machined_region(opened.project.surface);
     const toolpath::ListingGrid grid = listing_grid(options, opened.project);
     const std::vector<Vec3> middles = mid_points(options, opened, patch, grid);
     make_folder(options.out);

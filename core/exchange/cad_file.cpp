@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace millwright::exchange {
@@ -32,6 +33,25 @@ geometry::Trim CadFace::trim() const {
     for (geometry::Trim::Loop& loop : trim.loops) {
         for (Vec2& corner : loop) {
             corner = {corner.x() / rows, corner.y() / columns};
+        }
+    }
+    return trim;
+}
+
+geometry::Trim CadFace::bspline_trim() const {
+    const std::vector<double> u = geometry::span_ends(bspline.value().knots_u);
+    const std::vector<double> v = geometry::span_ends(bspline.value().knots_v);
+    const auto within = [](const std::vector<double>& ends, double place) {
+        const auto span =
+            std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place), 0, std::ssize(ends) - 2);
+        const double low = ends[static_cast<std::size_t>(span)],
+                     high = ends[static_cast<std::size_t>(span) + 1];
+        return std::clamp(low + (place - static_cast<double>(span)) * (high - low), 0.0, 1.0);
+    };
+    geometry::Trim trim{loops()};
+    for (geometry::Trim::Loop& loop : trim.loops) {
+        for (Vec2& corner : loop) {
+            corner = {within(u, corner.x()), within(v, corner.y())};
         }
     }
     return trim;

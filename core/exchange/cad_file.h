@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/progress.h"
+#include "core/geometry/bspline_surface.h"
 #include "core/geometry/surface.h"
 #include "core/geometry/trim.h"
 
@@ -25,6 +26,9 @@ struct CadFace {
     std::vector<Vec2> outline; ///< outer boundary in [0, rows] x [0, columns], not closed; empty: all of it
     std::vector<std::vector<Vec2>> holes; ///< the same of what is cut out inside; only with an outline
     Box3 box;                             ///< mm, of the face itself, not of its control points
+    /// Of several patches: all of them as one surface, whose span in a row and a column is the patch there.
+    /// Nothing where a surface cannot be one: it breaks, or its weights are too uneven.
+    std::optional<geometry::BsplineNet> bspline;
 
     [[nodiscard]] bool trimmed() const { return !outline.empty(); }
     /// Outline and holes; none where it is not trimmed.
@@ -35,6 +39,8 @@ struct CadFace {
     [[nodiscard]] Vec3 position(const Vec2& at) const;
     /// Outline and holes over [0,1]^2 of the whole face; nothing is cut off where it is not trimmed.
     [[nodiscard]] geometry::Trim trim() const;
+    /// The same in the parameters of `bspline`, which there is.
+    [[nodiscard]] geometry::Trim bspline_trim() const;
 };
 
 struct CadModel {

@@ -147,7 +147,7 @@ bool is_surface_file(const std::filesystem::path& file) {
     return std::ranges::find(kinds, kind_of(file)) != kinds.end();
 }
 
-void write_surface(const geometry::Surface& surface,
+void write_surface(const geometry::Surface& design,
                    const std::filesystem::path& file,
                    double tolerance,
                    const Progress& progress) {
@@ -157,6 +157,7 @@ void write_surface(const geometry::Surface& surface,
                     file,
                     "use a name ending in .step, .glb, .stl, .obj or .ply");
     }
+    const geometry::Surface surface = design.in_patches();
     if (kind == "step" || kind == "stp") {
         write_step(surface, file, progress);
         return;

@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/geometry/internal/homogeneous_point.h"
+#include "core/geometry/internal/projected.h"
 #include "core/geometry/internal/unit_normal.h"
-#include "core/geometry/surface_point.h"
 
 #include <fmt/format.h>
 
@@ -13,19 +13,6 @@
 namespace millwright::geometry {
 
 namespace {
-
-/// Quotient rule for S = A / w.
-SurfaceDerivatives projected(const HomogeneousPoint& h) {
-    const double w = h.s.w();
-    SurfaceDerivatives at;
-    at.position = h.s.head<3>() / w;
-    at.du = (h.u.head<3>() - h.u.w() * at.position) / w;
-    at.dv = (h.v.head<3>() - h.v.w() * at.position) / w;
-    at.duu = (h.uu.head<3>() - 2.0 * h.u.w() * at.du - h.uu.w() * at.position) / w;
-    at.duv = (h.uv.head<3>() - h.u.w() * at.dv - h.v.w() * at.du - h.uv.w() * at.position) / w;
-    at.dvv = (h.vv.head<3>() - 2.0 * h.v.w() * at.dv - h.vv.w() * at.position) / w;
-    return at;
-}
 
 std::string fault_at(const ControlNet& net, int i, int j) {
     constexpr double largest_mm = 1e6; // a kilometre; beyond it double precision loses the micrometre
@@ -112,12 +99,12 @@ SurfaceDerivatives BezierPatch::derivatives(double u, double v) const {
     });
 }
 
-std::optional<Vec3> BezierPatch::unit_normal(double u, double v) const {
-    return point_of(*this, u, v).normal;
+std::vector<SurfacePiece> BezierPatch::pieces() const {
+    return {SurfacePiece{*this}};
 }
 
-std::optional<Vec3> BezierPatch::unit_normal(const SurfaceDerivatives& at) const {
-    return geometry::unit_normal(smallest_tangent_, at.du, at.dv);
+std::shared_ptr<const ParametricSurface> BezierPatch::shared() const {
+    return std::make_shared<const BezierPatch>(*this);
 }
 
 } // namespace millwright::geometry

@@ -3,9 +3,10 @@
 // Surfaces for CAGD, ch. 13.
 #pragma once
 
+#include "core/geometry/parametric_surface.h"
 #include "core/geometry/vectors.h"
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,18 +37,9 @@ struct ControlNet {
 /// What is wrong with a net as the net of a patch, as a sentence; empty if nothing is.
 [[nodiscard]] std::string fault_of(const ControlNet& net);
 
-struct SurfaceDerivatives {
-    Vec3 position = Vec3::Zero();
-    Vec3 du = Vec3::Zero();
-    Vec3 dv = Vec3::Zero();
-    Vec3 duu = Vec3::Zero();
-    Vec3 duv = Vec3::Zero();
-    Vec3 dvv = Vec3::Zero();
-};
-
 inline constexpr int max_degree = 63; // fits the evaluation's buffers; far above any sensible design
 
-class BezierPatch {
+class BezierPatch final : public ParametricSurface {
 public:
     /// Throws Error with `fault_of(net)` if there is one.
     explicit BezierPatch(ControlNet net);
@@ -58,20 +50,17 @@ public:
     [[nodiscard]] bool rational() const { return rational_; }
     /// (w x, w y, w z, w) of the control points, as the net has them.
     [[nodiscard]] std::span<const Eigen::Vector4d> homogeneous() const { return homogeneous_; }
-    /// The box of the control points, which holds the whole patch.
-    [[nodiscard]] const Box3& control_box() const { return box_; }
-
-    /// Where S_u or S_v is not longer than this there is no normal, mm.
-    [[nodiscard]] double smallest_tangent() const { return smallest_tangent_; }
+    /// The box of the control points.
+    [[nodiscard]] const Box3& control_box() const override { return box_; }
+    [[nodiscard]] double smallest_tangent() const override { return smallest_tangent_; }
 
     /// u and v may leave [0,1]: the polynomial goes on.
-    [[nodiscard]] Vec3 position(double u, double v) const;
-    [[nodiscard]] SurfaceDerivatives derivatives(double u, double v) const;
-
-    /// (S_u x S_v) / |S_u x S_v|; nothing where the tangents vanish or are parallel.
-    [[nodiscard]] std::optional<Vec3> unit_normal(double u, double v) const;
-    /// The same from derivatives already at hand.
-    [[nodiscard]] std::optional<Vec3> unit_normal(const SurfaceDerivatives& at) const;
+    [[nodiscard]] Vec3 position(double u, double v) const override;
+    [[nodiscard]] SurfaceDerivatives derivatives(double u, double v) const override;
+    [[nodiscard]] SurfacePoint point(double u, double v) const override;
+    /// Itself alone.
+    [[nodiscard]] std::vector<SurfacePiece> pieces() const override;
+    [[nodiscard]] std::shared_ptr<const ParametricSurface> shared() const override;
 
     friend bool operator==(const BezierPatch& a, const BezierPatch& b) { return a.net_ == b.net_; }
 
@@ -81,6 +70,13 @@ private:
     bool rational_ = false;
     Box3 box_;
     double smallest_tangent_ = 0.0;
+};
+
+/// A part of a surface as a patch, and the parameters of the surface at its two ends.
+struct SurfacePiece {
+    BezierPatch patch;
+    Vec2 low = Vec2::Zero();
+    Vec2 high = Vec2::Ones();
 };
 
 } // namespace millwright::geometry

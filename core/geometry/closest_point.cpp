@@ -1,6 +1,7 @@
 #include "core/geometry/closest_point.h"
 
 #include "core/base/error.h"
+#include "core/geometry/bezier_patch.h"
 #include "core/geometry/internal/balanced_cells.h"
 #include "core/geometry/internal/cell_tree.h"
 
@@ -12,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace millwright::geometry {
 
@@ -30,7 +32,7 @@ struct Quadratic {
     Eigen::Matrix2d gauss_newton = Eigen::Matrix2d::Zero();
 };
 
-Quadratic quadratic_at(const BezierPatch& patch, const Vec3& p, const Vec2& uv) {
+Quadratic quadratic_at(const ParametricSurface& patch, const Vec3& p, const Vec2& uv) {
     const SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     const Vec3 r = at.position - p;
     Quadratic q;
@@ -78,7 +80,7 @@ Vec2 step(const Quadratic& q, const std::array<bool, 2>& fixed) {
 }
 
 /// Whether the way to `point` is across the surface there, as far as it may leave the place.
-bool is_minimum(const BezierPatch& patch, const Vec3& point, const Vec2& uv) {
+bool is_minimum(const ParametricSurface& patch, const Vec3& point, const Vec2& uv) {
     constexpr double across = 1e-6;   // rad
     constexpr double touching = 1e-9; // mm
     const Quadratic q = quadratic_at(patch, point, uv);
@@ -102,7 +104,7 @@ bool has_uneven_weights(const BezierPatch& patch) {
 }
 
 /// Of 3 x 3 places between `low` and `high` the nearest.
-Vec2 best_start(const BezierPatch& patch, const Vec2& low, const Vec2& high, const Vec3& point) {
+Vec2 best_start(const ParametricSurface& patch, const Vec2& low, const Vec2& high, const Vec3& point) {
     Vec2 best = low;
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
@@ -120,7 +122,7 @@ Vec2 best_start(const BezierPatch& patch, const Vec2& low, const Vec2& high, con
 
 } // namespace
 
-ClosestPoint closest_point_near(const BezierPatch& patch, const Vec3& point, const Vec2& start) {
+ClosestPoint closest_point_near(const ParametricSurface& patch, const Vec3& point, const Vec2& start) {
     expects(is_finite(point) && is_finite(start), "the closest point is asked for a finite point");
     constexpr int most_steps = 50;
     constexpr double smallest_step = 1e-13; // of the parameter: about 1e-11 mm on a part of 100 mm
@@ -161,9 +163,11 @@ struct ClosestPointSearch::Samples {
     using Tree =
         nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Samples>, Samples, 3>;
 
-    explicit Samples(const BezierPatch& of) : patch(of), cells(of) {
-        if (has_uneven_weights(of)) {
-            parts.emplace(of);
+    explicit Samples(const ParametricSurface& of) : Samples(of, of.pieces()) {}
+    Samples(const ParametricSurface& of, const std::vector<SurfacePiece>& pieces)
+        : surface(of.shared()), patch(*surface), cells(pieces) {
+        if (pieces.size() == 1 && has_uneven_weights(pieces.front().patch)) {
+            parts.emplace(pieces.front().patch);
         }
         for (int i = 0; i <= side; ++i) {
             for (int j = 0; j <= side; ++j) {
@@ -263,7 +267,8 @@ struct ClosestPointSearch::Samples {
         }
     }
 
-    BezierPatch patch;
+    std::shared_ptr<const ParametricSurface> surface;
+    const ParametricSurface& patch;
     CellTree cells;
     std::optional<BalancedCells> parts; ///< with uneven weights
     std::vector<Vec3> points;
@@ -271,8 +276,8 @@ struct ClosestPointSearch::Samples {
     std::unique_ptr<Tree> tree;
 };
 
-ClosestPointSearch::ClosestPointSearch(const BezierPatch& patch)
-    : samples_(std::make_unique<const Samples>(patch)) {}
+ClosestPointSearch::ClosestPointSearch(const ParametricSurface& surface)
+    : samples_(std::make_unique<const Samples>(surface)) {}
 ClosestPointSearch::~ClosestPointSearch() = default;
 ClosestPointSearch::ClosestPointSearch(ClosestPointSearch&&) noexcept = default;
 ClosestPointSearch& ClosestPointSearch::operator=(ClosestPointSearch&&) noexcept = default;

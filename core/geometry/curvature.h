@@ -1,7 +1,7 @@
 // How a surface bends at a point.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 
 #include <optional>
 

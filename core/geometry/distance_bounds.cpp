@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/geometry/bezier_patch.h"
 #include "core/geometry/patch_refinement.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ struct PatchPart {
 } // namespace
 
 DistanceBounds distance_bounds(
-    const BezierPatch& patch, const Vec3& point, double found, double tolerance, int most_splits) {
+    const ParametricSurface& surface, const Vec3& point, double found, double tolerance, int most_splits) {
     expects(is_finite(point) && std::isfinite(found) && tolerance > 0.0, "a distance is bounded of a point");
     std::priority_queue<PatchPart> open;
     double at_most = found;
@@ -60,7 +61,9 @@ DistanceBounds distance_bounds(
         const double at_least = least_distance(part.net(), part.control_box(), point);
         open.push({at_least, splits, std::move(part)});
     };
-    add(patch, 0);
+    for (SurfacePiece& piece : surface.pieces()) {
+        add(std::move(piece.patch), 0);
+    }
     for (int n = 0; n < most_splits && open.top().at_least < at_most - tolerance; ++n) {
         const PatchPart part = open.top();
         open.pop();

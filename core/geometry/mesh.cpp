@@ -10,7 +10,7 @@ namespace millwright::geometry {
 namespace {
 
 /// The normal a little inside the patch, where an edge has collapsed to a point.
-Vec3 normal_or_nearby(const BezierPatch& patch, double u, double v, const SurfaceDerivatives& at) {
+Vec3 normal_or_nearby(const ParametricSurface& patch, double u, double v, const SurfaceDerivatives& at) {
     if (const auto normal = patch.unit_normal(at)) {
         return *normal;
     }
@@ -19,7 +19,7 @@ Vec3 normal_or_nearby(const BezierPatch& patch, double u, double v, const Surfac
     return nearby.value_or(Vec3::UnitZ());
 }
 
-void add_point(Mesh& mesh, const BezierPatch& patch, double u, double v) {
+void add_point(Mesh& mesh, const ParametricSurface& patch, double u, double v) {
     const SurfaceDerivatives at = patch.derivatives(u, v);
     mesh.positions.push_back(at.position);
     mesh.normals.push_back(normal_or_nearby(patch, u, v, at));
@@ -28,7 +28,7 @@ void add_point(Mesh& mesh, const BezierPatch& patch, double u, double v) {
 
 } // namespace
 
-Mesh tessellate(const BezierPatch& patch, int nu, int nv) {
+Mesh tessellate(const ParametricSurface& patch, int nu, int nv) {
     expects(nu >= 1 && nv >= 1, "a mesh has cells");
     Mesh mesh;
     for (int i = 0; i <= nu; ++i) {
@@ -47,7 +47,7 @@ Mesh tessellate(const BezierPatch& patch, int nu, int nv) {
     return mesh;
 }
 
-TrimmedMesh tessellate(const BezierPatch& patch, const Trim& trim, int nu, int nv) {
+TrimmedMesh tessellate(const ParametricSurface& patch, const Trim& trim, int nu, int nv) {
     TrimmedSquare square = trimmed_square(trim, nu, nv);
     TrimmedMesh trimmed{.mesh = {}, .outside = std::move(square.outside)};
     for (const Vec2& uv : square.places) {

@@ -1,7 +1,7 @@
 // Triangles of a surface, for looking at it.
 #pragma once
 
-#include "core/geometry/surface.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/geometry/trim.h"
 
 #include <array>
@@ -17,7 +17,7 @@ struct Mesh {
 };
 
 /// A mesh of (nu+1) x (nv+1) points at equal parameter steps, rows along u. Throws Defect if nu or nv < 1.
-[[nodiscard]] Mesh tessellate(const BezierPatch& patch, int nu, int nv);
+[[nodiscard]] Mesh tessellate(const ParametricSurface& surface, int nu, int nv);
 
 /// `mesh` has the triangles that the outlines leave, `outside` the others between the same points.
 struct TrimmedMesh {
@@ -26,6 +26,6 @@ struct TrimmedMesh {
 };
 
 /// The same with more points along the outlines, which edges of triangles follow (trimmed_square.h).
-[[nodiscard]] TrimmedMesh tessellate(const BezierPatch& patch, const Trim& trim, int nu, int nv);
+[[nodiscard]] TrimmedMesh tessellate(const ParametricSurface& surface, const Trim& trim, int nu, int nv);
 
 } // namespace millwright::geometry

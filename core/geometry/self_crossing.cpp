@@ -55,7 +55,7 @@ bool triangles_cross(const Triangle& a, const Triangle& b) {
 
 class PatchMesh {
 public:
-    PatchMesh(const BezierPatch& patch, int cells) : cells_(cells) {
+    PatchMesh(const ParametricSurface& patch, int cells) : cells_(cells) {
         std::vector<Corner> corners;
         for (int i = 0; i <= cells; ++i) {
             for (int j = 0; j <= cells; ++j) {
@@ -143,7 +143,7 @@ private:
 
 } // namespace
 
-std::optional<SelfCrossing> self_crossing(const BezierPatch& patch, int cells) {
+std::optional<SelfCrossing> self_crossing(const ParametricSurface& patch, int cells) {
     return PatchMesh(patch, cells).crossing();
 }
 

@@ -1,7 +1,7 @@
 // Where a patch passes through itself, so that no tool can cut it from one side.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 
 #include <optional>
 
@@ -15,6 +15,6 @@ struct SelfCrossing {
 /// Of the triangles over `cells` x `cells` equal cells of the parameters two that cross each other, or two of
 /// its corners inside the patch that lie on each other; nothing where there are none. Sides of the patch may
 /// touch (a tube, a pole). What is finer than a cell is missed.
-[[nodiscard]] std::optional<SelfCrossing> self_crossing(const BezierPatch& patch, int cells = 24);
+[[nodiscard]] std::optional<SelfCrossing> self_crossing(const ParametricSurface& patch, int cells = 24);
 
 } // namespace millwright::geometry

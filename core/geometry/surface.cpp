@@ -12,6 +12,38 @@ Surface::Surface(std::vector<BezierPatch> patches) : patches_(std::move(patches)
     }
 }
 
+Surface::Surface(BsplineSurface face) : face_(std::move(face)) {}
+
+std::vector<const ParametricSurface*> Surface::parts() const {
+    std::vector<const ParametricSurface*> parts;
+    for (const BezierPatch& patch : patches_) {
+        parts.push_back(&patch);
+    }
+    if (face_) {
+        parts.push_back(&*face_);
+    }
+    return parts;
+}
+
+const ParametricSurface& Surface::part(PatchId id) const {
+    if (face_) {
+        expects(static_cast<int>(id) == 0, "a face is part 0 of its surface");
+        return *face_;
+    }
+    return patch(id);
+}
+
+Surface Surface::in_patches() const {
+    if (!face_) {
+        return *this;
+    }
+    std::vector<BezierPatch> patches;
+    for (SurfacePiece& piece : face_->pieces()) {
+        patches.push_back(std::move(piece.patch));
+    }
+    return Surface(std::move(patches));
+}
+
 const BezierPatch& Surface::patch(PatchId id) const {
     const int n = static_cast<int>(id);
     expects(n >= 0 && n < patch_count(), "a patch id belongs to its surface");
@@ -20,8 +52,8 @@ const BezierPatch& Surface::patch(PatchId id) const {
 
 Box3 Surface::control_box() const {
     Box3 box;
-    for (const BezierPatch& patch : patches_) {
-        box.extend(patch.control_box());
+    for (const ParametricSurface* part : parts()) {
+        box.extend(part->control_box());
     }
     return box;
 }

@@ -1,8 +1,11 @@
-// A design: one or more Bezier patches, each with its own parameter domain [0,1]^2.
+// A design: one or more Bezier patches, each with its own parameter domain [0,1]^2, or one face of a CAD
+// model.
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
+#include "core/geometry/bspline_surface.h"
 
+#include <optional>
 #include <vector>
 
 namespace millwright::geometry {
@@ -14,12 +17,21 @@ class Surface {
 public:
     /// Throws Error if there is no patch.
     explicit Surface(std::vector<BezierPatch> patches);
+    /// Without patches.
+    explicit Surface(BsplineSurface face);
 
     [[nodiscard]] int patch_count() const { return static_cast<int>(patches_.size()); }
     /// Throws Defect if there is no such patch.
     [[nodiscard]] const BezierPatch& patch(PatchId id) const;
     [[nodiscard]] const std::vector<BezierPatch>& patches() const { return patches_; }
+    [[nodiscard]] const std::optional<BsplineSurface>& face() const { return face_; }
+    /// The patch, or the face as number 0. Throws Defect if there is none such.
+    [[nodiscard]] const ParametricSurface& part(PatchId id) const;
+    /// The patches, or the face.
+    [[nodiscard]] std::vector<const ParametricSurface*> parts() const;
     [[nodiscard]] Box3 control_box() const;
+    /// The same by patches alone: those of the face's spans.
+    [[nodiscard]] Surface in_patches() const;
 
     /// The same surface with one patch replaced.
     [[nodiscard]] Surface with_patch(PatchId id, BezierPatch patch) const;
@@ -28,6 +40,7 @@ public:
 
 private:
     std::vector<BezierPatch> patches_;
+    std::optional<BsplineSurface> face_;
 };
 
 } // namespace millwright::geometry

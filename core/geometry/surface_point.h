@@ -1,19 +1,14 @@
-// Where a patch is and which way it faces there, and no more: for searches that ask nothing else, a hundred
+// Where a surface is and which way it faces there, and no more: for searches that ask nothing else, a hundred
 // million times.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
-
-#include <optional>
+#include "core/geometry/parametric_surface.h"
 
 namespace millwright::geometry {
 
-struct SurfacePoint {
-    Vec3 position = Vec3::Zero();
-    std::optional<Vec3> normal; ///< unit; nothing where the tangents vanish or are parallel
-};
-
-/// The same bits as patch.derivatives(u, v).position and patch.unit_normal(u, v).
-[[nodiscard]] SurfacePoint point_of(const BezierPatch& patch, double u, double v);
+/// The same bits as surface.derivatives(u, v).position and surface.unit_normal(u, v).
+[[nodiscard]] inline SurfacePoint point_of(const ParametricSurface& surface, double u, double v) {
+    return surface.point(u, v);
+}
 
 } // namespace millwright::geometry

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/grid/weight.h"
 
 #include <memory>
@@ -13,8 +13,8 @@ namespace millwright::grid {
 
 /// What a formula may speak of beside the parameters. Null: not at hand.
 struct FormulaGround {
-    std::shared_ptr<const geometry::BezierPatch> patch; ///< x, y, z, nx, ny, nz, k1, k2
-    WeightPtr error;                                    ///< err
+    std::shared_ptr<const geometry::ParametricSurface> patch; ///< x, y, z, nx, ny, nz, k1, k2
+    WeightPtr error;                                          ///< err
 };
 
 /// The weight `text` on a grid of nu x nv nodes; operators and functions as muParser has them (+ - * / ^ sin

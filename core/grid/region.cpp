@@ -42,7 +42,7 @@ bool inside_outline(const std::vector<Vec2>& outline, const Vec2& p) {
 }
 
 /// The outline on the surface, closed.
-std::vector<Vec3> chords_of(const std::vector<Vec2>& outline, const geometry::BezierPatch& patch) {
+std::vector<Vec3> chords_of(const std::vector<Vec2>& outline, const geometry::ParametricSurface& patch) {
     std::vector<Vec3> chords;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2& a = outline[k];
@@ -120,7 +120,7 @@ private:
 
 } // namespace
 
-Field share_of(const Region& region, const geometry::BezierPatch& patch) {
+Field share_of(const Region& region, const geometry::ParametricSurface& patch) {
     expects(std::ssize(region.outline) >= fewest_corners && region.border_mm >= 0.0,
             "an outline has at least three corners, and its blend width is not negative");
     Field field = Field::constant(region_raster, region_raster, 0.0);

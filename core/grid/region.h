@@ -2,7 +2,7 @@
 // less across a border around it. Outside the weight is the same everywhere, so that nothing pulls there.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/grid/weight.h"
 #include "core/grid/weight_mix.h"
 
@@ -26,7 +26,7 @@ inline constexpr int most_corners = 200;
 
 /// How much of the weight counts: 1 inside, 0 beyond the border, without a kink in between. Distances are
 /// those in space from the outline on `patch`. Throws Defect unless the outline has `fewest_corners`.
-[[nodiscard]] Field share_of(const Region& region, const geometry::BezierPatch& patch);
+[[nodiscard]] Field share_of(const Region& region, const geometry::ParametricSurface& patch);
 
 /// `weight` where `share` (0 to 1) is 1, `outside` where it is 0, and in between in between. All in the same
 /// coordinates.

@@ -167,7 +167,7 @@ WeightPtr mixed_weight(const MixedReasons& reasons, const MixSettings& settings,
     return weight_of(raster, nu, nv);
 }
 
-WeightPtr curvature_weight(const geometry::BezierPatch& patch, int nu, int nv) {
+WeightPtr curvature_weight(const geometry::ParametricSurface& patch, int nu, int nv) {
     Field raster = raster_of(nu, nv);
     double largest = 0.0;
     for (int i = 0; i < raster.rows; ++i) {
@@ -192,7 +192,7 @@ WeightPtr field_weight(const Field& field, int nu, int nv) {
     return weight_of(field, nu, nv);
 }
 
-bool dab(Field& field, const geometry::BezierPatch& patch, const Vec2& uv, const Brush& brush) {
+bool dab(Field& field, const geometry::ParametricSurface& patch, const Vec2& uv, const Brush& brush) {
     expects(brush.radius_mm > 0.0 && brush.hardness >= 0.0 && brush.hardness <= 1.0,
             "a brush has a positive radius and a hardness from 0 to 1");
     const Vec3 middle = patch.position(uv.x(), uv.y());
@@ -211,8 +211,11 @@ bool dab(Field& field, const geometry::BezierPatch& patch, const Vec2& uv, const
     return changed;
 }
 
-bool stroke(
-    Field& field, const geometry::BezierPatch& patch, const Vec2& from, const Vec2& to, const Brush& brush) {
+bool stroke(Field& field,
+            const geometry::ParametricSurface& patch,
+            const Vec2& from,
+            const Vec2& to,
+            const Brush& brush) {
     const double length = (patch.position(to.x(), to.y()) - patch.position(from.x(), from.y())).norm();
     constexpr double dabs_a_radius = 4.0;
     constexpr double most_dabs = 1000.0;

@@ -2,7 +2,7 @@
 // painted, a formula. Each is a field over the parameters; smoothing and a range keep the sum of them tame.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/grid/weight.h"
 
 #include <vector>
@@ -65,7 +65,7 @@ mixed_weight(const MixedReasons& reasons, const MixSettings& settings, int nu, i
 
 /// sqrt(k1^2 + k2^2) of `patch`, divided by its largest value on the nodes of the grid and halfway between
 /// them, where it is 0 on a plane. Places without a normal count as the largest.
-[[nodiscard]] WeightPtr curvature_weight(const geometry::BezierPatch& patch, int nu, int nv);
+[[nodiscard]] WeightPtr curvature_weight(const geometry::ParametricSurface& patch, int nu, int nv);
 
 /// `field` in the solver coordinates of a grid of nu x nv nodes.
 [[nodiscard]] WeightPtr field_weight(const Field& field, int nu, int nv);
@@ -80,10 +80,13 @@ struct Brush {
 
 /// One dab of `brush` on `field` about the point of `patch` at `uv`, in steps of 0.001. True if something has
 /// changed.
-bool dab(Field& field, const geometry::BezierPatch& patch, const Vec2& uv, const Brush& brush);
+bool dab(Field& field, const geometry::ParametricSurface& patch, const Vec2& uv, const Brush& brush);
 
 /// Dabs from `from` to `to`, no farther apart than a quarter of the radius, without the one at `from`.
-bool stroke(
-    Field& field, const geometry::BezierPatch& patch, const Vec2& from, const Vec2& to, const Brush& brush);
+bool stroke(Field& field,
+            const geometry::ParametricSurface& patch,
+            const Vec2& from,
+            const Vec2& to,
+            const Brush& brush);
 
 } // namespace millwright::grid

@@ -8,7 +8,7 @@ namespace millwright::plan {
 
 namespace {
 
-using PatchPtr = std::shared_ptr<const geometry::BezierPatch>;
+using PatchPtr = std::shared_ptr<const geometry::ParametricSurface>;
 
 grid::WeightPtr
 weight_of_formula(const project::GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
@@ -63,12 +63,12 @@ bool needs_error(const project::EllipticInput& input) {
 }
 
 grid::WeightPtr chosen_weight(const project::GridInput& input,
-                              const geometry::BezierPatch& patch,
+                              const geometry::ParametricSurface& patch,
                               const grid::WeightPtr& error) {
     if (needs_error(input.elliptic) && error == nullptr) {
         return nullptr;
     }
-    const auto shared = [&] { return std::make_shared<const geometry::BezierPatch>(patch); };
+    const auto shared = [&] { return patch.shared(); };
     switch (input.elliptic.weight) {
     case project::WeightSource::error:
         return error;
@@ -88,14 +88,14 @@ grid::WeightPtr chosen_weight(const project::GridInput& input,
     return nullptr;
 }
 
-grid::WeightPtr region_weight(const project::GridInput& input, const geometry::BezierPatch& patch) {
+grid::WeightPtr region_weight(const project::GridInput& input, const geometry::ParametricSurface& patch) {
     return input.elliptic.region.everywhere()
                ? nullptr
                : grid::field_weight(grid::share_of(input.elliptic.region, patch), input.nu, input.nv);
 }
 
 bool paint_weight(project::EllipticInput& input,
-                  const geometry::BezierPatch& patch,
+                  const geometry::ParametricSurface& patch,
                   const Vec2& from,
                   const Vec2& to,
                   const grid::Brush& brush) {

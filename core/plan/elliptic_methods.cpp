@@ -18,7 +18,7 @@ namespace {
 /// Of the elliptic grid, or of the harmonic map.
 grid::EllipticAdaptationSettings adaptation_settings(project::GridMethod method,
                                                      const project::GridInput& input,
-                                                     const geometry::BezierPatch& patch) {
+                                                     const geometry::ParametricSurface& patch) {
     grid::EllipticAdaptationSettings settings = method == project::GridMethod::harmonic
                                                     ? grid::harmonic_settings()
                                                     : grid::EllipticAdaptationSettings{};
@@ -52,8 +52,8 @@ std::unique_ptr<grid::GridImprover> make_adaptation(project::GridMethod method,
             error, start, settings, chosen_weight(input, error.patch(), nullptr));
     }
     return std::make_unique<grid::EllipticAdaptation>(
-        error, start, settings, [input, patch = error.patch()](const grid::WeightPtr& density) {
-            return chosen_weight(input, patch, density);
+        error, start, settings, [input, patch = error.patch().shared()](const grid::WeightPtr& density) {
+            return chosen_weight(input, *patch, density);
         });
 }
 

@@ -5,6 +5,7 @@
 #include "core/geometry/trim.h"
 #include "core/grid/improver.h"
 #include "core/project/project.h"
+#include "core/region/region.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/kinematic_error.h"
 #include "core/toolpath/sequenced_path.h"
@@ -50,7 +51,7 @@ struct Evaluation {
 
 /// Surface, machine and direction that an evaluation is made for. Shared by all stages of one plan.
 struct Workpiece {
-    geometry::BezierPatch patch;
+    region::Region patch;
     kinematics::MachineModel machine;
     grid::TrackDirection direction = grid::TrackDirection::along_v;
     bool flipped = false;

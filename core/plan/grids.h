@@ -28,12 +28,12 @@ inline constexpr toolpath::MoveSampling report_sampling = toolpath::until_known;
 /// grid (or of a later one) is `error`; null, if nothing is known of it, for a choice that needs it. Throws
 /// Error if an expression has no sense.
 [[nodiscard]] grid::WeightPtr chosen_weight(const project::GridInput& input,
-                                            const geometry::BezierPatch& patch,
+                                            const geometry::ParametricSurface& patch,
                                             const grid::WeightPtr& error);
 
 /// How much of the weight counts where, in solver coordinates; null where all of it counts everywhere.
 [[nodiscard]] grid::WeightPtr region_weight(const project::GridInput& input,
-                                            const geometry::BezierPatch& patch);
+                                            const geometry::ParametricSurface& patch);
 
 /// Whether the weight, what is painted of it, and the region count for the grid of `method`.
 [[nodiscard]] constexpr bool uses_weight(project::GridMethod method) {
@@ -47,7 +47,7 @@ inline constexpr toolpath::MoveSampling report_sampling = toolpath::until_known;
 /// nothing was painted so far. True if something has changed. What is painted counts where the weight is
 /// mixed and its share is not 0.
 bool paint_weight(project::EllipticInput& input,
-                  const geometry::BezierPatch& patch,
+                  const geometry::ParametricSurface& patch,
                   const Vec2& from,
                   const Vec2& to,
                   const grid::Brush& brush);

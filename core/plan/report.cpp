@@ -153,13 +153,23 @@ Json all_errors(const project::Project& project, const Plan& plan) {
 }
 
 Json surface_json(const project::Project& project, const Plan& plan) {
-    const geometry::BezierPatch& patch = plan.workpiece->patch;
+    const project::SurfaceInput& surface = project.surface;
+    const region::Region& patch = plan.workpiece->patch;
     Json json;
-    json["preset"] = project.surface.preset;
+    json["preset"] = surface.preset;
     json["patches"] = plan.surface->patch_count();
-    json["machined_patch"] = project.surface.machined_patch;
-    json["degree"] = Json::array({patch.degree_u(), patch.degree_v()});
-    json["rational"] = patch.rational();
+    json["machined_patch"] = surface.machined_patch;
+    if (surface.face) {
+        const geometry::BsplineNet& net = surface.face->net;
+        json["degree"] = Json::array({net.degree_u, net.degree_v});
+        json["control_points"] = Json::array({net.rows, net.columns});
+        json["rational"] = plan.surface->face()->rational();
+    } else {
+        const geometry::PatchId machined{surface.machined_patch};
+        const geometry::BezierPatch& bezier = plan.surface->patch(machined);
+        json["degree"] = Json::array({bezier.degree_u(), bezier.degree_v()});
+        json["rational"] = bezier.rational();
+    }
     json["flipped"] = project.surface.flipped;
     json["box_mm"]["min"] = project::vector(patch.control_box().min());
     json["box_mm"]["max"] = project::vector(patch.control_box().max());

@@ -41,7 +41,7 @@ std::optional<std::string> why_out_of_reach(const Workpiece& workpiece,
                                             const toolpath::SetUpPlace& place) {
     const kinematics::MachineModel machine =
         workpiece.machine.with_workpiece_offset(toolpath::offset_of(place));
-    const geometry::BezierPatch patch(toolpath::turned(workpiece.patch.net(), place[3]));
+    const region::Region patch = workpiece.patch.turned(place[3]);
     const grid::Grid grid = grid::Grid::uniform(settings.nodes, settings.nodes);
     toolpath::Toolpath contacts = toolpath::zigzag(patch, grid, workpiece.direction, workpiece.flipped);
     try {

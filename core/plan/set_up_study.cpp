@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/geometry/turned.h"
 #include "core/plan/set_up_reach.h"
 
 #include <fmt/format.h>
@@ -67,7 +68,10 @@ SetUpStudy set_up_study(const Workpiece& workpiece,
 project::Project with_set_up(project::Project project, const toolpath::SetUpPlace& place) {
     project.machine.workpiece_offset = toolpath::offset_of(place);
     for (geometry::ControlNet& net : project.surface.patches) {
-        net = toolpath::turned(std::move(net), place[3]);
+        net = geometry::turned(std::move(net), place[3]);
+    }
+    if (auto& face = project.surface.face) {
+        face->net = geometry::turned(std::move(face->net), place[3]);
     }
     return project;
 }

@@ -34,28 +34,35 @@ std::vector<Quality> coarse_if(bool quick) {
 }
 
 Stage surface_stage() {
-    return {
-        .key = {StageKind::surface},
-        .same = [](const Source& then,
-                   const Source& now) { return then.project.surface.patches == now.project.surface.patches; },
-        .make =
-            [](const StageWork& work) {
-                work.plan.surface =
-                    std::make_shared<const geometry::Surface>(project::surface_of(work.project().surface));
-                return true;
-            },
-        .clear = [](Plan& plan) { plan.surface = nullptr; },
-        .qualities = {Quality::carried, Quality::exact}};
+    return {.key = {StageKind::surface},
+            .same =
+                [](const Source& then, const Source& now) {
+                    return then.project.surface.patches == now.project.surface.patches &&
+                           then.project.surface.face == now.project.surface.face;
+                },
+            .make =
+                [](const StageWork& work) {
+                    work.plan.surface = std::make_shared<const geometry::Surface>(
+                        project::surface_of(work.project().surface));
+                    return true;
+                },
+            .clear = [](Plan& plan) { plan.surface = nullptr; },
+            .qualities = {Quality::carried, Quality::exact}};
+}
+
+/// One a part of the surface; those that are missing leave all of it.
+std::vector<geometry::Trim> trims_of(const project::Project& project) {
+    return project.surface.face ? std::vector{project.surface.face->trim} : project.surface.trims;
 }
 
 Stage trims_stage() {
     return {.key = {StageKind::trims},
             .same = [](const Source& then,
-                       const Source& now) { return then.project.surface.trims == now.project.surface.trims; },
+                       const Source& now) { return trims_of(then.project) == trims_of(now.project); },
             .make =
                 [](const StageWork& work) {
                     work.plan.trims =
-                        std::make_shared<const std::vector<geometry::Trim>>(work.project().surface.trims);
+                        std::make_shared<const std::vector<geometry::Trim>>(trims_of(work.project()));
                     return true;
                 },
             .clear = [](Plan& plan) { plan.trims = nullptr; },

@@ -6,6 +6,7 @@
 #include "core/kinematics/machine_file.h"
 #include "core/kinematics/rotary_tilt_machine.h"
 #include "core/project/assets.h"
+#include "core/project/surface.h"
 #include "core/project/tool_settings.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ namespace millwright::plan {
 namespace {
 
 /// What was trimmed away may cross what it likes.
-void refuse_crossing(const geometry::BezierPatch& patch, const geometry::Trim& trim) {
+void refuse_crossing(const geometry::ParametricSurface& patch, const geometry::Trim& trim) {
     if (!trim.everything()) {
         return;
     }
@@ -65,9 +66,8 @@ void refuse_faults(const project::Project& project) {
 }
 
 Workpiece workpiece_of(const project::Project& project, const Folders& folders) {
-    const auto number = static_cast<std::size_t>(project.surface.machined_patch);
-    geometry::BezierPatch patch(project.surface.patches.at(number));
-    refuse_crossing(patch, project.surface.trim(project.surface.machined_patch));
+    region::Region patch = project::machined_region(project.surface);
+    refuse_crossing(patch, project.surface.machined_trim());
     kinematics::MachineModel machine =
         kinematics::read_machine(project::machine_path(project, folders.project, folders.assets));
     if (const auto& set = project.machine.tool_set) {
@@ -85,7 +85,7 @@ Workpiece workpiece_of(const project::Project& project, const Folders& folders) 
             project::tool_of(project.tool),
             sequencing_settings(project),
             timing(project),
-            project.surface.trim(project.surface.machined_patch)};
+            project.surface.machined_trim()};
 }
 
 project::ProgramInput timing(const project::Project& project) {

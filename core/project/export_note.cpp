@@ -7,6 +7,9 @@
 namespace millwright::project {
 
 std::string left_out_text(const SurfaceInput& surface) {
+    if (surface.face && !surface.face->trim.everything()) {
+        return "The face is trimmed: the file contains all of its surface, without its outline and holes.";
+    }
     const auto trimmed =
         std::ranges::count_if(surface.trims, [](const geometry::Trim& trim) { return !trim.everything(); });
     if (trimmed == 0) {

@@ -140,10 +140,28 @@ ImportedSurface face_as_it_is(const CadFace& face) {
     }
     if (surface.patches.size() > 1) {
         imported.notes.push_back(fmt::format(
-            "face {} has {} patches and only the first is machined; fit one patch to machine all of it",
+            "face {} has {} patches and only the first is machined; import the exact face (--exact) or fit "
+            "one patch to machine all of it",
             face.number,
             surface.patches.size()));
     }
+    return imported;
+}
+
+/// All of it as one surface. A single patch is that already.
+ImportedSurface exact_face(const CadFace& face) {
+    if (face.patches.size() == 1) {
+        return face_as_it_is(face);
+    }
+    if (!face.bspline) {
+        throw Error(fmt::format("face {} cannot be imported as one exact surface: its surface breaks at a "
+                                "knot, or its weights differ too much",
+                                face.number),
+                    {},
+                    "fit one patch to it (--degree)");
+    }
+    ImportedSurface imported;
+    imported.surface.face = FaceInput{*face.bspline, face.bspline_trim()};
     return imported;
 }
 
@@ -197,6 +215,9 @@ void check_imported_size(const ImportedSurface& imported,
     for (const geometry::ControlNet& net : imported.surface.patches) {
         points.insert(points.end(), net.points.begin(), net.points.end());
     }
+    if (imported.surface.face) {
+        points = imported.surface.face->net.points;
+    }
     if (const std::string fault = fault_of_size(size_of(points)); !fault.empty()) {
         throw Error("the surface " + fault, file, hint);
     }
@@ -215,8 +236,8 @@ std::string question_of_cad_unit(const CadModel& model) {
 constexpr double doubtful_mm = 1.0; // hardly anyone cuts what is smaller
 
 void check_reach(const ImportedSurface& imported, const std::filesystem::path& file) {
-    for (const geometry::ControlNet& net : imported.surface.patches) {
-        for (const Vec3& point : net.points) {
+    const auto check = [&](const std::vector<Vec3>& points) {
+        for (const Vec3& point : points) {
             if (!(point.cwiseAbs().maxCoeff() <= farthest_point_mm)) {
                 throw Error(
                     fmt::format("a control point is farther than {} mm from the origin", farthest_point_mm),
@@ -224,6 +245,12 @@ void check_reach(const ImportedSurface& imported, const std::filesystem::path& f
                     "check the unit");
             }
         }
+    };
+    for (const geometry::ControlNet& net : imported.surface.patches) {
+        check(net.points);
+    }
+    if (imported.surface.face) {
+        check(imported.surface.face->net.points);
     }
 }
 
@@ -276,7 +303,9 @@ std::string doubt_of_size(const CadModel& model) {
 }
 
 ImportedSurface import_face(const CadFace& face, const ImportChoice& choice, const Progress& progress) {
-    ImportedSurface imported = choice.degrees ? fitted_face(face, choice, progress) : face_as_it_is(face);
+    ImportedSurface imported = choice.degrees ? fitted_face(face, choice, progress)
+                               : choice.exact ? exact_face(face)
+                                              : face_as_it_is(face);
     if (!face.holes.empty()) {
         imported.notes.push_back(
             fmt::format("the face has {}, {:.3g} mm wide: paths cross it, since they fill "

@@ -38,7 +38,8 @@ struct ImportChoice {
     std::optional<FitDegrees> degrees =
         {};                         ///< meshes but rasters are always fitted, others only if these are given
     std::optional<Vec3> along = {}; ///< unit, out of the part: the side of a mesh or of points that is fitted
-    bool cloud = false;             ///< points are fitted as a cloud, whether they are in rows or not
+    bool exact = false; ///< a face of a STEP or IGES file as one surface, of as many spans as it has
+    bool cloud = false; ///< points are fitted as a cloud, whether they are in rows or not
 
     friend bool operator==(const ImportChoice&, const ImportChoice&) = default;
 };

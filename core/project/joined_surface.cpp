@@ -39,6 +39,12 @@ std::vector<OpenSeam> open_seams(const std::vector<geometry::BezierPatch>& patch
     throw Error(message);
 }
 
+void refuse_face(const SurfaceInput& surface) {
+    if (surface.face) {
+        throw Error("an exact face has no patches to join", {}, "import it without --exact");
+    }
+}
+
 } // namespace
 
 double usual_gap_mm(const SurfaceInput& surface) {
@@ -70,6 +76,7 @@ std::string open_text(const std::vector<OpenSeam>& open) {
 }
 
 JoinedSurface joined_surface(const SurfaceInput& surface, geometry::Continuity continuity, double gap_mm) {
+    refuse_face(surface);
     const geometry::Surface design = surface_of(surface);
     const std::vector<geometry::BezierPatch>& patches = design.patches();
     JoinedSurface result;
@@ -94,6 +101,8 @@ JoinedSurface joined_surface(const SurfaceInput& surface, geometry::Continuity c
 }
 
 void add_patches(SurfaceInput& surface, const SurfaceInput& more) {
+    refuse_face(surface);
+    refuse_face(more);
     if (!more.trims.empty()) {
         surface.trims.resize(surface.patches.size());
         surface.trims.insert(surface.trims.end(), more.trims.begin(), more.trims.end());

@@ -51,6 +51,22 @@ void check_net(Faults& faults, const std::string& path, const geometry::ControlN
     }
 }
 
+void check_face_net(Faults& faults, const geometry::BsplineNet& net) {
+    if (std::string fault = geometry::fault_of(net); !fault.empty()) {
+        faults.push_back("surface/face: " + fault);
+        return;
+    }
+    const auto inside = [](const Vec3& point) { return within(point, farthest_point_mm); };
+    if (!std::all_of(net.points.begin(), net.points.end(), inside)) {
+        faults.push_back(fmt::format("surface/face: a control point is farther than {} mm from the origin",
+                                     farthest_point_mm));
+    }
+    const double size = size_of(net.points);
+    if (const std::string fault = fault_of_size(size); !fault.empty()) {
+        faults.push_back(fmt::format("surface/face: the part {}; {}", fault, question_of_unit(size)));
+    }
+}
+
 bool can_be_trimmed(const geometry::Trim& trim) {
     constexpr std::size_t fewest_corners = 3;
     std::size_t corners = 0;
@@ -64,17 +80,21 @@ bool can_be_trimmed(const geometry::Trim& trim) {
     return trim.loops.size() <= geometry::most_trim_loops && corners <= geometry::most_trim_corners;
 }
 
+std::string outlines_wanted(const std::string& path) {
+    return fmt::format("{}/trim: needs at most {} outlines of 3 or more corners and at most {} corners in "
+                       "all, with u and v from 0 to 1",
+                       path,
+                       geometry::most_trim_loops,
+                       geometry::most_trim_corners);
+}
+
 void check_trims(Faults& faults, const SurfaceInput& surface) {
     if (surface.trims.size() > surface.patches.size()) {
         faults.emplace_back("surface/patches: more outlines than patches");
     }
     for (std::size_t n = 0; n < surface.trims.size(); ++n) {
         if (!can_be_trimmed(surface.trims[n])) {
-            faults.push_back(fmt::format("surface/patches[{}]/trim: needs at most {} outlines of 3 or more "
-                                         "corners and at most {} corners in all, with u and v from 0 to 1",
-                                         n,
-                                         geometry::most_trim_loops,
-                                         geometry::most_trim_corners));
+            faults.push_back(outlines_wanted(fmt::format("surface/patches[{}]", n)));
         }
     }
 }
@@ -92,7 +112,22 @@ void check_part_size(Faults& faults, const SurfaceInput& surface) {
     }
 }
 
+void check_face(Faults& faults, const SurfaceInput& surface) {
+    check_face_net(faults, surface.face->net);
+    if (!can_be_trimmed(surface.face->trim)) {
+        faults.push_back(outlines_wanted("surface/face"));
+    }
+    if (!surface.patches.empty() || !surface.trims.empty() || surface.machined_patch != 0 ||
+        !surface.preset.empty()) {
+        faults.emplace_back("surface/face: a face takes the place of preset and patches");
+    }
+}
+
 void check_surface(Faults& faults, const SurfaceInput& surface) {
+    if (surface.face) {
+        check_face(faults, surface);
+        return;
+    }
     const auto count = static_cast<int>(surface.patches.size());
     if (count == 0) {
         faults.emplace_back("surface/patches: a surface needs at least one patch");

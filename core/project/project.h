@@ -3,6 +3,7 @@
 // can be thrown away. People's units at this border: mm, deg, mm/min; only plots keep the core's.
 #pragma once
 
+#include "core/geometry/bspline_surface.h"
 #include "core/geometry/surface.h"
 #include "core/geometry/trim.h"
 #include "core/grid/elliptic_solver.h"
@@ -23,15 +24,27 @@
 
 namespace millwright::project {
 
+/// A face of a CAD model as it is, of any number of spans.
+struct FaceInput {
+    geometry::BsplineNet net;
+    geometry::Trim trim; ///< what of it is cut
+
+    friend bool operator==(const FaceInput&, const FaceInput&) = default;
+};
+
 /// The design: the nets themselves, and the preset they started from for people to see.
 struct SurfaceInput {
     std::string preset;                        ///< id of the preset it started from; empty if none
-    std::vector<geometry::ControlNet> patches; ///< at least one
+    std::vector<geometry::ControlNet> patches; ///< at least one, or none if there is a face
     std::vector<geometry::Trim> trims;         ///< one a patch; those that are missing: all of the patch
     int machined_patch = 0;                    ///< index of the patch that the tool path covers
     bool flipped = false;                      ///< cut on the side against S_u x S_v
 
-    /// What of that patch is cut.
+    std::optional<FaceInput> face{}; ///< in place of patches
+
+    /// What of the face, or of the patch that the tool path covers, is cut.
+    [[nodiscard]] geometry::Trim machined_trim() const { return face ? face->trim : trim(machined_patch); }
+    /// What of a patch is cut.
     [[nodiscard]] geometry::Trim trim(int patch) const {
         const auto n = static_cast<std::size_t>(patch);
         return n < trims.size() ? trims[n] : geometry::Trim{};

@@ -38,12 +38,12 @@ Vec3 point(const JsonValue& value) {
 }
 
 /// The elements of a list of equally long lists, row by row.
-std::vector<std::vector<JsonValue>> rows_of_table(const JsonValue& value) {
+std::vector<std::vector<JsonValue>> rows_of_table(const JsonValue& value,
+                                                  std::size_t most = geometry::max_degree + 1) {
     std::vector<std::vector<JsonValue>> rows;
     for (const JsonValue& row : value.items()) {
         rows.push_back(rows.empty() ? row.items() : row.items(rows.front().size()));
     }
-    constexpr std::size_t most = geometry::max_degree + 1;
     if (rows.size() < 2 || rows.size() > most || rows.front().size() < 2 || rows.front().size() > most) {
         value.fail(fmt::format("a control net needs 2 to {} rows and columns", most));
     }
@@ -73,14 +73,19 @@ geometry::Trim trim(const JsonValue& value) {
     return result;
 }
 
-geometry::ControlNet net(const JsonValue& value) {
-    value.expect_only({"points", "weights", "trim"});
-    const auto points = rows_of_table(value.at("points"));
+/// The `points` and `weights` of `value` into `result`, a net of any kind, of at most so many rows and
+/// columns.
+template <class Net> void read_net(const JsonValue& value, Net& result, std::size_t most) {
+    const auto points = rows_of_table(value.at("points"), most);
     const int rows = static_cast<int>(points.size());
     const int columns = static_cast<int>(points.front().size());
-    geometry::ControlNet result = geometry::ControlNet::sized(rows, columns);
+    result.rows = rows;
+    result.columns = columns;
+    const auto count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+    result.points.assign(count, Vec3::Zero());
+    result.weights.assign(count, 1.0);
     const auto weights = value.find("weights");
-    const auto weight_rows = weights ? rows_of_table(*weights) : std::vector<std::vector<JsonValue>>{};
+    const auto weight_rows = weights ? rows_of_table(*weights, most) : std::vector<std::vector<JsonValue>>{};
     if (weights &&
         (weight_rows.size() != points.size() || weight_rows.front().size() != points.front().size())) {
         weights->fail(fmt::format("expected {} x {} weights, one per point", rows, columns));
@@ -90,11 +95,48 @@ geometry::ControlNet net(const JsonValue& value) {
         for (int j = 0; j < columns; ++j) {
             const auto row = static_cast<std::size_t>(i);
             const auto column = static_cast<std::size_t>(j);
-            result.point(i, j) = point(points[row][column]);
+            result.points[result.index(i, j)] = point(points[row][column]);
             if (weights) {
-                result.weight(i, j) = weight_rows[row][column].number(1.0 / largest_weight, largest_weight);
+                result.weights[result.index(i, j)] =
+                    weight_rows[row][column].number(1.0 / largest_weight, largest_weight);
             }
         }
+    }
+}
+
+geometry::ControlNet net(const JsonValue& value) {
+    value.expect_only({"points", "weights", "trim"});
+    geometry::ControlNet result;
+    read_net(value, result, geometry::max_degree + 1);
+    return result;
+}
+
+std::vector<double> knots(const JsonValue& value) {
+    std::vector<double> result;
+    for (const JsonValue& knot : value.items()) {
+        result.push_back(knot.number(0.0, 1.0));
+    }
+    return result;
+}
+
+FaceInput face(const JsonValue& value) {
+    value.expect_only({"degree", "knots_u", "knots_v", "points", "weights", "trim"});
+    FaceInput result;
+    const auto degree = value.at("degree").items(2);
+    result.net.degree_u = degree[0].integer(1, geometry::max_bspline_degree);
+    result.net.degree_v = degree[1].integer(1, geometry::max_bspline_degree);
+    result.net.knots_u = knots(value.at("knots_u"));
+    result.net.knots_v = knots(value.at("knots_v"));
+    read_net(value, result.net, geometry::most_bspline_points);
+    if (const std::string fault = geometry::fault_of(result.net); !fault.empty()) {
+        value.fail(fault);
+    }
+    const double size = size_of(result.net.points);
+    if (const std::string fault = fault_of_size(size); !fault.empty()) {
+        value.fail("the part " + fault, question_of_unit(size));
+    }
+    if (const auto outline = value.find("trim")) {
+        result.trim = trim(*outline);
     }
     return result;
 }
@@ -116,8 +158,14 @@ void expect_size(const JsonValue& machined, const SurfaceInput& surface) {
 }
 
 SurfaceInput read_surface(const JsonValue& value) {
-    value.expect_only({"preset", "patches", "machined_patch", "flipped"});
     SurfaceInput result;
+    if (const auto exact = value.find("face")) {
+        value.expect_only({"face", "flipped"});
+        result.face = face(*exact);
+        read_flag(value, "flipped", result.flipped);
+        return result;
+    }
+    value.expect_only({"preset", "patches", "machined_patch", "flipped"});
     if (const auto preset = value.find("preset")) {
         read_preset(*preset, result);
     }
@@ -304,7 +352,7 @@ Project project(const JsonValue& root, const fs::path& folder) {
     return result;
 }
 
-template <class Of> Json table_of(const geometry::ControlNet& net, Of of) {
+template <class Net, class Of> Json table_of(const Net& net, Of of) {
     Json rows = Json::array();
     for (int i = 0; i < net.rows; ++i) {
         Json row = Json::array();
@@ -316,13 +364,17 @@ template <class Of> Json table_of(const geometry::ControlNet& net, Of of) {
     return rows;
 }
 
-Json net_json(const geometry::ControlNet& net) {
-    Json json;
-    json["points"] = table_of(net, [&](int i, int j) { return point_json(net.point(i, j)); });
+template <class Net> void add_net(Json& json, const Net& net) {
+    json["points"] = table_of(net, [&](int i, int j) { return point_json(net.points[net.index(i, j)]); });
     const auto is_one = [](double weight) { return exactly_equal(weight, 1.0); };
     if (!std::all_of(net.weights.begin(), net.weights.end(), is_one)) {
-        json["weights"] = table_of(net, [&](int i, int j) { return net.weight(i, j); });
+        json["weights"] = table_of(net, [&](int i, int j) { return net.weights[net.index(i, j)]; });
     }
+}
+
+Json net_json(const geometry::ControlNet& net) {
+    Json json;
+    add_net(json, net);
     return json;
 }
 
@@ -338,8 +390,25 @@ Json trim_json(const geometry::Trim& trim) {
     return loops;
 }
 
+Json face_json(const FaceInput& face) {
+    Json json;
+    json["degree"] = Json::array({face.net.degree_u, face.net.degree_v});
+    json["knots_u"] = face.net.knots_u;
+    json["knots_v"] = face.net.knots_v;
+    add_net(json, face.net);
+    if (!face.trim.everything()) {
+        json["trim"] = trim_json(face.trim);
+    }
+    return json;
+}
+
 Json surface_input_json(const SurfaceInput& surface) {
     Json json;
+    if (surface.face) {
+        json["face"] = face_json(*surface.face);
+        json["flipped"] = surface.flipped;
+        return json;
+    }
     if (!surface.preset.empty()) {
         json["preset"] = surface.preset;
     }

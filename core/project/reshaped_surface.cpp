@@ -23,6 +23,11 @@ using geometry::Parameter;
 using geometry::Trim;
 
 BezierPatch patch_of(const SurfaceInput& surface, int patch) {
+    if (surface.face) {
+        throw Error("the surface is an exact face without patches: its control points stay as they are",
+                    {},
+                    "import it without --exact to change its patches");
+    }
     if (patch < 0 || patch >= std::ssize(surface.patches)) {
         throw Error(
             fmt::format("no patch {}; the design has {}, numbered from 0", patch, surface.patches.size()));
@@ -140,12 +145,18 @@ SurfaceInput with_turn(SurfaceInput surface, const Vec3& degrees) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto [sine, cosine] = sine_and_cosine(degrees[axis]);
         const int first = (axis + 1) % 3, second = (axis + 2) % 3;
-        for (geometry::ControlNet& net : surface.patches) {
-            for (Vec3& point : net.points) {
+        const auto turn = [first, second, sine = sine, cosine = cosine](std::vector<Vec3>& points) {
+            for (Vec3& point : points) {
                 const double a = point[first], b = point[second];
                 point[first] = cosine * a - sine * b + 0.0; // no -0
                 point[second] = sine * a + cosine * b + 0.0;
             }
+        };
+        for (geometry::ControlNet& net : surface.patches) {
+            turn(net.points);
+        }
+        if (surface.face) {
+            turn(surface.face->net.points);
         }
     }
     if (!degrees.isZero(0.0)) {

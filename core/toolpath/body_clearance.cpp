@@ -19,7 +19,7 @@ struct Expansion {
     Matrix2 metric = Matrix2::Zero(); ///< first fundamental form
 };
 
-Expansion expansion_at(const geometry::BezierPatch& patch,
+Expansion expansion_at(const geometry::ParametricSurface& patch,
                        const Profile& body,
                        const geometry::ToolPose& pose,
                        const Vec2& uv) {
@@ -68,7 +68,7 @@ Vec2 step_at(const Expansion& e, const Vec2& uv) {
 
 /// Less than 0: how far below the surface point, which is inside, the body ends. A thin body may be deep in
 /// the part though no point of the surface is deep in the body.
-double depth_at(const geometry::BezierPatch& patch,
+double depth_at(const geometry::ParametricSurface& patch,
                 const Profile& body,
                 const geometry::ToolPose& pose,
                 const Vec2& uv) {
@@ -80,7 +80,7 @@ double depth_at(const geometry::BezierPatch& patch,
 
 } // namespace
 
-BodyClearance clearance_near(const geometry::BezierPatch& patch,
+BodyClearance clearance_near(const geometry::ParametricSurface& patch,
                              const Profile& body,
                              const geometry::ToolPose& pose,
                              const Vec2& start) {

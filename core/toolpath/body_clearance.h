@@ -2,7 +2,7 @@
 // a point.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/toolpath/profile.h"
 
 namespace millwright::toolpath {
@@ -14,7 +14,7 @@ struct BodyClearance {
 
 /// Descends from `start` to the surface point that is locally nearest to the body, or deepest in it: a damped
 /// Newton iteration that stays inside [0,1]^2. Throws Defect if the pose is not finite.
-[[nodiscard]] BodyClearance clearance_near(const geometry::BezierPatch& patch,
+[[nodiscard]] BodyClearance clearance_near(const geometry::ParametricSurface& patch,
                                            const Profile& body,
                                            const geometry::ToolPose& pose,
                                            const Vec2& start);

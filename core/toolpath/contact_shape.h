@@ -3,7 +3,7 @@
 // 1/mm. Formulas: docs/reference/cutter.md.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/toolpath/profile.h"
 
 namespace millwright::toolpath {

@@ -20,7 +20,7 @@ namespace {
 
 /// All that the moves of a path are judged by.
 struct Cut {
-    const geometry::BezierPatch& patch;
+    const geometry::ParametricSurface& patch;
     const geometry::ClosestPointSearch& search;
     const kinematics::MachineModel& machine;
     const Toolpath& path;
@@ -99,7 +99,7 @@ struct Ground {
     double turn = 0.0;  ///< of its normal, from place to place, rad
 };
 
-Ground ground_under(const geometry::BezierPatch& patch, const Way& way) {
+Ground ground_under(const geometry::ParametricSurface& patch, const Way& way) {
     const Vec2 step = way.to - way.from;
     Ground ground;
     std::optional<Vec3> before;
@@ -189,7 +189,7 @@ std::vector<Look> looks_at_nodes(const Cut& cut, const AxisPath& axes, const Pro
 
 } // namespace
 
-ErrorField error_field(const geometry::BezierPatch& patch,
+ErrorField error_field(const geometry::ParametricSurface& patch,
                        const kinematics::MachineModel& machine,
                        const Toolpath& toolpath,
                        const AxisPath& axes,

@@ -40,7 +40,7 @@ struct MoveSampling {
 inline constexpr MoveSampling until_known{};
 
 /// Of `toolpath.tool`. Parallel over moves; the same bytes on any number of threads.
-[[nodiscard]] ErrorField error_field(const geometry::BezierPatch& patch,
+[[nodiscard]] ErrorField error_field(const geometry::ParametricSurface& patch,
                                      const kinematics::MachineModel& machine,
                                      const Toolpath& toolpath,
                                      const AxisPath& axes,

@@ -24,7 +24,7 @@ namespace millwright::toolpath {
 
 namespace {
 
-using geometry::BezierPatch;
+using geometry::ParametricSurface;
 using geometry::ToolPose;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
@@ -83,7 +83,7 @@ class Point {
 public:
     using Place = ToolPose;
 
-    Point(const BezierPatch& patch, const MachineModel& machine, bool flipped)
+    Point(const ParametricSurface& patch, const MachineModel& machine, bool flipped)
         : patch_(patch), machine_(machine), flipped_(flipped) {}
 
     [[nodiscard]] Place at(const Vec2& uv, const Vec2& /*heading*/) const {
@@ -104,7 +104,7 @@ public:
     }
 
 private:
-    const BezierPatch& patch_;
+    const ParametricSurface& patch_;
     const MachineModel& machine_;
     bool flipped_;
 };
@@ -114,7 +114,11 @@ class Body {
 public:
     using Place = ToolPlace;
 
-    Body(const BezierPatch& patch, const MachineModel& machine, bool flipped, const Tool& tool, bool back)
+    Body(const ParametricSurface& patch,
+         const MachineModel& machine,
+         bool flipped,
+         const Tool& tool,
+         bool back)
         : patch_(patch), machine_(machine), flipped_(flipped), tool_(tool), back_(back) {}
 
     [[nodiscard]] Place at(const Vec2& uv, const Vec2& heading) const {
@@ -126,7 +130,7 @@ public:
     }
 
 private:
-    const BezierPatch& patch_;
+    const ParametricSurface& patch_;
     const MachineModel& machine_;
     bool flipped_;
     const Tool& tool_;
@@ -240,9 +244,12 @@ grid::MoveError move_of(
 
 } // namespace
 
-KinematicError::KinematicError(
-    BezierPatch patch, MachineModel machine, bool flipped, Tool tool, SequencingSettings sequencing)
-    : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), tool_(std::move(tool)),
+KinematicError::KinematicError(const ParametricSurface& patch,
+                               MachineModel machine,
+                               bool flipped,
+                               Tool tool,
+                               SequencingSettings sequencing)
+    : patch_(patch.shared()), machine_(std::move(machine)), flipped_(flipped), tool_(std::move(tool)),
       sequencing_(sequencing) {
     sequencing_.largest_step = 0.0;
 }
@@ -250,11 +257,11 @@ KinematicError::KinematicError(
 grid::MoveError KinematicError::move(const Vec2& a, const Vec2& b, grid::Sampling sampling) const {
     const auto by = [&](const auto& seen) { return move_of(seen, machine_, a, b, sampling); };
     if (!tool_.lean.upright()) {
-        return worse(by(Body(patch_, machine_, flipped_, tool_, false)),
-                     by(Body(patch_, machine_, flipped_, tool_, true)));
+        return worse(by(Body(*patch_, machine_, flipped_, tool_, false)),
+                     by(Body(*patch_, machine_, flipped_, tool_, true)));
     }
-    return tool_.cutter ? by(Body(patch_, machine_, flipped_, tool_, false))
-                        : by(Point(patch_, machine_, flipped_));
+    return tool_.cutter ? by(Body(*patch_, machine_, flipped_, tool_, false))
+                        : by(Point(*patch_, machine_, flipped_));
 }
 
 std::unique_ptr<grid::LatticeErrors> KinematicError::lattice(std::span<const Vec2> nodes,
@@ -263,15 +270,15 @@ std::unique_ptr<grid::LatticeErrors> KinematicError::lattice(std::span<const Vec
         return std::make_unique<Lattice<decltype(seen)>>(seen, machine_, nodes, sampling);
     };
     if (!tool_.lean.upright()) {
-        return std::make_unique<BothWays>(by(Body(patch_, machine_, flipped_, tool_, false)),
-                                          by(Body(patch_, machine_, flipped_, tool_, true)));
+        return std::make_unique<BothWays>(by(Body(*patch_, machine_, flipped_, tool_, false)),
+                                          by(Body(*patch_, machine_, flipped_, tool_, true)));
     }
-    return tool_.cutter ? by(Body(patch_, machine_, flipped_, tool_, false))
-                        : by(Point(patch_, machine_, flipped_));
+    return tool_.cutter ? by(Body(*patch_, machine_, flipped_, tool_, false))
+                        : by(Point(*patch_, machine_, flipped_));
 }
 
 double KinematicError::track_gap(const grid::Grid& grid, grid::TrackDirection direction) const {
-    return largest_gap(patch_, grid, direction);
+    return largest_gap(*patch_, grid, direction);
 }
 
 grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
@@ -279,9 +286,9 @@ grid::ErrorSummary KinematicError::on_path(const grid::Grid& grid,
                                            const Progress& progress) const {
     progress.check();
     try {
-        Toolpath contacts = with_tool(patch_, machine_, tool_, zigzag(patch_, grid, direction, flipped_));
-        const auto [path, axes] = sequenced(patch_, machine_, std::move(contacts), sequencing_, progress);
-        const ErrorField field = error_field(patch_, machine_, path, axes, until_known, progress);
+        Toolpath contacts = with_tool(*patch_, machine_, tool_, zigzag(*patch_, grid, direction, flipped_));
+        const auto [path, axes] = sequenced(*patch_, machine_, std::move(contacts), sequencing_, progress);
+        const ErrorField field = error_field(*patch_, machine_, path, axes, until_known, progress);
         return summary(field, Distance::closest, MoveKind::track);
     } catch (const Error&) { // a pose that cannot be reached
         return grid::out_of_reach();

@@ -1,11 +1,13 @@
 // The error of a real machine as the grid room sees it (grid::ErrorModel).
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/grid/error_model.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/sequenced_path.h"
 #include "core/toolpath/tool.h"
+
+#include <memory>
 
 namespace millwright::toolpath {
 
@@ -17,7 +19,8 @@ namespace millwright::toolpath {
 /// move chooses its branches for itself: `sequencing` and what else the body touches count in `on_path`.
 class KinematicError final : public grid::ErrorModel {
 public:
-    KinematicError(geometry::BezierPatch patch,
+    /// Keeps surface.shared().
+    KinematicError(const geometry::ParametricSurface& patch,
                    kinematics::MachineModel machine,
                    bool flipped,
                    Tool tool = {},
@@ -31,10 +34,10 @@ public:
     [[nodiscard]] grid::ErrorSummary
     on_path(const grid::Grid& grid, grid::TrackDirection direction, const Progress& progress) const override;
 
-    [[nodiscard]] const geometry::BezierPatch& patch() const { return patch_; }
+    [[nodiscard]] const geometry::ParametricSurface& patch() const { return *patch_; }
 
 private:
-    geometry::BezierPatch patch_;
+    std::shared_ptr<const geometry::ParametricSurface> patch_;
     kinematics::MachineModel machine_;
     bool flipped_ = false;
     Tool tool_;

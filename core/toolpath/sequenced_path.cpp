@@ -9,7 +9,7 @@ namespace millwright::toolpath {
 
 namespace {
 
-AxisPath axes_by_goal(const geometry::BezierPatch& patch,
+AxisPath axes_by_goal(const geometry::ParametricSurface& patch,
                       const kinematics::MachineModel& machine,
                       const Toolpath& path,
                       const SequencingSettings& settings,
@@ -33,7 +33,7 @@ AxisPath axes_by_goal(const geometry::BezierPatch& patch,
 
 } // namespace
 
-SequencedPath sequenced(const geometry::BezierPatch& patch,
+SequencedPath sequenced(const geometry::ParametricSurface& patch,
                         const kinematics::MachineModel& machine,
                         Toolpath toolpath,
                         const SequencingSettings& settings,

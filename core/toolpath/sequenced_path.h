@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/toolpath/sequencing.h"
 
 namespace millwright::toolpath {
@@ -29,7 +29,7 @@ struct SequencedPath {
 };
 
 /// Throws Error as `sequence` does; Cancelled.
-[[nodiscard]] SequencedPath sequenced(const geometry::BezierPatch& patch,
+[[nodiscard]] SequencedPath sequenced(const geometry::ParametricSurface& patch,
                                       const kinematics::MachineModel& machine,
                                       Toolpath toolpath,
                                       const SequencingSettings& settings,

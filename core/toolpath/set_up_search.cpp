@@ -134,7 +134,7 @@ int descend_to_best(const SetUpCost& cost,
 
 } // namespace
 
-SetUpCost::SetUpCost(geometry::BezierPatch patch,
+SetUpCost::SetUpCost(region::Region patch,
                      kinematics::MachineModel machine,
                      bool flipped,
                      grid::Grid grid,
@@ -143,14 +143,6 @@ SetUpCost::SetUpCost(geometry::BezierPatch patch,
                      Tool tool)
     : patch_(std::move(patch)), machine_(std::move(machine)), flipped_(flipped), grid_(std::move(grid)),
       direction_(direction), goal_(goal), tool_(std::move(tool)) {}
-
-geometry::ControlNet turned(geometry::ControlNet net, double turn) {
-    const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
-    for (Vec3& point : net.points) {
-        point = rotation * point;
-    }
-    return net;
-}
 
 SetUpPlace SetUpCost::start() const {
     SetUpPlace place = SetUpPlace::Zero();
@@ -162,9 +154,8 @@ kinematics::MachineModel SetUpCost::machine_at(const SetUpPlace& place) const {
     return machine_.with_workpiece_offset(offset_of(place));
 }
 
-geometry::BezierPatch SetUpCost::patch_at(const SetUpPlace& place) const {
-    const bool is_turned = !exactly_equal(place[3], 0.0);
-    return is_turned ? geometry::BezierPatch(turned(patch_.net(), place[3])) : patch_;
+region::Region SetUpCost::patch_at(const SetUpPlace& place) const {
+    return exactly_equal(place[3], 0.0) ? patch_ : patch_.turned(place[3]);
 }
 
 std::optional<double> SetUpCost::axis_on_path(const SetUpPlace& place, const Progress& progress) const {
@@ -179,7 +170,7 @@ std::optional<double> SetUpCost::axis_on_path(const SetUpPlace& place, const Pro
 PlaceFigures SetUpCost::figures_at(const SetUpPlace& place, const Progress& progress) const {
     progress.check();
     const kinematics::MachineModel machine = machine_at(place);
-    const geometry::BezierPatch patch = patch_at(place);
+    const region::Region patch = patch_at(place);
     Toolpath contacts =
         zigzag(patch, grid_, direction_, flipped_); // what is wrong with it is so at every place
     try {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/geometry/bezier_patch.h"
 #include "core/grid/grid.h"
 #include "core/kinematics/machine_model.h"
+#include "core/region/region.h"
 #include "core/toolpath/tool.h"
 
 #include <functional>
@@ -31,9 +31,6 @@ using SetUpPlace = Eigen::Vector4d;
     return place.head<3>();
 }
 
-/// `net` turned about z through its origin, rad.
-[[nodiscard]] geometry::ControlNet turned(geometry::ControlNet net, double turn);
-
 /// What is measured of a place.
 struct PlaceFigures {
     double cost = std::numeric_limits<double>::infinity(); ///< mm; infinity where out of reach
@@ -49,7 +46,7 @@ struct PlaceFigures {
 /// What a path over a grid costs as a function of where the workpiece is on the table.
 class SetUpCost {
 public:
-    SetUpCost(geometry::BezierPatch patch,
+    SetUpCost(region::Region patch,
               kinematics::MachineModel machine,
               bool flipped,
               grid::Grid grid,
@@ -71,9 +68,9 @@ public:
 
 private:
     [[nodiscard]] kinematics::MachineModel machine_at(const SetUpPlace& place) const;
-    [[nodiscard]] geometry::BezierPatch patch_at(const SetUpPlace& place) const;
+    [[nodiscard]] region::Region patch_at(const SetUpPlace& place) const;
 
-    geometry::BezierPatch patch_;
+    region::Region patch_;
     kinematics::MachineModel machine_;
     bool flipped_;
     grid::Grid grid_;

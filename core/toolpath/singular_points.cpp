@@ -17,7 +17,8 @@ struct NormalAcross {
     double normal_length;
 };
 
-NormalAcross across(const geometry::BezierPatch& patch, const Vec2& uv, const Vec3& e1, const Vec3& e2) {
+NormalAcross
+across(const geometry::ParametricSurface& patch, const Vec2& uv, const Vec3& e1, const Vec3& e2) {
     const auto s = patch.derivatives(uv.x(), uv.y());
     const Vec3 N = s.du.cross(s.dv);
     const Vec3 N_u = s.duu.cross(s.dv) + s.du.cross(s.duv);
@@ -29,7 +30,7 @@ NormalAcross across(const geometry::BezierPatch& patch, const Vec2& uv, const Ve
 
 /// Newton inside the square from `uv`; nothing if it does not arrive.
 std::optional<Vec2>
-descend_to_pole(const geometry::BezierPatch& patch, Vec2 uv, const Vec3& e1, const Vec3& e2) {
+descend_to_pole(const geometry::ParametricSurface& patch, Vec2 uv, const Vec3& e1, const Vec3& e2) {
     constexpr int most_steps = 40;
     constexpr double on_pole = 1e-10; // rad between normal and pole
     constexpr double longest_step = 0.1;
@@ -54,7 +55,7 @@ descend_to_pole(const geometry::BezierPatch& patch, Vec2 uv, const Vec3& e1, con
 
 } // namespace
 
-std::vector<SingularPoint> singular_points(const geometry::BezierPatch& patch,
+std::vector<SingularPoint> singular_points(const geometry::ParametricSurface& patch,
                                            const kinematics::MachineModel& machine) {
     std::vector<SingularPoint> found;
     if (machine.rotary_axes().size() != 2) {

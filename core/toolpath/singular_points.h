@@ -2,7 +2,7 @@
 // (or head), so that one rotary angle is free and turns fast nearby. They explain the error map.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/kinematics/machine_model.h"
 
 #include <vector>
@@ -17,7 +17,7 @@ struct SingularPoint {
 /// All points of the patch whose normal is parallel to the machine's pole direction, by Newton from a raster
 /// of 24 x 24 starts, each found once, ordered by u, then v. Curves of such points (a flat or cylindrical
 /// part) give the points that Newton meets on them. Empty for a machine without rotary axes.
-[[nodiscard]] std::vector<SingularPoint> singular_points(const geometry::BezierPatch& patch,
+[[nodiscard]] std::vector<SingularPoint> singular_points(const geometry::ParametricSurface& patch,
                                                          const kinematics::MachineModel& machine);
 
 } // namespace millwright::toolpath

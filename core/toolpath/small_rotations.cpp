@@ -32,7 +32,7 @@ double rotary_step(const MachineModel& machine, const AxisPositions& a, const Ax
 /// One move of a path, and every point between its ends.
 class Move {
 public:
-    Move(const geometry::BezierPatch& patch,
+    Move(const geometry::ParametricSurface& patch,
          const MachineModel& machine,
          const Toolpath& path,
          std::size_t to)
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    const geometry::BezierPatch& patch_;
+    const geometry::ParametricSurface& patch_;
     const MachineModel& machine_;
     const Toolpath& path_;
     const PathPoint& from_;
@@ -130,7 +130,7 @@ std::vector<PathPoint> points_between(const Move& move,
 
 } // namespace
 
-Toolpath with_small_rotations(const geometry::BezierPatch& patch,
+Toolpath with_small_rotations(const geometry::ParametricSurface& patch,
                               const MachineModel& machine,
                               const Toolpath& toolpath,
                               const AxisPath& axes,

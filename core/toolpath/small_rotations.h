@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/toolpath/sequencing.h"
 
 namespace millwright::toolpath {
@@ -14,7 +14,7 @@ namespace millwright::toolpath {
 /// point, unless it has to on the singular point itself or is then taken on another branch. A new point has
 /// the node that the move leads to, and its own parameters; its tool stands as the path's tool is to stand.
 /// Throws Error where a pose between cannot be reached or has no normal; Cancelled.
-[[nodiscard]] Toolpath with_small_rotations(const geometry::BezierPatch& patch,
+[[nodiscard]] Toolpath with_small_rotations(const geometry::ParametricSurface& patch,
                                             const kinematics::MachineModel& machine,
                                             const Toolpath& toolpath,
                                             const AxisPath& axes,

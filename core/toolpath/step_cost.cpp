@@ -26,7 +26,7 @@ std::vector<double> rotary_weights(const MachineModel& machine) {
 }
 
 /// The way that the tip should take to path point `n`, with the tool axis that it should have.
-ChordCurve intended_way(const geometry::BezierPatch& patch,
+ChordCurve intended_way(const geometry::ParametricSurface& patch,
                         const MachineModel& machine,
                         const Toolpath& path,
                         std::size_t n,
@@ -92,20 +92,20 @@ StepCosts time_costs(const MachineModel& machine, const Toolpath& toolpath, doub
     };
 }
 
-StepCosts error_costs(geometry::BezierPatch patch,
+StepCosts error_costs(const geometry::ParametricSurface& patch,
                       const MachineModel& machine,
                       const Toolpath& toolpath,
                       const grid::MoveCost& cost,
                       grid::Sampling sampling) {
     struct Known {
-        geometry::BezierPatch patch;
+        std::shared_ptr<const geometry::ParametricSurface> patch;
         MachineModel machine;
         Toolpath path;
     };
-    const auto known = std::make_shared<const Known>(Known{std::move(patch), machine, toolpath});
+    const auto known = std::make_shared<const Known>(Known{patch.shared(), machine, toolpath});
     return [known, cost, sampling](std::size_t n) -> StepCost {
         const auto curve = std::make_shared<const ChordCurve>(
-            intended_way(known->patch, known->machine, known->path, n, sampling.curve));
+            intended_way(*known->patch, known->machine, known->path, n, sampling.curve));
         return [known, curve, cost, sampling](const AxisPositions& from, const AxisPositions& to) {
             return cost(move_error(known->machine, from, to, *curve, sampling.tip));
         };

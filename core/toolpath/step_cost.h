@@ -2,7 +2,7 @@
 // go linearly from one position to the next, so the cost of a move is a function of its two ends alone.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/grid/move_cost.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/toolpath.h"
@@ -31,8 +31,8 @@ time_costs(const kinematics::MachineModel& machine, const Toolpath& toolpath, do
 
 /// `cost` of the error that the move will have, as the grid's optimisers measure it: of the true tip from the
 /// way that the path's tool should take between the points, of the true tool axis from the one that it should
-/// have there. Copies what it needs.
-[[nodiscard]] StepCosts error_costs(geometry::BezierPatch patch,
+/// have there. Copies what it needs, and keeps patch.shared().
+[[nodiscard]] StepCosts error_costs(const geometry::ParametricSurface& patch,
                                     const kinematics::MachineModel& machine,
                                     const Toolpath& toolpath,
                                     const grid::MoveCost& cost,

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/geometry/bezier_patch.h"
 #include "core/geometry/outline_tree.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/grid/grid.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/tool.h"
@@ -17,7 +17,7 @@ namespace millwright::toolpath {
 
 /// What a strategy covers, and what it covers it with. Refers to its parts, which must outlive it.
 struct Covering {
-    const geometry::BezierPatch& patch;
+    const geometry::ParametricSurface& patch;
     const kinematics::MachineModel& machine;
     const Tool& tool;
     const grid::Grid& grid; ///< nodes, or how many tracks and points there may be

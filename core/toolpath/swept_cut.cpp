@@ -42,7 +42,7 @@ void enclose(Tile& tile) {
     }
 }
 
-Tile tile_at(const geometry::BezierPatch& patch,
+Tile tile_at(const geometry::ParametricSurface& patch,
              bool flipped,
              const SweepSettings& raster,
              int first_i,
@@ -64,7 +64,8 @@ Tile tile_at(const geometry::BezierPatch& patch,
     return tile;
 }
 
-std::vector<Tile> tiles_of(const geometry::BezierPatch& patch, bool flipped, const SweepSettings& raster) {
+std::vector<Tile>
+tiles_of(const geometry::ParametricSurface& patch, bool flipped, const SweepSettings& raster) {
     constexpr int side = 6;
     std::vector<Tile> tiles;
     for (int i = 0; i < raster.nu; i += side) {
@@ -168,7 +169,7 @@ public:
         }
     }
 
-    [[nodiscard]] Found found(const geometry::BezierPatch& patch) const {
+    [[nodiscard]] Found found(const geometry::ParametricSurface& patch) const {
         Found result;
         for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
             for (std::size_t n = 0; n < heights_[tile].size(); ++n) {
@@ -269,7 +270,8 @@ private:
         }
     }
 
-    static Bite sharpened(const geometry::BezierPatch& patch, const Profile& body, const Lowest& lowest) {
+    static Bite
+    sharpened(const geometry::ParametricSurface& patch, const Profile& body, const Lowest& lowest) {
         if (lowest.height >= 0.0) {
             return {};
         }
@@ -311,7 +313,7 @@ void look_along(Sweep& sweep,
 /// tells how deep its end is. The ball of the corner's radius around `pose`'s core lies in the body.
 class Buried {
 public:
-    Buried(const geometry::BezierPatch& patch, bool flipped, const Profile& cutter)
+    Buried(const geometry::ParametricSurface& patch, bool flipped, const Profile& cutter)
         : patch_(patch), flipped_(flipped), shape_(cutter.shape()), search_(patch) {}
 
     /// Less deep bites come from no core below the surface.
@@ -334,7 +336,7 @@ public:
     }
 
 private:
-    const geometry::BezierPatch& patch_;
+    const geometry::ParametricSurface& patch_;
     bool flipped_;
     const ProfileShape& shape_;
     geometry::ClosestPointSearch search_;
@@ -342,7 +344,7 @@ private:
 
 } // namespace
 
-SweptCut swept_cut(const geometry::BezierPatch& patch,
+SweptCut swept_cut(const geometry::ParametricSurface& patch,
                    bool flipped,
                    const kinematics::MachineModel& machine,
                    const Tool& tool,

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/tool.h"
 
@@ -54,7 +54,7 @@ struct SweptCut {
 /// `flipped`: the tool is on the side against S_u x S_v. Points without a normal are left out. The deepest
 /// bite of a move is sharpened by a descent on the surface. Parallel over moves; the same bytes on any number
 /// of threads. Throws Defect without a cutter, and Cancelled.
-[[nodiscard]] SweptCut swept_cut(const geometry::BezierPatch& patch,
+[[nodiscard]] SweptCut swept_cut(const geometry::ParametricSurface& patch,
                                  bool flipped,
                                  const kinematics::MachineModel& machine,
                                  const Tool& tool,

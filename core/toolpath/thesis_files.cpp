@@ -61,7 +61,7 @@ struct Contact {
     Vec3 point, normal;
 };
 
-std::vector<Contact> contacts(const geometry::BezierPatch& patch, const ListingGrid& grid) {
+std::vector<Contact> contacts(const geometry::ParametricSurface& patch, const ListingGrid& grid) {
     std::vector<Contact> result;
     for (int i = 0; i < grid.nu; ++i) {
         for (int j = 0; j < grid.nv; ++j) {
@@ -114,7 +114,7 @@ Eigen::Vector2i ObliqueView::pixel(const Vec3& p) const {
             static_cast<int>(400.0 - R_ * (p.z() + p.y() * s))};
 }
 
-std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, const ListingGrid& grid) {
+std::vector<Vec3> listing_samples(const geometry::ParametricSurface& patch, const ListingGrid& grid) {
     expects(grid.nu >= 2 && grid.nv >= 2, "the listing's grid has at least 2 x 2 points");
     std::vector<Vec3> samples;
     for (int i = 0; i < grid.nu; ++i) {
@@ -125,7 +125,7 @@ std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, const List
     return samples;
 }
 
-std::string surface_dat(const geometry::BezierPatch& patch, const ListingGrid& grid) {
+std::string surface_dat(const geometry::ParametricSurface& patch, const ListingGrid& grid) {
     const std::vector<Vec3> samples = listing_samples(patch, grid);
     const ObliqueView view(samples);
     const auto pixel = [&](int i, int j) {
@@ -147,7 +147,7 @@ std::string surface_dat(const geometry::BezierPatch& patch, const ListingGrid& g
     return text;
 }
 
-std::vector<Vec3> listing_mid_points(const geometry::BezierPatch& patch,
+std::vector<Vec3> listing_mid_points(const geometry::ParametricSurface& patch,
                                      const RotaryTilt& machine,
                                      const ListingGrid& grid,
                                      ListingFaults faults) {
@@ -160,7 +160,7 @@ std::vector<Vec3> listing_mid_points(const geometry::BezierPatch& patch,
     return result;
 }
 
-std::vector<Vec3> machine_mid_points(const geometry::BezierPatch& patch,
+std::vector<Vec3> machine_mid_points(const geometry::ParametricSurface& patch,
                                      const kinematics::MachineModel& machine,
                                      const ListingGrid& grid) {
     grid::NodeArray nodes(grid.nu, grid.nv);
@@ -179,8 +179,9 @@ std::vector<Vec3> machine_mid_points(const geometry::BezierPatch& patch,
     return result;
 }
 
-std::string
-toolpath_dat(const geometry::BezierPatch& patch, const std::vector<Vec3>& middles, const ListingGrid& grid) {
+std::string toolpath_dat(const geometry::ParametricSurface& patch,
+                         const std::vector<Vec3>& middles,
+                         const ListingGrid& grid) {
     const std::vector<Vec3> samples = listing_samples(patch, grid);
     const std::vector<std::size_t> order = zigzag_order(grid);
     expects(middles.size() + 1 == order.size(), "every move has its mid-point");

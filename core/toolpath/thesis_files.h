@@ -2,7 +2,7 @@
 // Source: Parasilmongkol 1997, listing (Surface.dat, Toolpath.dat) and ch. 3.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/kinematics/machine_model.h"
 #include "core/kinematics/rotary_tilt.h"
 #include "core/toolpath/toolpath.h"
@@ -35,11 +35,12 @@ struct ListingGrid {
 };
 
 /// The listing's samples: u = i/nu, v = j/nv in single precision, so that u = 1 is never reached. [nu x nv]
-[[nodiscard]] std::vector<Vec3> listing_samples(const geometry::BezierPatch& patch, const ListingGrid& grid);
+[[nodiscard]] std::vector<Vec3> listing_samples(const geometry::ParametricSurface& patch,
+                                                const ListingGrid& grid);
 
 /// Throws Error as the view. Surface.dat: "x1 y1 x2 y2" per line; first the lines of constant i, then of
 /// constant j.
-[[nodiscard]] std::string surface_dat(const geometry::BezierPatch& patch, const ListingGrid& grid);
+[[nodiscard]] std::string surface_dat(const geometry::ParametricSurface& patch, const ListingGrid& grid);
 
 /// How faithful the listing's mid-points are computed.
 enum class ListingFaults {
@@ -49,19 +50,20 @@ enum class ListingFaults {
 
 /// Mid-points of the actual trajectory, one per zigzag move (nu * nv - 1), by the listing's rules. Throws
 /// Error where the surface has no normal.
-[[nodiscard]] std::vector<Vec3> listing_mid_points(const geometry::BezierPatch& patch,
+[[nodiscard]] std::vector<Vec3> listing_mid_points(const geometry::ParametricSurface& patch,
                                                    const kinematics::RotaryTilt& machine,
                                                    const ListingGrid& grid,
                                                    ListingFaults faults);
 
 /// The same on any machine: the angles of sequence() (sequencing.h). Throws Error as that.
-[[nodiscard]] std::vector<Vec3> machine_mid_points(const geometry::BezierPatch& patch,
+[[nodiscard]] std::vector<Vec3> machine_mid_points(const geometry::ParametricSurface& patch,
                                                    const kinematics::MachineModel& machine,
                                                    const ListingGrid& grid);
 
 /// Throws Error as the view. Toolpath.dat: mid-point line "x y " and end-point line " x y" per move.
 /// `middles`: mid-points of the moves over `grid`.
-[[nodiscard]] std::string
-toolpath_dat(const geometry::BezierPatch& patch, const std::vector<Vec3>& middles, const ListingGrid& grid);
+[[nodiscard]] std::string toolpath_dat(const geometry::ParametricSurface& patch,
+                                       const std::vector<Vec3>& middles,
+                                       const ListingGrid& grid);
 
 } // namespace millwright::toolpath

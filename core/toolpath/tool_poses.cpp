@@ -17,14 +17,14 @@ double along_track(grid::TrackDirection direction, const Vec2& uv) {
 }
 
 /// The unit direction on the surface in which the parameters change by `step`; zero where there is none.
-Vec3 direction_on(const geometry::BezierPatch& patch, const Vec2& uv, const Vec2& step) {
+Vec3 direction_on(const geometry::ParametricSurface& patch, const Vec2& uv, const Vec2& step) {
     const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     const Vec3 along = step.x() * at.du + step.y() * at.dv;
     const double length = along.norm();
     return length > 0.0 ? Vec3(along / length) : Vec3(Vec3::Zero());
 }
 
-void lean_over(const geometry::BezierPatch& patch, const Lean& lean, Toolpath& path) {
+void lean_over(const geometry::ParametricSurface& patch, const Lean& lean, Toolpath& path) {
     for (std::size_t n = 0; n < path.points.size(); ++n) {
         PathPoint& point = path.points[n];
         const Vec2& uv = point.origin.uv;
@@ -47,7 +47,7 @@ Vec2 heading_at(const Toolpath& path, std::size_t n) {
     return path.points[last ? n : n + 1].origin.uv - path.points[first ? n : n - 1].origin.uv;
 }
 
-Vec3 intended_axis(const geometry::BezierPatch& patch,
+Vec3 intended_axis(const geometry::ParametricSurface& patch,
                    const Toolpath& path,
                    const Vec2& uv,
                    const Vec2& heading,
@@ -61,7 +61,7 @@ Vec3 intended_axis(const geometry::BezierPatch& patch,
                                     : leaning_axis(lean, normal, feed, along_track(path.direction, uv));
 }
 
-geometry::ToolPose intended_pose(const geometry::BezierPatch& patch,
+geometry::ToolPose intended_pose(const geometry::ParametricSurface& patch,
                                  const kinematics::MachineModel& machine,
                                  const Toolpath& path,
                                  const Vec2& uv,
@@ -73,7 +73,7 @@ geometry::ToolPose intended_pose(const geometry::BezierPatch& patch,
     return {path.tool.cutter ? tip_for(*path.tool.cutter, contact, normal, axis) : contact, axis};
 }
 
-Toolpath with_tool(const geometry::BezierPatch& patch,
+Toolpath with_tool(const geometry::ParametricSurface& patch,
                    const kinematics::MachineModel& machine,
                    const Tool& tool,
                    Toolpath contacts) {

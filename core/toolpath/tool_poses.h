@@ -2,7 +2,7 @@
 // and the tip is where the cutter touches the contact. Formulas: docs/reference/cutter.md.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/toolpath.h"
 
@@ -12,7 +12,7 @@ namespace millwright::toolpath {
 /// move at a point is that from the point before to the one after on its track. Throws Error with the node
 /// where a track has no direction and the tool leans, and where a machine without rotary axes cannot turn to
 /// the surface.
-[[nodiscard]] Toolpath with_tool(const geometry::BezierPatch& patch,
+[[nodiscard]] Toolpath with_tool(const geometry::ParametricSurface& patch,
                                  const kinematics::MachineModel& machine,
                                  const Tool& tool,
                                  Toolpath contacts);
@@ -23,7 +23,7 @@ namespace millwright::toolpath {
 /// The pose that the path's tool is to have at the parameters `uv` of a track that goes along `heading`
 /// there; `normal` is that of the surface on the side of the tool. Where the heading vanishes it does not
 /// lean.
-[[nodiscard]] geometry::ToolPose intended_pose(const geometry::BezierPatch& patch,
+[[nodiscard]] geometry::ToolPose intended_pose(const geometry::ParametricSurface& patch,
                                                const kinematics::MachineModel& machine,
                                                const Toolpath& path,
                                                const Vec2& uv,
@@ -31,7 +31,7 @@ namespace millwright::toolpath {
                                                const Vec3& normal);
 
 /// The axis of that pose on a machine that can turn the tool.
-[[nodiscard]] Vec3 intended_axis(const geometry::BezierPatch& patch,
+[[nodiscard]] Vec3 intended_axis(const geometry::ParametricSurface& patch,
                                  const Toolpath& path,
                                  const Vec2& uv,
                                  const Vec2& heading,

@@ -19,7 +19,7 @@ bool is_whole(const std::vector<WayPart>& parts) {
 
 class Trimmer {
 public:
-    Trimmer(const geometry::BezierPatch& patch, const Trim& trim, const Toolpath& whole, bool flipped)
+    Trimmer(const geometry::ParametricSurface& patch, const Trim& trim, const Toolpath& whole, bool flipped)
         : patch_(patch), outline_(trim), whole_(whole), flipped_(flipped) {
         kept_.direction = whole.direction;
         kept_.tool = whole.tool;
@@ -82,7 +82,7 @@ private:
         return point;
     }
 
-    const geometry::BezierPatch& patch_;
+    const geometry::ParametricSurface& patch_;
     geometry::OutlineTree outline_;
     const Toolpath& whole_;
     bool flipped_;
@@ -92,7 +92,7 @@ private:
 
 } // namespace
 
-PathPoint point_to_trim(const geometry::BezierPatch& patch,
+PathPoint point_to_trim(const geometry::ParametricSurface& patch,
                         const geometry::OutlineTree* outline,
                         const Vec2& uv,
                         bool flipped) {
@@ -107,7 +107,8 @@ PathPoint point_to_trim(const geometry::BezierPatch& patch,
     return point;
 }
 
-Toolpath trimmed(const geometry::BezierPatch& patch, const Trim& trim, Toolpath contacts, bool flipped) {
+Toolpath
+trimmed(const geometry::ParametricSurface& patch, const Trim& trim, Toolpath contacts, bool flipped) {
     if (trim.everything()) {
         return contacts;
     }

@@ -29,7 +29,7 @@ constexpr int halvings = 26; // to 1.5e-8 of a move: what turns within that flip
 
 } // namespace
 
-std::optional<Vec2> flip_between(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b) {
+std::optional<Vec2> flip_between(const geometry::ParametricSurface& patch, const Vec2& a, const Vec2& b) {
     const auto normal = [&](const Vec2& uv) { return patch.unit_normal(uv.x(), uv.y()); };
     const auto opposed = [](const Vec3& n, const Vec3& m) { return n.dot(m) < 0.0; };
     auto before = normal(a), after = normal(b);
@@ -56,7 +56,7 @@ std::optional<Vec2> flip_between(const geometry::BezierPatch& patch, const Vec2&
     return 0.5 * (low + high);
 }
 
-void refuse_turning_over(const geometry::BezierPatch& patch,
+void refuse_turning_over(const geometry::ParametricSurface& patch,
                          const geometry::Trim& trim,
                          const grid::Grid& grid,
                          const Toolpath& contacts) {

@@ -2,7 +2,7 @@
 // one side would have to come from below.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/geometry/trim.h"
 #include "core/grid/grid.h"
 #include "core/toolpath/toolpath.h"
@@ -15,12 +15,12 @@ namespace millwright::toolpath {
 /// to one more than a right angle away without those between; nothing where it turns by and by, however fast
 /// the surface bends. Found by halving the way: what flips and flips back is missed.
 [[nodiscard]] std::optional<Vec2>
-flip_between(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b);
+flip_between(const geometry::ParametricSurface& patch, const Vec2& a, const Vec2& b);
 
 /// Throws Error, naming the place, where the normal flips inside `trim`: between points of `contacts` that
 /// follow each other, and between neighbouring nodes of the grid. What is never cut does not matter: nor does
 /// it that pieces on both sides of a hole face opposite ways, since no cut leads from one to the other.
-void refuse_turning_over(const geometry::BezierPatch& patch,
+void refuse_turning_over(const geometry::ParametricSurface& patch,
                          const geometry::Trim& trim,
                          const grid::Grid& grid,
                          const Toolpath& contacts);

@@ -4,7 +4,7 @@
 
 namespace millwright::toolpath {
 
-Toolpath zigzag(const geometry::BezierPatch& patch,
+Toolpath zigzag(const geometry::ParametricSurface& patch,
                 const grid::Grid& grid,
                 grid::TrackDirection direction,
                 bool flipped,

@@ -42,6 +42,48 @@ TEST_F(ImportCommand, AnExportTellsThatOutlinesStayBehind) {
     EXPECT_EQ(dome.out, path("dome.stl") + "\n");
 }
 
+// A round face of the shipped part is several patches: as an exact face all of it is machined.
+TEST_F(ImportCommand, AFaceOfSeveralPatchesIsOneExactSurface) {
+    const std::string cover = "assets/samples/cover.step";
+    const Ended listed = run({"import", cover, "--json"});
+    if (listed.exit_code != 0) {
+        GTEST_SKIP() << "built without Open CASCADE";
+    }
+    std::string number;
+    int patches = 0;
+    for (const nlohmann::json& face : nlohmann::json::parse(listed.out).at("faces")) {
+        const int count = face.at("patches").at(0).get<int>() * face.at("patches").at(1).get<int>();
+        if (count > patches) {
+            patches = count;
+            number = std::to_string(face.at("number").get<int>());
+        }
+    }
+    ASSERT_GT(patches, 1);
+    const std::vector<std::string> import{"import", cover, "--face", number, "--out", path("face.json")};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = import;
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    const Ended exact = with({"--exact", "--json"});
+    ASSERT_EQ(exact.exit_code, 0) << exact.err;
+    const nlohmann::json spans = nlohmann::json::parse(exact.out).at("face").at("spans");
+    EXPECT_EQ(spans.at(0).get<int>() * spans.at(1).get<int>(), patches);
+    const nlohmann::json surface = nlohmann::json::parse(content_of(path("face.json"))).at("surface");
+    EXPECT_TRUE(surface.contains("face"));
+    EXPECT_FALSE(surface.contains("patches"));
+    EXPECT_THAT(with({"--exact"}).out, HasSubstr("exact face of degree"));
+    const Ended stl = run({"export", path("face.json"), "--out", path("face.stl")});
+    EXPECT_EQ(stl.exit_code, 0) << stl.err;
+    const Ended reshaped =
+        run({"reshape", path("face.json"), "--split-u", "0.5", "--out", path("split.json")});
+    EXPECT_NE(reshaped.exit_code, 0);
+    EXPECT_THAT(reshaped.err, HasSubstr("exact face without patches"));
+    EXPECT_THAT(with({"--exact", "--degree", "3"}).err, HasSubstr("--exact and --degree exclude each other"));
+    EXPECT_THAT(run({"import", exported("dome.stl"), "--out", path("mesh.json"), "--exact"}).err,
+                HasSubstr("--exact applies only to a face of a STEP or IGES file"));
+}
+
 TEST_F(ImportCommand, StepComesBackAsItWas) {
     const std::string file = exported("dome.step");
     const Ended ended = run({"import", file, "--out", path("back.json"), "--json"});

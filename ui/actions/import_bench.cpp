@@ -48,7 +48,8 @@ std::shared_ptr<const plan::ReferenceMesh> ImportBench::reference(const project:
 }
 
 bool ImportBench::is_measured(const project::SurfaceInput& design) const {
-    return is_open() || (taken_ && design.patches == taken_->surface.patches);
+    return is_open() ||
+           (taken_ && design.patches == taken_->surface.patches && design.face == taken_->surface.face);
 }
 
 } // namespace millwright::actions

@@ -38,6 +38,11 @@ Box3 box_of(const project::SurfaceInput& surface) {
             box.extend(point);
         }
     }
+    if (surface.face) {
+        for (const Vec3& point : surface.face->net.points) {
+            box.extend(point);
+        }
+    }
     return box;
 }
 

@@ -110,6 +110,22 @@ double number_of(const ControlNet& net, int i, int j, int coordinate) {
     return coordinate == weight_column ? net.weight(i, j) : net.point(i, j)[coordinate];
 }
 
+/// What there is to know of a surface whose control points stay as they are.
+void draw_face(Ui& ui, const project::FaceInput& face) {
+    const auto section = ui.section("face", "Exact face");
+    if (!section) {
+        return;
+    }
+    const auto times = [](int a, int b) { return fmt::format("{} x {}", a, b); };
+    const auto spans = [](const std::vector<double>& knots) {
+        return static_cast<int>(std::ssize(geometry::span_ends(knots))) - 1;
+    };
+    ui.value("degree", "Degree", times(face.net.degree_u, face.net.degree_v));
+    ui.value("spans", "Spans", times(spans(face.net.knots_u), spans(face.net.knots_v)));
+    ui.value("points", "Control points", times(face.net.rows, face.net.columns));
+    ui.note("A face of a CAD model without a fit. To change control points, import it as patches.");
+}
+
 int decimals_of(int coordinate) {
     return coordinate == weight_column ? 3 : 2;
 }
@@ -137,6 +153,10 @@ void DesignPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     draw_surface(ui, now, ask);
+    if (now.project.surface.face) {
+        draw_face(ui, *now.project.surface.face);
+        return;
+    }
     patch_.draw(ui, now, ask);
     draw_point(ui, now, ask);
     draw_net(ui, now, ask);

@@ -177,6 +177,18 @@ void draw_one_patch(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
     }
 }
 
+void draw_exact(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
+    if (const auto exact =
+            ui.toggle("exact",
+                      "Exact face",
+                      choice.exact,
+                      "Use a face of several patches as one exact surface and machine all of it")) {
+        ImportChoice changed = choice;
+        changed.exact = *exact;
+        choose_import(ask, changed);
+    }
+}
+
 void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, const ImportChoice& choice) {
     const auto section = ui.section("patch", "Patch");
     if (!section) {
@@ -191,6 +203,9 @@ void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, 
     }
     if (!source.mesh) {
         draw_one_patch(ui, ask, choice);
+    }
+    if (source.model && !choice.degrees) {
+        draw_exact(ui, ask, choice);
     }
     if (source.mesh || choice.degrees) {
         draw_degrees(ui, ask, choice, choice.degrees.value_or(project::FitDegrees{}));
@@ -226,7 +241,8 @@ void draw_found(Ui& ui, const ImportResult& found) {
         ui.note("Select a face: click it in the view or in the list.");
         return;
     }
-    ui.value("patches", "Patches", std::to_string(found.surface->surface.patches.size()));
+    const project::SurfaceInput& surface = found.surface->surface;
+    ui.value("patches", "Patches", surface.face ? "1 exact face" : std::to_string(surface.patches.size()));
     if (const auto& points = found.surface->points) {
         draw_points_off(ui, *points, found.source->mesh ? "point" : "point in line");
     } else if (const auto& fit = found.surface->fit) {

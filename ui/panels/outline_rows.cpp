@@ -61,12 +61,19 @@ bool is_listed(const Workbench& now, GridMethod method) {
            plan::program_grid(now.project) == method;
 }
 
+std::string degree_text(const project::SurfaceInput& surface) {
+    if (surface.face) {
+        return fmt::format("degree {},{}", surface.face->net.degree_u, surface.face->net.degree_v);
+    }
+    const geometry::ControlNet& net = surface.patches.front();
+    return fmt::format("degree {},{}", net.rows - 1, net.columns - 1);
+}
+
 } // namespace
 
 std::vector<OutlineRow> outline_rows(const Workbench& now) {
-    const auto& net = now.project.surface.patches.front();
     std::vector<OutlineRow> rows{
-        {"surface", "Surface", fmt::format("degree {},{}", net.rows - 1, net.columns - 1), Workspace::design},
+        {"surface", "Surface", degree_text(now.project.surface), Workspace::design},
         {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},
     };
     for (const GridMethod method : project::every_grid_method) {

@@ -4,6 +4,7 @@
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/settings.h"
+#include "core/project/surface.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 
@@ -202,12 +203,8 @@ void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQue
     ask.edit(
         tool.erases ? "Erase the weight" : "Paint the weight",
         [painted, brush](Project& p) {
-            const auto patch = static_cast<std::size_t>(p.surface.machined_patch);
-            plan::paint_weight(p.grid.elliptic,
-                               geometry::BezierPatch(p.surface.patches.at(patch)),
-                               painted.from,
-                               painted.to,
-                               brush);
+            plan::paint_weight(
+                p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
             plan::let_paint_count(p.grid.elliptic);
         },
         "paint the weight");

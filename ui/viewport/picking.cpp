@@ -189,8 +189,8 @@ void SurfacePicker::follow(const std::shared_ptr<const geometry::Surface>& surfa
     surface_ = surface;
     meshes_.clear();
     if (surface) {
-        for (const geometry::BezierPatch& patch : surface->patches()) {
-            meshes_.push_back(geometry::tessellate(patch, cells_per_side, cells_per_side));
+        for (const geometry::ParametricSurface* part : surface->parts()) {
+            meshes_.push_back(geometry::tessellate(*part, cells_per_side, cells_per_side));
         }
     }
 }
@@ -209,10 +209,12 @@ std::optional<SurfaceHit> SurfacePicker::hit(const render::Ray& ray, const Frame
             if (met && (!nearest || met->x() < nearest->distance)) {
                 const Vec2 uv = (1.0 - met->y() - met->z()) * at(mesh.parameters, a) +
                                 met->y() * at(mesh.parameters, b) + met->z() * at(mesh.parameters, c);
-                nearest = SurfaceHit{.position = surface_->patches()[p].position(uv.x(), uv.y()),
-                                     .patch = geometry::PatchId{static_cast<int>(p)},
-                                     .uv = uv,
-                                     .distance = met->x()};
+                nearest = SurfaceHit{
+                    .position =
+                        surface_->part(geometry::PatchId{static_cast<int>(p)}).position(uv.x(), uv.y()),
+                    .patch = geometry::PatchId{static_cast<int>(p)},
+                    .uv = uv,
+                    .distance = met->x()};
             }
         }
     }

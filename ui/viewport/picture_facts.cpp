@@ -50,13 +50,24 @@ void add_design(PictureFacts& facts, const plan::Plan& plan) {
     if (!plan.surface) {
         return;
     }
-    const geometry::BezierPatch& patch = plan.surface->patch(geometry::PatchId{0});
     const Vec3 size = plan.surface->control_box().sizes();
+    const std::string lengths = reachable_length_text(size.x(), 1) + " \u00D7 " +
+                                reachable_length_text(size.y(), 1) + " \u00D7 " +
+                                reachable_length_text(size.z(), 1);
+    if (const auto& face = plan.surface->face()) {
+        const auto [u, v] = face->spans();
+        facts.columns = {"design", "net size mm", "degree", "control points", "spans"};
+        facts.rows.push_back({face->rational() ? "rational" : "polynomial",
+                              lengths,
+                              times(face->net().degree_u, face->net().degree_v),
+                              times(face->net().rows, face->net().columns),
+                              times(u, v)});
+        return;
+    }
+    const geometry::BezierPatch& patch = plan.surface->patch(geometry::PatchId{0});
     facts.columns = {"design", "net size mm", "degree", "control points", "patches"};
     facts.rows.push_back({patch.rational() ? "rational" : "polynomial",
-                          reachable_length_text(size.x(), 1) + " \u00D7 " +
-                              reachable_length_text(size.y(), 1) + " \u00D7 " +
-                              reachable_length_text(size.z(), 1),
+                          lengths,
                           times(patch.degree_u(), patch.degree_v()),
                           times(patch.net().rows, patch.net().columns),
                           std::to_string(plan.surface->patch_count())});

@@ -20,8 +20,8 @@ constexpr double dabs_a_radius = 4.0;   // as far apart as those of a stroke (co
 constexpr int places_on_ring = 64;
 constexpr int chords_a_side = 16;
 
-const geometry::BezierPatch& patch_of(const Scene& scene) {
-    return scene.surface->patch(scene.surface_tool.patch);
+const geometry::ParametricSurface& patch_of(const Scene& scene) {
+    return scene.surface->part(scene.surface_tool.patch);
 }
 
 /// How far from `from` along `way` in the parameters [0,1]^2 end.
@@ -83,7 +83,7 @@ void SurfaceHand::paint(const SurfaceHandInput& input, std::vector<ViewEvent>& e
         last_ = at_;
         events.emplace_back(PaintSurface{*at_, *at_, DragStage::going_on});
     } else if (last_ && input.pointer.held == MouseButton::left && at_) {
-        const geometry::BezierPatch& patch = patch_of(input.scene);
+        const geometry::ParametricSurface& patch = patch_of(input.scene);
         const double way =
             (patch.position(at_->x(), at_->y()) - patch.position(last_->x(), last_->y())).norm();
         if (way * dabs_a_radius >= input.scene.surface_tool.radius_mm) {
@@ -143,7 +143,7 @@ pick_corner(const Scene& scene, const render::View& view, const glm::dvec2& pixe
     return found;
 }
 
-std::vector<Vec3> ring_on(const geometry::BezierPatch& patch, const Vec2& uv, double radius) {
+std::vector<Vec3> ring_on(const geometry::ParametricSurface& patch, const Vec2& uv, double radius) {
     constexpr int corrections = 6;
     const geometry::SurfaceDerivatives d = patch.derivatives(uv.x(), uv.y());
     const Vec3 middle = patch.position(uv.x(), uv.y());
@@ -171,7 +171,7 @@ std::vector<Vec3> ring_on(const geometry::BezierPatch& patch, const Vec2& uv, do
 }
 
 std::vector<Vec3>
-outline_on(const geometry::BezierPatch& patch, const std::vector<Vec2>& corners, bool closed) {
+outline_on(const geometry::ParametricSurface& patch, const std::vector<Vec2>& corners, bool closed) {
     std::vector<Vec3> places;
     const std::size_t sides =
         closed ? corners.size() : corners.size() - std::min<std::size_t>(1, corners.size());

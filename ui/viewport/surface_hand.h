@@ -50,10 +50,11 @@ pick_corner(const Scene& scene, const render::View& view, const glm::dvec2& pixe
 
 /// Points on `patch` that are `radius` mm in space from the one at `uv`, once around it; where the patch ends
 /// before, on its border.
-[[nodiscard]] std::vector<Vec3> ring_on(const geometry::BezierPatch& patch, const Vec2& uv, double radius);
+[[nodiscard]] std::vector<Vec3>
+ring_on(const geometry::ParametricSurface& patch, const Vec2& uv, double radius);
 
 /// The outline on `patch`, corner after corner with places between them; back to the first if it is closed.
 [[nodiscard]] std::vector<Vec3>
-outline_on(const geometry::BezierPatch& patch, const std::vector<Vec2>& corners, bool closed);
+outline_on(const geometry::ParametricSurface& patch, const std::vector<Vec2>& corners, bool closed);
 
 } // namespace millwright::viewport

@@ -23,13 +23,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace millwright::exchange {
 
 namespace {
 
 using geometry::BezierPatch;
+using geometry::BsplineNet;
 using geometry::ControlNet;
 
 /// Calls `work`; what the library throws becomes an Error that says what could not be done.
@@ -132,6 +135,9 @@ void turn_over(CadFace& face) {
         }
     }
     face.patches = std::move(turned);
+    if (face.bspline) {
+        face.bspline = geometry::turned_over(*face.bspline);
+    }
     std::swap(face.rows, face.columns);
     const auto turn = [](std::vector<Vec2>& loop) {
         for (Vec2& place : loop) {
@@ -225,6 +231,53 @@ Raster raster_of(const Bounded& part) {
     return result;
 }
 
+/// From 0 to 1, each as often as the library counts it.
+std::vector<double> normalised_knots(const TColStd_Array1OfReal& sequence, int degree) {
+    const double first = sequence.First(), range = sequence.Last() - sequence.First();
+    std::vector<double> knots;
+    for (const double knot : sequence) {
+        knots.push_back((knot - first) / range);
+    }
+    std::fill_n(knots.begin(), degree + 1, 0.0);
+    std::fill_n(knots.rbegin(), degree + 1, 1.0);
+    return knots;
+}
+
+BsplineNet net_of(const Geom_BSplineSurface& surface) {
+    BsplineNet net;
+    net.degree_u = surface.UDegree();
+    net.degree_v = surface.VDegree();
+    net.knots_u = normalised_knots(surface.UKnotSequence(), net.degree_u);
+    net.knots_v = normalised_knots(surface.VKnotSequence(), net.degree_v);
+    net.rows = surface.NbUPoles();
+    net.columns = surface.NbVPoles();
+    for (int i = 1; i <= net.rows; ++i) {
+        for (int j = 1; j <= net.columns; ++j) {
+            const gp_Pnt pole = surface.Pole(i, j);
+            net.points.emplace_back(pole.X(), pole.Y(), pole.Z());
+            net.weights.push_back(surface.Weight(i, j));
+        }
+    }
+    return net;
+}
+
+/// The part within its bounds as one surface with as many spans as the raster has patches.
+std::optional<BsplineNet> bspline_of(const Bounded& part, const CadFace& raster) {
+    if (raster.rows * raster.columns == 1) {
+        return std::nullopt;
+    }
+    const Handle(Geom_BSplineSurface) within_bounds =
+        Handle(Geom_BSplineSurface)::DownCast(part.surface->Copy());
+    within_bounds->Segment(part.u.first, part.u.second, part.v.first, part.v.second);
+    within_bounds->SetUNotPeriodic();
+    within_bounds->SetVNotPeriodic();
+    BsplineNet net = net_of(*within_bounds);
+    const bool usable = geometry::fault_of(net).empty() &&
+                        std::ssize(geometry::span_ends(net.knots_u)) == raster.rows + 1 &&
+                        std::ssize(geometry::span_ends(net.knots_v)) == raster.columns + 1;
+    return usable ? std::optional(std::move(net)) : std::nullopt;
+}
+
 void take_boundary(CadFace& result, const TopoDS_Face& face, const Knots& knots) {
     const TopoDS_Wire outer = BRepTools::OuterWire(face);
     result.outline = loop_of(outer, face, knots);
@@ -241,6 +294,8 @@ CadFace cad_face(const TopoDS_Face& original, int number) {
     auto [result, knots] =
         told_as("its surface cannot be divided into patches", [&] { return raster_of(part); });
     result.number = number;
+    result.bspline = told_as("its part within the boundary cannot be cut out",
+                             [&, &result = result] { return bspline_of(part, result); });
     told_as("its boundary cannot be traced on its surface",
             [&, &result = result, &knots = knots] { take_boundary(result, face, knots); });
     if (face.Orientation() == TopAbs_REVERSED) {

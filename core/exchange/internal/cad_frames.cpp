@@ -120,6 +120,37 @@ std::vector<Vec2> get_loop(Unpacker& from) {
     });
 }
 
+void put_bspline(Packer& to, const geometry::BsplineNet& net) {
+    for (const int number : {net.degree_u, net.degree_v, net.rows, net.columns}) {
+        to.put(number);
+    }
+    const auto put_numbers = [&](const std::vector<double>& numbers) {
+        to.put_each(numbers, [&](double number) { to.put(number); });
+    };
+    put_numbers(net.knots_u);
+    put_numbers(net.knots_v);
+    to.put_each(net.points, [&](const Vec3& point) { put_vector(to, point); });
+    put_numbers(net.weights);
+}
+
+geometry::BsplineNet get_bspline(Unpacker& from) {
+    geometry::BsplineNet net;
+    for (int* number : {&net.degree_u, &net.degree_v, &net.rows, &net.columns}) {
+        *number = from.get<int>();
+    }
+    const auto get_numbers = [&] {
+        return from.get_each(sizeof(double), [&] { return from.get<double>(); });
+    };
+    net.knots_u = get_numbers();
+    net.knots_v = get_numbers();
+    net.points = from.get_each(3 * sizeof(double), [&] { return get_vector(from); });
+    net.weights = get_numbers();
+    if (!geometry::fault_of(net).empty()) {
+        throw Error("the output of the file reader is invalid");
+    }
+    return net;
+}
+
 void put_face(Packer& to, const CadFace& face) {
     to.put(face.number);
     to.put(face.rows);
@@ -129,6 +160,10 @@ void put_face(Packer& to, const CadFace& face) {
     to.put_each(face.holes, [&](const auto& hole) { put_loop(to, hole); });
     put_vector(to, face.box.min());
     put_vector(to, face.box.max());
+    to.put(face.bspline ? 1 : 0);
+    if (face.bspline) {
+        put_bspline(to, *face.bspline);
+    }
 }
 
 CadFace get_face(Unpacker& from) {
@@ -141,6 +176,9 @@ CadFace get_face(Unpacker& from) {
     face.holes = from.get_each(sizeof(std::uint64_t), [&] { return get_loop(from); });
     const Vec3 low = get_vector(from);
     face.box = Box3(low, get_vector(from));
+    if (from.get<int>() != 0) {
+        face.bspline = get_bspline(from);
+    }
     return face;
 }
 

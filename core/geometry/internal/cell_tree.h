@@ -1,21 +1,29 @@
-// Where the parts of a patch can be at all: each lies in the box of its control points (convex hull property;
-// Farin, Curves and Surfaces for CAGD, ch. 4.3), which is tight where the part is small.
+// Where the parts of a surface can be at all: each lies in the box of its control points (convex hull
+// property; Farin, Curves and Surfaces for CAGD, ch. 4.3), which is tight where the part is small.
 #pragma once
 
 #include "core/geometry/bezier_patch.h"
 #include "core/geometry/patch_refinement.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace millwright::geometry {
 
-/// The boxes of the halves, quarters, ... of a patch, split in u and v in turn, as a full binary tree: below
-/// `n` are 2n + 1 and 2n + 2.
+/// The boxes of the halves, quarters, ... of a surface, split in u and v in turn, as a full binary tree:
+/// below `n` are 2n + 1 and 2n + 2.
 class CellTree {
 public:
-    explicit CellTree(const BezierPatch& patch) : boxes_((std::size_t{2} << depth) - 1) {
-        build(0, 0, patch);
+    /// Of the surface that the pieces make.
+    explicit CellTree(const std::vector<SurfacePiece>& pieces) : boxes_((std::size_t{2} << depth) - 1) {
+        if (pieces.size() == 1) {
+            build(0, 0, pieces.front().patch);
+            return;
+        }
+        for (const SurfacePiece& piece : pieces) {
+            add(0, 0, {}, piece);
+        }
     }
 
     /// A part of the parameters.
@@ -46,6 +54,38 @@ private:
         return boxes_[n];
     }
 
+    /// A piece that lies on both sides of a border between two cells is cut there.
+    void add(std::size_t n, int level, const Cell& cell, const SurfacePiece& piece) {
+        boxes_[n].extend(piece.patch.control_box());
+        if (level == depth) {
+            return;
+        }
+        constexpr double rounding = 1e-9; // of the piece; what lies so little beyond the border stays
+        const int along = level % 2;
+        const double middle = 0.5 * (cell.low[along] + cell.high[along]);
+        const double at = (middle - piece.low[along]) / (piece.high[along] - piece.low[along]);
+        const auto [before, behind] = halves(cell, along, middle);
+        if (at <= rounding) {
+            add(2 * n + 2, level + 1, behind, piece);
+        } else if (at >= 1.0 - rounding) {
+            add(2 * n + 1, level + 1, before, piece);
+        } else {
+            auto [first, second] = split(piece.patch, along == 0 ? Parameter::u : Parameter::v, at);
+            SurfacePiece low{std::move(first), piece.low, piece.high};
+            SurfacePiece high{std::move(second), piece.low, piece.high};
+            low.high[along] = high.low[along] = middle;
+            add(2 * n + 1, level + 1, before, low);
+            add(2 * n + 2, level + 1, behind, high);
+        }
+    }
+
+    static std::pair<Cell, Cell> halves(const Cell& cell, int along, double middle) {
+        std::pair<Cell, Cell> result{cell, cell};
+        result.first.high[along] = middle;
+        result.second.low[along] = middle;
+        return result;
+    }
+
     template <class Distance, class Visit>
     void visit(std::size_t n,
                int level,
@@ -62,9 +102,7 @@ private:
         }
         const int along = level % 2;
         const double middle = 0.5 * (cell.low[along] + cell.high[along]);
-        Cell first = cell, second = cell;
-        first.high[along] = middle;
-        second.low[along] = middle;
+        const auto [first, second] = halves(cell, along, middle);
         const std::size_t one = 2 * n + 1, other = 2 * n + 2;
         if (boxes_[other].squaredExteriorDistance(point) < boxes_[one].squaredExteriorDistance(point)) {
             visit(other, level + 1, second, point, distance, at_leaf);

@@ -6,9 +6,8 @@
 
 namespace millwright::toolpath {
 
-PathPoint contact_point(const geometry::BezierPatch& patch, const Vec2& uv, bool flipped) {
-    const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
-    const auto normal = patch.unit_normal(at);
+PathPoint contact_point(const geometry::ParametricSurface& patch, const Vec2& uv, bool flipped) {
+    const auto [position, normal] = patch.point(uv.x(), uv.y());
     if (!normal) {
         throw Error(
             fmt::format("the surface has no normal at u = {:.6g}, v = {:.6g}: its control points coincide "
@@ -17,14 +16,14 @@ PathPoint contact_point(const geometry::BezierPatch& patch, const Vec2& uv, bool
                         uv.y()));
     }
     PathPoint point;
-    point.contact = at.position;
+    point.contact = position;
     point.normal = flipped ? Vec3(-*normal) : *normal;
     point.pose = {point.contact, point.normal};
     point.origin.uv = uv;
     return point;
 }
 
-Vec2 place_with_normal(const geometry::BezierPatch& patch,
+Vec2 place_with_normal(const geometry::ParametricSurface& patch,
                        const geometry::OutlineTree* outline,
                        const Vec2& uv) {
     if (outline == nullptr || patch.unit_normal(uv.x(), uv.y()) || outline->contains(uv)) {

@@ -16,7 +16,7 @@ namespace {
 
 class Corner {
 public:
-    Corner(const geometry::BezierPatch& patch,
+    Corner(const geometry::ParametricSurface& patch,
            const Profile& body,
            const geometry::ToolPose& pose,
            const Vec2& start)
@@ -47,7 +47,7 @@ private:
         return normal && normal->dot(axis_) < 0.0 ? Vec3(-*normal) : normal;
     }
 
-    const geometry::BezierPatch& patch_;
+    const geometry::ParametricSurface& patch_;
     const ProfileShape& shape_;
     Vec3 axis_, middle_, towards_, across_;
     Vec2 start_;
@@ -55,7 +55,7 @@ private:
 
 } // namespace
 
-CornerBite corner_bite(const geometry::BezierPatch& patch,
+CornerBite corner_bite(const geometry::ParametricSurface& patch,
                        const Profile& body,
                        const geometry::ToolPose& pose,
                        const Vec2& start) {

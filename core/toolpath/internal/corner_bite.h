@@ -2,7 +2,7 @@
 // with its rim no point of the surface tells it.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/toolpath/profile.h"
 
 namespace millwright::toolpath {
@@ -16,7 +16,7 @@ struct CornerBite {
 /// leans below the surface at `start`: the ring of the arc's centres runs on a circle, each of whose points
 /// is as far from the surface as its closest point says, which is looked for from `start`. What is beyond an
 /// edge of the patch is below nothing. The surface's side is that of the tool axis.
-[[nodiscard]] CornerBite corner_bite(const geometry::BezierPatch& patch,
+[[nodiscard]] CornerBite corner_bite(const geometry::ParametricSurface& patch,
                                      const Profile& body,
                                      const geometry::ToolPose& pose,
                                      const Vec2& start);

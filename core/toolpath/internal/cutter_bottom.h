@@ -3,7 +3,7 @@
 // Its flank and its shank are left out.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "core/toolpath/tool.h"
 
 namespace millwright::toolpath {

@@ -47,7 +47,7 @@ Vec3 axis_for(const Lean& lean,
 
 } // namespace
 
-ToolPlace tool_place(const geometry::BezierPatch& patch,
+ToolPlace tool_place(const geometry::ParametricSurface& patch,
                      const kinematics::MachineModel& machine,
                      bool flipped,
                      const Tool& tool,

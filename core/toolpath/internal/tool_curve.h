@@ -22,7 +22,7 @@ struct ToolPlace {
 };
 
 /// Of `patch` at `uv` on a track that goes along `heading`.
-[[nodiscard]] ToolPlace tool_place(const geometry::BezierPatch& patch,
+[[nodiscard]] ToolPlace tool_place(const geometry::ParametricSurface& patch,
                                    const kinematics::MachineModel& machine,
                                    bool flipped,
                                    const Tool& tool,

@@ -14,7 +14,7 @@ namespace millwright::toolpath {
 namespace {
 
 /// A track on the surface as a polyline, `steps` chords a move.
-std::vector<Vec3> track_line(const geometry::BezierPatch& patch,
+std::vector<Vec3> track_line(const geometry::ParametricSurface& patch,
                              const grid::Grid& grid,
                              grid::TrackDirection direction,
                              int track,
@@ -54,8 +54,9 @@ double largest_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& 
 
 } // namespace
 
-double
-largest_gap(const geometry::BezierPatch& patch, const grid::Grid& grid, grid::TrackDirection direction) {
+double largest_gap(const geometry::ParametricSurface& patch,
+                   const grid::Grid& grid,
+                   grid::TrackDirection direction) {
     constexpr int steps = 4;
     const int tracks = grid.track_count(direction);
     std::vector<std::vector<Vec3>> lines;

@@ -281,6 +281,61 @@ TEST(ProjectFile, OutlinesOfTrimmedPatchesAreKept) {
         << "files without outlines look as before";
 }
 
+Project with_face() {
+    Project project = project_from_preset("dome");
+    geometry::BsplineNet net;
+    net.degree_u = 2;
+    net.degree_v = 1;
+    net.knots_u = {0, 0, 0, 1.0 / 3.0, 1, 1, 1};
+    net.knots_v = {0, 0, 1, 1};
+    net.rows = 4;
+    net.columns = 2;
+    for (int i = 0; i < net.rows; ++i) {
+        for (int j = 0; j < net.columns; ++j) {
+            net.points.emplace_back(10.0 * i, 20.0 * j, 1.0 / (3.0 + i));
+            net.weights.push_back(1.0);
+        }
+    }
+    project.surface = {};
+    project.surface.flipped = true;
+    project.surface.face = FaceInput{net, {}};
+    return project;
+}
+
+TEST(ProjectFile, AnExactFaceComesBackToTheLastBit) {
+    Project project = with_face();
+    EXPECT_EQ(faults_of(project), std::vector<std::string>());
+    EXPECT_EQ(project_from_text(project_text(project), "part.json"), project);
+    project.surface.face->net.weights[3] = 0.7;
+    project.surface.face->trim.loops = {{{0.1, 0.1}, {0.9, 0.1}, {1.0 / 3.0, 0.9}}};
+    EXPECT_EQ(project_from_text(project_text(project), "part.json"), project);
+}
+
+TEST(ProjectFile, AFaceThatCannotBeIsRefusedAtItsPlace) {
+    const std::string text = project_text(with_face());
+    const auto fault = [&](const std::string& from, const std::string& to) {
+        return fault_in(replaced(text, from, to));
+    };
+    EXPECT_THAT(fault("\"degree\"", "\"degrees\""), HasSubstr("degree"));
+    EXPECT_THAT(fault("0.3333333333333333", "1.5"), HasSubstr("knots_u"));
+    EXPECT_THAT(fault("0.3333333333333333", "0"), HasSubstr("surface/face: knot 0 along u is repeated"));
+    EXPECT_THAT(fault("\"flipped\"", "\"machined_patch\": 0, \"flipped\""), HasSubstr("machined_patch"));
+    Project both = with_face();
+    both.surface.patches = project_from_preset("dome").surface.patches;
+    EXPECT_THAT(faults_of(both), testing::ElementsAre(HasSubstr("takes the place of preset and patches")));
+    Project far = with_face();
+    far.surface.face->net.points[0].x() = 2e5;
+    EXPECT_THAT(faults_of(far), testing::ElementsAre(HasSubstr("surface/face: a control point is farther")));
+    Project small = with_face();
+    for (Vec3& point : small.surface.face->net.points) {
+        point *= 1e-6;
+    }
+    EXPECT_THAT(faults_of(small), testing::ElementsAre(HasSubstr("surface/face: the part")));
+    Project odd = with_face();
+    odd.surface.face->trim.loops = {{{0.1, 0.1}, {0.9, 0.1}}};
+    EXPECT_THAT(faults_of(odd), testing::ElementsAre(HasSubstr("surface/face/trim")));
+}
+
 TEST(ProjectFile, RefusesOutlinesThatAreNone) {
     const auto fault_of_trim = [](const std::string& trim) {
         return fault_in("{\"format\": \"millwright-project\", \"version\": 1, \"name\": \"a\", \"machine\": "

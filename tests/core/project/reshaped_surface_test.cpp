@@ -1,6 +1,7 @@
 #include "core/project/reshaped_surface.h"
 
 #include "core/base/error.h"
+#include "core/project/joined_surface.h"
 #include "core/project/surface.h"
 #include "tests/support/without_traps.h"
 
@@ -143,6 +144,26 @@ TEST(ReshapedSurface, WhatWouldChangeTheShapeIsRefused) {
                 testing::HasSubstr("between 0.01 and 0.99, not at 1"));
     EXPECT_THAT(reshape_refusal([&] { return with_split(surface, -1, Parameter::u, 0.5); }),
                 testing::HasSubstr("no patch -1"));
+}
+
+// A face keeps its control points, but the part can be turned with it.
+TEST(ReshapedSurface, AnExactFaceTurnsAndIsNotReshaped) {
+    SurfaceInput surface;
+    geometry::BsplineNet net;
+    net.degree_u = net.degree_v = 1;
+    net.knots_u = {0, 0, 0.5, 1, 1};
+    net.knots_v = {0, 0, 1, 1};
+    net.rows = 3;
+    net.columns = 2;
+    net.points = {{0, 0, 1}, {0, 2, 1}, {1, 0, 2}, {1, 2, 2}, {3, 0, 0}, {3, 2, 0}};
+    net.weights.assign(6, 1.0);
+    surface.face = FaceInput{net, {}};
+    const SurfaceInput turned = with_turn(surface, {0.0, 0.0, 90.0});
+    EXPECT_EQ(turned.face->net.points[5], Vec3(-2, 3, 0));
+    EXPECT_THROW((void)with_degrees(surface, 0, 3, 3), Error);
+    EXPECT_THROW((void)with_split(surface, 0, geometry::Parameter::u, 0.5), Error);
+    EXPECT_THROW((void)joined_surface(surface, geometry::Continuity::position, 1.0), Error);
+    EXPECT_THROW(add_patches(surface, surface), Error);
 }
 
 } // namespace

@@ -20,7 +20,8 @@ constexpr double turn_per_step = 0.07; // rad; a loop of 180 deg gets 45 steps
 
 } // namespace
 
-std::vector<Vec3> on_surface(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b, int steps) {
+std::vector<Vec3>
+on_surface(const geometry::ParametricSurface& patch, const Vec2& a, const Vec2& b, int steps) {
     std::vector<Vec3> points;
     points.reserve(static_cast<std::size_t>(steps) + 1);
     for (int k = 0; k <= steps; ++k) {

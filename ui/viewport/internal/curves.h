@@ -1,7 +1,7 @@
 // Lines made from curves on the part, for the layers that draw them.
 #pragma once
 
-#include "core/geometry/bezier_patch.h"
+#include "core/geometry/parametric_surface.h"
 #include "ui/render/line_drawer.h"
 #include "ui/viewport/internal/layer.h"
 
@@ -13,7 +13,7 @@ namespace millwright::viewport {
 
 /// The surface over the straight way from `a` to `b` in the parameters: `steps` + 1 points.
 [[nodiscard]] std::vector<Vec3>
-on_surface(const geometry::BezierPatch& patch, const Vec2& a, const Vec2& b, int steps);
+on_surface(const geometry::ParametricSurface& patch, const Vec2& a, const Vec2& b, int steps);
 
 /// Where the tip really goes during a move of `shown`: at least `steps` + 1 points, and more where the axes
 /// turn far.

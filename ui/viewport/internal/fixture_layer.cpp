@@ -34,7 +34,7 @@ Heights heights(const Box3& part, const kinematics::MachineModel& machine) {
     return {.table = table, .bottom = bottom, .plate = std::max(table, bottom - plate_mm)};
 }
 
-std::vector<Vec3> border(const geometry::BezierPatch& patch) {
+std::vector<Vec3> border(const geometry::ParametricSurface& patch) {
     constexpr std::array<std::array<double, 2>, 5> corners = {
         {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {0.0, 0.0}}};
     std::vector<Vec3> points;
@@ -119,8 +119,8 @@ private:
     void rebuild() {
         std::vector<std::vector<Vec3>> borders;
         Box3 part;
-        for (const geometry::BezierPatch& patch : surface_->patches()) {
-            borders.push_back(border(patch));
+        for (const geometry::ParametricSurface* part_surface : surface_->parts()) {
+            borders.push_back(border(*part_surface));
             for (const Vec3& point : borders.back()) {
                 part.extend(point);
             }

@@ -36,7 +36,7 @@ int nodes_a_piece(int each, std::size_t lines, int nodes) {
 
 /// The lines through the nodes `node(line, place)`, of the lines and of the places at each.
 template <class NodeAt>
-render::LineBuffer make_lines(const geometry::BezierPatch& patch,
+render::LineBuffer make_lines(const geometry::ParametricSurface& patch,
                               const std::vector<int>& lines,
                               const std::vector<int>& places,
                               const NodeAt& node) {
@@ -50,7 +50,7 @@ render::LineBuffer make_lines(const geometry::BezierPatch& patch,
     return {vertices, render::LineTopology::segments};
 }
 
-render::PointBuffer make_marks(const grid::NodeArray& nodes, const geometry::BezierPatch& patch) {
+render::PointBuffer make_marks(const grid::NodeArray& nodes, const geometry::ParametricSurface& patch) {
     if (nodes.nodes.size() > most_nodes_marked) {
         return {};
     }
@@ -67,7 +67,7 @@ make_grid_buffers(const grid::NodeArray& nodes, const plan::Workpiece& workpiece
     const std::vector<int> columns = line_numbers(nodes.columns, shown.each_column);
     const int down = nodes_a_piece(shown.each_row, columns.size(), nodes.rows);
     const int across = nodes_a_piece(shown.each_column, rows.size(), nodes.columns);
-    const geometry::BezierPatch& patch = workpiece.patch;
+    const geometry::ParametricSurface& patch = workpiece.patch;
     render::LineBuffer along_u = make_lines(
         patch, columns, line_numbers(nodes.rows, down), [&](int j, int i) { return nodes.at(i, j); });
     render::LineBuffer along_v = make_lines(

@@ -27,7 +27,7 @@ using Pixels = std::optional<glm::dvec2>;
 class Sampled {
 public:
     Sampled(const grid::NodeArray& nodes,
-            const geometry::BezierPatch& patch,
+            const geometry::ParametricSurface& patch,
             const render::View& view,
             const glm::dmat4& s_T_w) {
         for (int a = 0; a <= samples; ++a) {
@@ -89,7 +89,7 @@ int each_for(double area, double length, int lines, double least_gap) {
 } // namespace
 
 GridLines readable_lines(const grid::NodeArray& nodes,
-                         const geometry::BezierPatch& patch,
+                         const geometry::ParametricSurface& patch,
                          const render::View& view,
                          const glm::dmat4& s_T_w) {
     const Measured found = Sampled(nodes, patch, view, s_T_w).measured();

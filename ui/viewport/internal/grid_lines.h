@@ -24,7 +24,7 @@ struct GridLines {
 /// scene.
 inline constexpr double least_gap_px = 6.0;
 [[nodiscard]] GridLines readable_lines(const grid::NodeArray& nodes,
-                                       const geometry::BezierPatch& patch,
+                                       const geometry::ParametricSurface& patch,
                                        const render::View& view,
                                        const glm::dmat4& s_T_w);
 

@@ -26,6 +26,24 @@ int cells(int degree) {
     return std::clamp(2 * iso_lines * degree, 4 * iso_lines, 12 * iso_lines);
 }
 
+/// A part of the surface with its cells along u and v.
+struct DrawnPart {
+    const geometry::ParametricSurface& surface;
+    int cells_u, cells_v;
+};
+
+std::vector<DrawnPart> parts_of(const geometry::Surface& surface) {
+    std::vector<DrawnPart> parts;
+    for (const geometry::BezierPatch& patch : surface.patches()) {
+        parts.push_back({patch, cells(patch.degree_u()), cells(patch.degree_v())});
+    }
+    if (const auto& face = surface.face()) {
+        const auto [u, v] = face->spans();
+        parts.push_back({*face, cells(u * face->net().degree_u), cells(v * face->net().degree_v)});
+    }
+    return parts;
+}
+
 render::MeshVertex vertex(const geometry::Mesh& mesh, std::size_t k, bool flipped) {
     return {.position = render::to_float(mesh.positions[k]),
             .normal = (flipped ? -1.0F : 1.0F) * render::to_float(mesh.normals[k])};
@@ -116,13 +134,12 @@ private:
         std::vector<render::LineVertex> along_u, along_v;
         std::vector<render::LineVertex> loops;
         outline_.clear();
-        const std::size_t patches = surface_ ? surface_->patches().size() : 0;
-        for (std::size_t n = 0; n < patches; ++n) {
-            const geometry::BezierPatch& patch = surface_->patches()[n];
+        const std::vector<DrawnPart> parts = surface_ ? parts_of(*surface_) : std::vector<DrawnPart>{};
+        for (std::size_t n = 0; n < parts.size(); ++n) {
             const geometry::Trim trim = trims_ && n < trims_->size() ? (*trims_)[n] : geometry::Trim{};
-            append_mesh(patch, trim, vertices, triangles);
-            append_lines(patch, border, along_u, along_v);
-            append_loops(patch, trim, loops);
+            append_mesh(parts[n], trim, vertices, triangles);
+            append_lines(parts[n], border, along_u, along_v);
+            append_loops(parts[n].surface, trim, loops);
         }
         mesh_ = render::MeshBuffer(vertices, triangles.inside);
         outside_ = triangles.outside.empty() ? render::MeshBuffer()
@@ -133,12 +150,11 @@ private:
         along_v_ = render::LineBuffer(along_v, render::LineTopology::segments);
     }
 
-    void append_mesh(const geometry::BezierPatch& patch,
+    void append_mesh(const DrawnPart& part,
                      const geometry::Trim& trim,
                      std::vector<render::MeshVertex>& vertices,
                      Triangles& triangles) {
-        const auto [mesh, outside] =
-            geometry::tessellate(patch, trim, cells(patch.degree_u()), cells(patch.degree_v()));
+        const auto [mesh, outside] = geometry::tessellate(part.surface, trim, part.cells_u, part.cells_v);
         const auto base = static_cast<std::uint32_t>(vertices.size());
         for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
             vertices.push_back(vertex(mesh, k, flipped_));
@@ -160,7 +176,7 @@ private:
         }
     }
 
-    static void append_loops(const geometry::BezierPatch& patch,
+    static void append_loops(const geometry::ParametricSurface& patch,
                              const geometry::Trim& trim,
                              std::vector<render::LineVertex>& lines) {
         for (const geometry::Trim::Loop& loop : trim.loops) {
@@ -173,17 +189,15 @@ private:
         }
     }
 
-    static void append_lines(const geometry::BezierPatch& patch,
+    static void append_lines(const DrawnPart& part,
                              std::vector<render::LineVertex>& border,
                              std::vector<render::LineVertex>& along_u,
                              std::vector<render::LineVertex>& along_v) {
         for (int k = 0; k <= iso_lines; ++k) {
             const double at = static_cast<double>(k) / iso_lines;
             const bool on_edge = k == 0 || k == iso_lines;
-            append(on_edge ? border : along_v,
-                   on_surface(patch, {at, 0.0}, {at, 1.0}, cells(patch.degree_v())));
-            append(on_edge ? border : along_u,
-                   on_surface(patch, {0.0, at}, {1.0, at}, cells(patch.degree_u())));
+            append(on_edge ? border : along_v, on_surface(part.surface, {at, 0.0}, {at, 1.0}, part.cells_v));
+            append(on_edge ? border : along_u, on_surface(part.surface, {0.0, at}, {1.0, at}, part.cells_u));
         }
     }
 

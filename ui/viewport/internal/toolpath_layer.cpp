@@ -27,13 +27,13 @@ const PathPoint& end_of(const toolpath::Toolpath& path, int move) {
 }
 
 std::vector<Vec3>
-move_points(const geometry::BezierPatch& patch, const toolpath::Toolpath& path, int move, int steps) {
+move_points(const geometry::ParametricSurface& patch, const toolpath::Toolpath& path, int move, int steps) {
     return on_surface(
         patch, path.points[static_cast<std::size_t>(move)].origin.uv, end_of(path, move).origin.uv, steps);
 }
 
 PathLines
-lines_of(const geometry::BezierPatch& patch, const toolpath::Toolpath& path, MoveKind kind, int steps) {
+lines_of(const geometry::ParametricSurface& patch, const toolpath::Toolpath& path, MoveKind kind, int steps) {
     return PathLines(move_count(path), [&](int move) -> PathLines::Move {
         if (end_of(path, move).reached_by != kind) {
             return {};
@@ -44,7 +44,7 @@ lines_of(const geometry::BezierPatch& patch, const toolpath::Toolpath& path, Mov
 
 /// Two barbs at the middle of a move, lying on the surface.
 void append_arrow(std::vector<render::LineVertex>& lines,
-                  const geometry::BezierPatch& patch,
+                  const geometry::ParametricSurface& patch,
                   const PathPoint& from,
                   const PathPoint& to) {
     const Vec3 middle = on_surface(patch, from.origin.uv, to.origin.uv, 2)[1];
@@ -56,7 +56,8 @@ void append_arrow(std::vector<render::LineVertex>& lines,
 }
 
 /// At most `most_arrows`, on tracks at equal steps.
-std::vector<render::LineVertex> arrows(const geometry::BezierPatch& patch, const toolpath::Toolpath& path) {
+std::vector<render::LineVertex> arrows(const geometry::ParametricSurface& patch,
+                                       const toolpath::Toolpath& path) {
     const auto points = std::ssize(path.points);
     const auto tracks = points - std::ranges::count(path.points, MoveKind::track, &PathPoint::reached_by);
     const auto each = (tracks + most_arrows - 1) / most_arrows;
@@ -101,7 +102,7 @@ struct Buffers {
     render::PointBuffer end;
 };
 
-Buffers make_toolpath_buffers(const geometry::BezierPatch& patch, const toolpath::Toolpath& path) {
+Buffers make_toolpath_buffers(const geometry::ParametricSurface& patch, const toolpath::Toolpath& path) {
     if (path.points.empty()) {
         return {};
     }

@@ -29,7 +29,7 @@ double value_on_net(const grid::NodeArray& nodes, std::span<const double> values
 
 } // namespace
 
-render::MeshBuffer value_surface(const geometry::BezierPatch& patch,
+render::MeshBuffer value_surface(const geometry::ParametricSurface& patch,
                                  const geometry::Trim& trim,
                                  const grid::NodeArray& nodes,
                                  std::span<const double> values) {
