@@ -361,26 +361,44 @@ CollisionMesh::deepest(const CollisionMesh& other, const Frame& this_T_other, in
         left.push({t, std::min(cap, depth + radius)});
     };
     std::vector<Vec3> points;
+    std::vector<std::size_t> near; // points in the box, then triangles that reach it
     points.reserve(other.surface_.points.size());
     for (const Vec3& point : other.surface_.points) {
         points.push_back(this_T_other * point);
         if (box_.contains(points.back())) {
-            const double depth = -signed_distance(points.back());
-            if (depth > best.distance) {
-                best = {depth, points.back()};
-            }
+            near.push_back(points.size() - 1);
         }
     }
-    for (const auto& triangle : other.surface_.triangles) {
+    const auto step_over = [&](std::size_t count) {
+        const auto most = static_cast<std::size_t>(10 * looks);
+        return count / most + 1;
+    };
+    for (std::size_t n = 0; n < near.size(); n += step_over(near.size())) {
+        const Vec3& point = points[near[n]];
+        const double depth = -signed_distance(point);
+        if (depth > best.distance) {
+            best = {depth, point};
+        }
+    }
+    near.clear();
+    const auto triangle = [&](std::size_t n) {
         std::array<Vec3, 3> t;
-        Box3 around;
         for (std::size_t k = 0; k < 3; ++k) {
-            t.at(k) = points[static_cast<std::size_t>(triangle.at(k))];
-            around.extend(t.at(k));
+            t.at(k) = points[static_cast<std::size_t>(other.surface_.triangles[n].at(k))];
+        }
+        return t;
+    };
+    for (std::size_t n = 0; n < other.surface_.triangles.size(); ++n) {
+        Box3 around;
+        for (const Vec3& corner : triangle(n)) {
+            around.extend(corner);
         }
         if (around.intersects(box_)) {
-            look(t, infinite);
+            near.push_back(n);
         }
+    }
+    for (std::size_t n = 0; n < near.size(); n += step_over(near.size())) {
+        look(triangle(near[n]), infinite);
     }
     for (int n = 0; n < looks && !left.empty() && left.top().bound > best.distance + exact; ++n) {
         const Piece piece = left.top();

@@ -33,6 +33,7 @@ struct CutStep {
     geometry::ToolPose from, to; ///< at most `largest_turn` apart
     std::int32_t move = 0;       ///< the id that ends of the material get
     bool contact_counts = false; ///< MoveCut::contact is wanted
+    bool removes = true;         ///< false: of a body that does not cut only the contact is looked for
 };
 
 /// A straight move, with the axis turning evenly: appends its steps to `steps`.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <deque>
 #include <set>
 #include <utility>
@@ -67,6 +68,13 @@ public:
             if (tool.body) {
                 body.emplace(*tool.body);
             }
+            auto& above = uncutting_.emplace_back();
+            for (const auto* part : {&tool.shank, &tool.holder}) {
+                above.emplace_back();
+                if (*part) {
+                    above.back().emplace(**part);
+                }
+            }
         }
     }
 
@@ -126,6 +134,7 @@ private:
             return;
         }
         const CuttingBody& body = *bodies_[next_tool_ - 1];
+        const auto& above = uncutting_[next_tool_ - 1];
         const auto& own = input_.tools[next_tool_ - 1].machine;
         const kinematics::StraightForward way(
             own ? *own : input_.machine, program::position_before(input_.program, n), block.target);
@@ -141,13 +150,23 @@ private:
         ToolPose last = way.at(0.0);
         for (int part = 1; part <= static_cast<int>(parts); ++part) {
             const ToolPose next = way.at(part / parts);
-            add(body, last, next, n, rapid);
+            add(body, last, next, n, rapid, true);
+            for (std::size_t k = 0; k < above.size(); ++k) {
+                if (above[k]) {
+                    add(*above[k], last, next, id_of(n, k), true, false);
+                }
+            }
             last = next;
         }
     }
 
     /// The stretch of a straight move that can reach the stock.
-    void add(const CuttingBody& body, const ToolPose& from, const ToolPose& to, int n, bool rapid) {
+    void add(const CuttingBody& body,
+             const ToolPose& from,
+             const ToolPose& to,
+             int id,
+             bool contact_counts,
+             bool removes) {
         const toolpath::ProfileShape& shape = body.body.shape();
         const double reach = std::max(std::abs(shape.top), std::abs(shape.bottom)) + shape.radius;
         const Box3& box = result_.field->box();
@@ -170,8 +189,17 @@ private:
             return ToolPose{from.tip + f * (to.tip - from.tip),
                             Vec3(from.axis + f * (to.axis - from.axis)).normalized()};
         };
+        const std::size_t known = steps_.size();
         // A part of a move turns so little that the chord of its axis is even.
-        divide(body, first > 0.0 ? at(first) : from, last < 1.0 ? at(last) : to, n, rapid, steps_);
+        divide(body, first > 0.0 ? at(first) : from, last < 1.0 ? at(last) : to, id, contact_counts, steps_);
+        for (std::size_t k = known; k < steps_.size(); ++k) {
+            steps_[k].removes = removes;
+        }
+    }
+
+    /// Of what shank (0) and holder (1) meet on block `n`.
+    [[nodiscard]] std::int32_t id_of(int n, std::size_t part) const {
+        return n + static_cast<std::int32_t>(part + 1) * input_.program.block_count();
     }
 
     void flush(double done) {
@@ -182,9 +210,43 @@ private:
         steps_.clear();
     }
 
+    /// Shank or holder in material: when it reaches the place, and how deep that gets.
+    [[nodiscard]] Finding touched(int n, bool holder, const Contact& contact) const {
+        const program::Block& block = input_.program.blocks[static_cast<std::size_t>(n)];
+        const ToolUse* use = nullptr;
+        for (const ToolUse& tool : input_.tools) {
+            use = tool.first_block <= n ? &tool : use;
+        }
+        const toolpath::Profile& body = holder ? *use->holder : *use->shank;
+        const kinematics::StraightForward way(use->machine ? *use->machine : input_.machine,
+                                              program::position_before(input_.program, n),
+                                              block.target);
+        Finding finding{holder ? FindingKind::holder_in_stock : FindingKind::shank_in_stock,
+                        n,
+                        block.source_line,
+                        0.0,
+                        contact};
+        constexpr int moments = 400;
+        bool reached = false;
+        for (int k = 0; k <= moments; ++k) {
+            const double t = static_cast<double>(k) / moments;
+            const double depth = -toolpath::distance(body, way.at(t), contact.place);
+            finding.time = !reached && depth >= 0.0 ? t : finding.time;
+            reached = reached || depth >= 0.0;
+            finding.depth = std::max(finding.depth, depth);
+        }
+        return finding;
+    }
+
     void report() {
-        for (const auto& [n, cut] : removal_->cuts()) {
+        const int count = input_.program.block_count();
+        for (const auto& [id, cut] : removal_->cuts()) {
+            const int n = id % count;
             const program::Block& block = input_.program.blocks[static_cast<std::size_t>(n)];
+            if (id >= count) {
+                result_.findings.push_back(touched(n, id >= 2 * count, *cut.contact));
+                continue;
+            }
             ++result_.cutting_moves;
             if (cut.contact) {
                 result_.findings.push_back(
@@ -193,6 +255,9 @@ private:
                 result_.findings.push_back({FindingKind::spindle_off, n, block.source_line, cut.volume, {}});
             }
         }
+        std::stable_sort(result_.findings.begin(),
+                         result_.findings.end(),
+                         [](const Finding& a, const Finding& b) { return a.block < b.block; });
         result_.stock_volume = volume(input_.stock);
         const double share = uncut_ > 0.0 ? std::min(result_.field->volume() / uncut_, 1.0) : 0.0;
         result_.left_volume = share * result_.stock_volume;
@@ -203,7 +268,8 @@ private:
     const Progress& progress_;
     Simulation result_;
     std::optional<Removal> removal_;
-    std::deque<std::optional<CuttingBody>> bodies_; // steps point to them
+    std::deque<std::optional<CuttingBody>> bodies_;                // steps point to them
+    std::deque<std::deque<std::optional<CuttingBody>>> uncutting_; // shank and holder of each tool
     KnownAxes known_;
     std::set<int> without_spindle_;
     std::vector<CutStep> steps_;

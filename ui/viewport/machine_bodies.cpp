@@ -43,8 +43,4 @@ Box3 body_box(const kinematics::MachineBody& body) {
     return {Vec3(-half), half};
 }
 
-bool is_cutter(const kinematics::MachineModel& machine, const kinematics::MachineBody& body) {
-    return kinematics::is_cutter(machine, body);
-}
-
 } // namespace millwright::viewport

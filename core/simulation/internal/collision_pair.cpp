@@ -105,9 +105,8 @@ double CollisionPair::depth(const Frame& still_T_moving, Care care) const {
     return depth;
 }
 
-bool CollisionPair::meet_at(const Frame& still_T_moving) const {
-    const auto near = nearest(still_T_moving, std::max(0.0, contact_) + 1e-6, contact_);
-    return near && near->distance <= contact_;
+bool CollisionPair::are_within(const Frame& still_T_moving, double distance) const {
+    return nearest(still_T_moving, distance, distance).has_value();
 }
 
 } // namespace millwright::simulation

@@ -54,8 +54,7 @@ public:
     /// nearest surface. Of meshes the deepest that was found. Below 0: apart, at least so far.
     [[nodiscard]] double depth(const Frame& still_T_moving, Care care) const;
 
-    /// Whether they meet at that place of each other.
-    [[nodiscard]] bool meet_at(const Frame& still_T_moving) const;
+    [[nodiscard]] bool are_within(const Frame& still_T_moving, double distance) const;
 
 private:
     [[nodiscard]] geometry::ToolPose pose_at(const Frame& still_T_moving) const;

@@ -98,22 +98,24 @@ private:
     void add_bodies(const CollisionBody& one, const CollisionBody& other) {
         const PlaceInChain a = place_of(machine_, one.carrier), b = place_of(machine_, other.carrier);
         const bool both_work = one.role != BodyRole::machine && other.role != BodyRole::machine;
-        const bool same_side = a.number == 0 || b.number == 0 || a.head == b.head;
-        if (one.carrier == other.carrier || both_work ||
-            (same_side && std::abs(a.number - b.number) == 1 && one.role == other.role)) {
+        const bool machines = both_machine(one, other);
+        const bool neighbours =
+            a.number == 0 || b.number == 0 ? std::abs(a.number - b.number) == 1 : a.head == b.head;
+        if (one.carrier == other.carrier || both_work || (machines && neighbours)) {
             return; // they never move against each other, or one guides the other
         }
         // The one with the fewer axes behind it is the still one; of head and table the table.
         const bool one_moves = a.head != b.head ? a.head || b.number == 0 : a.number > b.number;
         const CollisionBody& moving = one_moves ? one : other;
         const CollisionBody& still = one_moves ? other : one;
+        constexpr double drawn_apart = 0.1; // mm: what is nearer was drawn to touch
         CollisionPair pair(moving, still);
         const kinematics::AxisPositions zero = at_physical_zero();
         const RelativeMotion motion(machine_, zero, zero, moving.carrier, still.carrier);
-        const bool opposite = a.number > 0 && b.number > 0 && a.head != b.head && !both_machine(one, other);
-        if (!opposite && (pair.meet_at(motion.at(0.0)) || pair.is_inside(motion))) {
+        const bool opposite = (a.head || b.head) && !machines;
+        if (!opposite && (pair.are_within(motion.at(0.0), drawn_apart) || pair.is_inside(motion))) {
             unchecked_.push_back(fmt::format("\"{}\" and \"{}\" are drawn into each other with all axes at "
-                                             "zero: not checked against each other",
+                                             "zero, or touch: not checked against each other",
                                              moving.name,
                                              still.name));
             return;

@@ -128,8 +128,14 @@ bool TileCutter::cut(const ReadyStep& step, TileCut& found) {
             if (step.core) {
                 touch(step, line, at, found);
             }
+            if (!step.step->removes) {
+                continue;
+            }
             subtract(line, *removed, step.step->move, found);
         }
+    }
+    if (!step.step->removes) {
+        return found.contact.has_value();
     }
     if (!(found.length > 0.0)) {
         return false;

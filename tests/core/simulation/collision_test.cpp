@@ -317,7 +317,7 @@ TEST(Collision, TheShippedBodiesWithoutTheirCutterAreTheSameFromBothSources) {
 TEST(Collision, IsTheSameOnAnyNumberOfThreads) {
     WrittenProgram writer(turning_table());
     writer.go(BlockKind::rapid, {{'X', 0.0}, {'Y', 0.0}, {'Z', 30.0}, {'A', 0.0}, {'C', 0.0}});
-    for (int n = 0; n < 200; ++n) {
+    for (int n = 0; n < 60; ++n) {
         writer.go(BlockKind::feed,
                   {{'A', from_degrees(n % 7 * 20.0)}, {'C', from_degrees(10.0 * n)}, {'Z', 40.0 - n}});
     }
