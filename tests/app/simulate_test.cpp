@@ -129,7 +129,7 @@ TEST(SimulateCommand, NamesACollisionWithAFixtureAndItsLine) {
     EXPECT_EQ(contacts[0].at("line"), 7);
     EXPECT_EQ(contacts[0].at("bodies")[1], "fixture clamp.stl");
     EXPECT_NEAR(contacts[0].at("time").get<double>() * 80.0, 47.0, 0.01);
-    EXPECT_NEAR(contacts[0].at("depth_mm").get<double>(), 3.0, 0.05); // its radius
+    EXPECT_NEAR(contacts[0].at("depth_mm").get<double>(), 4.0, 0.1); // half way between top and bottom
     const Ended beside =
         simulate(program, scratch / "beside", {"--tool", "flat:6", "--fixture", clamp.string() + "@0,8.5,0"});
     EXPECT_EQ(beside.exit_code, 0) << beside.err;
