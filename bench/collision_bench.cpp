@@ -63,7 +63,7 @@ program::Program rows_over(const kinematics::MachineModel& machine, int moves) {
     for (int n = 0; n <= moves; ++n) {
         const double along = n % 200, row = n / 200;
         const double x = (static_cast<int>(row) % 2 == 0 ? along : 199.0 - along) * 0.45 - 45.0;
-        const double y = std::fmod(row * 0.18, 90.0) - 45.0;
+        const double y = row * 0.179 - 45.0;
         at[axis('A')] = from_degrees(3.0 * std::sin(0.15 * n));
         at[axis('C')] = from_degrees(5.0 * std::sin(0.05 * n));
         // The tip that is wanted, by Newton's method on the linear axes.
