@@ -3,6 +3,7 @@
 #include "app/command.h"
 #include "app/commands/gcode_options.h"
 #include "app/origin_choice.h"
+#include "app/simulated_collisions.h"
 #include "app/usage_error.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
@@ -22,7 +23,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <memory>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace millwright::app {
@@ -74,6 +78,7 @@ struct NamedTool {
     toolpath::Profile body;
     std::string text;
     std::shared_ptr<const kinematics::MachineModel> machine{}; ///< with its gauge length; null: as it is
+    std::optional<toolpath::Profile> shank{}, holder{};
 };
 
 NamedTool named_tool(const std::string& text, SimulatedWork& work) {
@@ -95,7 +100,54 @@ NamedTool named_tool(const std::string& text, SimulatedWork& work) {
     return {parsed.number,
             *tool.cutter,
             project::tool_text(input),
-            std::make_shared<const kinematics::MachineModel>(project::machine_with(input, work.machine))};
+            std::make_shared<const kinematics::MachineModel>(project::machine_with(input, work.machine)),
+            std::nullopt,
+            tool.holder};
+}
+
+template <class Number> std::optional<Number> number_in(std::string_view text) {
+    Number value{};
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = !text.empty() && failure == std::errc{} && end == text.data() + text.size();
+    return whole ? std::optional(value) : std::nullopt;
+}
+
+/// Above its flutes a tool is shank, which does not cut.
+void take_flutes(const std::string& text, std::vector<NamedTool>& tools) {
+    const std::size_t equals = text.find('=');
+    const std::string length_text = equals == std::string::npos ? text : text.substr(equals + 1);
+    const auto length = number_in<double>(length_text);
+    const auto number =
+        equals == std::string::npos ? std::optional<int>() : number_in<int>(text.substr(0, equals));
+    if (!length || !(*length > 0.0 && *length < 1e6) || (equals != std::string::npos && !number)) {
+        throw UsageError(fmt::format("\"{}\" is no flute length", printable(text)),
+                         {},
+                         "write --flutes 20, or --flutes 3=20 for tool 3, in mm");
+    }
+    bool found = false;
+    for (NamedTool& tool : tools) {
+        if (number && tool.number != number) {
+            continue;
+        }
+        found = true;
+        toolpath::ProfileShape cutting = tool.body.shape();
+        if (*length >= cutting.top) {
+            continue;
+        }
+        if (*length < tool.body.flank_end() || *length <= cutting.bottom) {
+            throw UsageError(
+                fmt::format("flutes of {:g} mm end below the flank of the cutter, which ends at {:g} mm",
+                            *length,
+                            tool.body.flank_end()));
+        }
+        tool.shank = toolpath::Profile(
+            {.flat = cutting.radius, .radius = cutting.radius, .bottom = *length, .top = cutting.top});
+        cutting.top = *length;
+        tool.body = toolpath::Profile(cutting);
+    }
+    if (!found) {
+        throw UsageError(fmt::format("--flutes {}: no tool of that number is named", printable(text)));
+    }
 }
 
 void expect_different_numbers(const std::vector<NamedTool>& tools) {
@@ -170,7 +222,8 @@ void take_tools(const ToolChangeRecorder& found, const std::vector<NamedTool>& t
         if (tool == nullptr) {
             throw_no_tool(work.file, change.number, change.line);
         }
-        work.tools.push_back({change.first_block, change.number, tool->body, tool->machine});
+        work.tools.push_back(
+            {change.first_block, change.number, tool->body, tool->machine, tool->shank, tool->holder});
         const std::string text =
             change.number == 0 ? tool->text : fmt::format("T{}: {}", change.number, tool->text);
         if (std::ranges::find(work.tool_texts, text) == work.tool_texts.end()) {
@@ -233,22 +286,27 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
                          options.file,
                          "add --machine NAME, --stock SPEC and --tool SPEC");
     }
+    const fs::path machine_file =
+        project::machine_path(options.machine, fs::current_path(), project::assets_folder());
     SimulatedWork work{.file = options.file,
                        .program_file = options.file,
                        .program_text = {},
-                       .machine = kinematics::read_machine(project::machine_path(
-                           options.machine, fs::current_path(), project::assets_folder())),
+                       .machine = kinematics::read_machine(machine_file),
                        .program = {},
                        .tools = {},
                        .tool_texts = {},
                        .stock = simulation::BoxStock{},
                        .stock_text = {},
                        .warnings = {}};
+    work.machine_file = machine_file;
     std::vector<NamedTool> tools;
     for (const std::string& text : options.tools) {
         tools.push_back(named_tool(text, work));
     }
     expect_different_numbers(tools);
+    for (const std::string& text : options.flutes) {
+        take_flutes(text, tools);
+    }
     take_stock(options.stock, work, progress);
     gcode::MachineProgramSettings making;
     making.chord_tolerance = 0.5 * simulation::tip_tolerance;
@@ -341,13 +399,27 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
                        .program_text = plan.listing->text,
                        .machine = plan.workpiece->machine,
                        .program = *plan.program,
-                       .tools = {{0, opened.project.tool.number, *tool.cutter}},
+                       .tools = {{.first_block = 0,
+                                  .number = opened.project.tool.number,
+                                  .body = *tool.cutter,
+                                  .holder = tool.holder}},
                        .tool_texts = {project::tool_text(opened.project.tool)},
                        .stock = simulation::BoxStock{},
                        .stock_text = {},
                        .warnings = {}};
+    work.machine_file = project::machine_path(
+        opened.project, fs::absolute(options.file).parent_path(), project::assets_folder());
     if (options.part.empty()) {
         work.part = part_surface(*plan.workpiece);
+        add_faces(opened.project.surface, *plan.surface, work);
+    }
+    if (!options.flutes.empty()) {
+        std::vector<NamedTool> tools{{std::nullopt, *tool.cutter, {}}};
+        for (const std::string& text : options.flutes) {
+            take_flutes(text, tools);
+        }
+        work.tools.front().body = tools.front().body;
+        work.tools.front().shank = tools.front().shank;
     }
     for (std::size_t n = 0; n < work.program.blocks.size(); ++n) {
         work.program.blocks[n].source_line = plan.listing->line_of_block[n];
@@ -391,6 +463,9 @@ std::vector<fs::path> input_files(const SimulateOptions& options) {
             files.emplace_back(tool.file);
         }
     }
+    for (const std::string& text : options.fixtures) {
+        files.push_back(parse_fixture(text).file);
+    }
     if (!options.machine.empty()) {
         files.push_back(project::machine_path(options.machine, fs::current_path(), project::assets_folder()));
     }
@@ -403,7 +478,9 @@ SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_tok
                                                   : work_of_program(options, progress);
     if (!options.part.empty()) {
         work.part = part_surface(options.part, progress);
+        add_part(options.part, work, progress);
     }
+    take_bodies(options, work, progress);
     return work;
 }
 

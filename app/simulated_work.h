@@ -6,6 +6,7 @@
 #include "core/gcode/settings.h"
 #include "core/kinematics/machine_model.h"
 #include "core/program/program.h"
+#include "core/simulation/collision_bodies.h"
 #include "core/simulation/simulation.h"
 
 #include <filesystem>
@@ -29,6 +30,9 @@ struct SimulateOptions {
     double memory_mb = 1000.0;
     std::string part;       ///< a mesh to compare with; empty: of a project the machined face
     double tolerance = 0.1; ///< of the comparison, mm
+    std::vector<std::string> fixtures;
+    std::vector<std::string> flutes; ///< [N=]LENGTH
+    double clearance = 1.0;          ///< nearer bodies are near misses, mm
     std::string out;
 };
 
@@ -44,6 +48,8 @@ struct SimulatedWork {
     std::string stock_text;
     std::vector<std::string> warnings; ///< a sentence each
     std::optional<PartSurface> part{}; ///< what is left is compared with
+    std::filesystem::path machine_file{};
+    std::vector<simulation::CollisionBody> bodies{}; ///< of machine, fixtures, part and stock
 };
 
 /// The files that the options name.

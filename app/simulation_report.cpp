@@ -1,5 +1,6 @@
 #include "app/simulation_report.h"
 
+#include "app/simulated_collisions.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -27,8 +28,11 @@ constexpr double bytes_a_megabyte = 1e6;
 ReportJson findings_json(const simulation::Simulation& found) {
     ReportJson list = ReportJson::array();
     for (const Finding& finding : found.findings) {
-        ReportJson entry;
         const bool rapid = finding.kind == FindingKind::rapid_in_stock;
+        if (!rapid && finding.kind != FindingKind::spindle_off) {
+            continue; // collisions have their own list
+        }
+        ReportJson entry;
         entry["kind"] = rapid ? "rapid-in-stock" : "spindle-off";
         entry["line"] = finding.line > 0 ? ReportJson(finding.line) : ReportJson();
         entry["block"] = finding.block;
@@ -215,6 +219,8 @@ std::string simulation_report_text(const SimulatedWork& work,
                                    const simulation::Simulation& found,
                                    const simulation::CutMesh& mesh,
                                    const std::optional<ComparedPart>& compared,
+                                   const simulation::CollisionReport& collisions,
+                                   double clearance,
                                    const SimulationCost& cost) {
     const simulation::DexelField& field = *found.field;
     ReportJson json;
@@ -240,6 +246,7 @@ std::string simulation_report_text(const SimulatedWork& work,
     if (compared) {
         json["comparison"] = comparison_json(work, *compared);
     }
+    json["collisions"] = collisions_json(work, collisions, found, clearance);
     json["warnings"] = warnings_of(work, found);
     json["resolution_mm"] = project::vector(field.cell());
     json["mesh"]["triangles"] = mesh.triangles.size();
@@ -253,6 +260,7 @@ std::string simulation_report_text(const SimulatedWork& work,
 void print_simulation(const SimulatedWork& work,
                       const simulation::Simulation& found,
                       const std::optional<ComparedPart>& compared,
+                      const simulation::CollisionReport& collisions,
                       const SimulationCost& cost) {
     for (const std::string& warning : warnings_of(work, found)) {
         fmt::print(stderr, "warning: {}\n", warning);
@@ -287,6 +295,7 @@ void print_simulation(const SimulatedWork& work,
     if (compared) {
         print_comparison(work, *compared);
     }
+    print_collisions(work, collisions, found);
     fmt::print("resolution {:.3g} mm, {:.1f} s, {:.0f} MB\n",
                found.field->cell().maxCoeff(),
                cost.seconds,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/simulated_work.h"
+#include "core/simulation/collision.h"
 #include "core/simulation/cut_mesh.h"
 
 #include <optional>
@@ -27,12 +28,15 @@ struct SimulationCost {
                                                  const simulation::Simulation& found,
                                                  const simulation::CutMesh& mesh,
                                                  const std::optional<ComparedPart>& compared,
+                                                 const simulation::CollisionReport& collisions,
+                                                 double clearance,
                                                  const SimulationCost& cost);
 
 /// On standard output; warnings and findings on standard error.
 void print_simulation(const SimulatedWork& work,
                       const simulation::Simulation& found,
                       const std::optional<ComparedPart>& compared,
+                      const simulation::CollisionReport& collisions,
                       const SimulationCost& cost);
 
 /// Rapid moves in material.

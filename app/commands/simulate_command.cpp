@@ -5,6 +5,7 @@
 #include "app/origin_choice.h"
 #include "app/outputs.h"
 #include "app/progress_printer.h"
+#include "app/simulated_collisions.h"
 #include "app/simulated_work.h"
 #include "app/simulation_report.h"
 #include "core/base/error.h"
@@ -146,9 +147,12 @@ int simulate(const SimulateOptions& options) {
                                             .most_bytes = most_field_bytes(options)};
     progress.report(0.0, "Cutting");
     const simulation::Simulation found =
-        with_place(work, [&] { return simulation::simulate(input, progress.part(0.0, 0.8)); });
+        with_place(work, [&] { return simulation::simulate(input, progress.part(0.0, 0.7)); });
     const std::optional<ComparedPart> compared =
-        compared_part(work, input, found, options.tolerance, progress.part(0.8, 0.9));
+        compared_part(work, input, found, options.tolerance, progress.part(0.7, 0.8));
+    progress.report(0.8, "Looking for collisions");
+    const simulation::CollisionReport collisions =
+        collisions_of(work, options, found, progress.part(0.8, 0.9));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     progress.report(0.9, "Making the mesh");
     const simulation::CutMesh mesh =
@@ -156,7 +160,8 @@ int simulate(const SimulateOptions& options) {
     printer.finish();
     const SimulationCost cost{took.count(), thread_count()};
     const auto colors = mesh_colors(mesh);
-    OutputSet set{{{"simulation.json", simulation_report_text(work, found, mesh, compared, cost)},
+    OutputSet set{{{"simulation.json",
+                    simulation_report_text(work, found, mesh, compared, collisions, options.clearance, cost)},
                    {"engagement.csv", simulation::csv_of(simulation::engagements(work.program, found))},
                    {"cut.stl", simulation::stl_of(mesh)},
                    {"cut.ply", simulation::ply_of(mesh.points, mesh.triangles, colors)}},
@@ -174,10 +179,11 @@ int simulate(const SimulateOptions& options) {
         add_part(set, *work.part, *compared);
     }
     write_outputs(options.out, set, options.file);
-    print_simulation(work, found, compared, cost);
+    print_simulation(work, found, compared, collisions, cost);
     const bool gouged = compared && compared->summary.gouged > 0.0;
     const bool complete = !found.skipped || found.skipped->feeds == 0;
-    return rapid_count(found) == 0 && !gouged && complete ? 0 : 1;
+    const bool free = rapid_count(found) == 0 && !collides(collisions, found);
+    return free && !gouged && complete ? 0 : 1;
 }
 
 } // namespace
@@ -185,7 +191,8 @@ int simulate(const SimulateOptions& options) {
 void add_simulate_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<SimulateOptions>();
     CLI::App& command = *app.add_subcommand(
-        "simulate", "Simulate material removal: remaining stock, gouges, and rapid moves through material");
+        "simulate",
+        "Simulate material removal: remaining stock, gouges, collisions, and rapid moves through material");
     command.add_option("FILE", options->file, "Project, or G-code file")->required();
     command.add_option("--machine", options->machine, "Shipped machine or machine file, for a G-code file")
         ->type_name("NAME|FILE");
@@ -204,6 +211,25 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
         ->type_name("[N=]SPEC")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("--flutes",
+                    options->flutes,
+                    "Cutting length of the tool, mm; above it is shank, which does not cut (repeatable)")
+        ->type_name("[N=]MM")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--fixture", options->fixtures, "Mesh of a fixture on the table, mm, moved by X,Y,Z (repeatable)")
+        ->type_name("FILE[@X,Y,Z]")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("--clearance",
+                    options->clearance,
+                    "Bodies that come nearer than this without touching are listed as near misses, mm")
+        ->type_name("MM")
+        ->check(not_below_zero());
     command
         .add_option("--resolution",
                     options->resolution,

@@ -85,6 +85,15 @@ std::vector<geometry::PlacedBody> machine_solids(const MachineModel& machine) {
     return solids;
 }
 
+bool is_cutter(const MachineModel& machine, const MachineBody& body) {
+    constexpr double touching = 1e-3; // mm: machine files are rounded to micrometres
+    const MachineDescription& description = machine.description();
+    const Vec3 lower_end = body.center - 0.5 * body.size.z() * body.direction;
+    const Vec3 own_tip = description.tool_tip + description.tool_length_offset * description.tool_axis;
+    return body.shape == MachineBody::Shape::cylinder && !description.head.empty() &&
+           body.carried_by == description.head.back().letter && (lower_end - own_tip).norm() < touching;
+}
+
 char carrier_of(const geometry::SolidBody& body) {
     return body.name.starts_with(axis_prefix) ? body.name.back() : '\0';
 }

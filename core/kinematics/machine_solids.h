@@ -21,6 +21,10 @@ namespace millwright::kinematics {
 [[nodiscard]] std::shared_ptr<const std::vector<geometry::SolidBody>>
 read_machine_solids(const std::filesystem::path& machine_file, const MachineModel& machine);
 
+/// Whether the body is the cutter that the file shows: a cylinder on the head side whose lower end is the tip
+/// of the machine file's own tool.
+[[nodiscard]] bool is_cutter(const MachineModel& machine, const MachineBody& body);
+
 /// The letter of the axis that carries the body, by its name; zero for the base.
 [[nodiscard]] char carrier_of(const geometry::SolidBody& body);
 

@@ -140,6 +140,9 @@ void Removal::remove(std::span<const CutStep> steps, const Progress& progress) {
 void Removal::record_from(std::int32_t move) {
     first_recorded_ = move;
     cuts_.erase(cuts_.lower_bound(move), cuts_.end());
+    for (auto* contacts : {&shank_contacts_, &holder_contacts_}) {
+        contacts->erase(contacts->lower_bound(move), contacts->end());
+    }
 }
 
 void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progress) {
@@ -160,7 +163,8 @@ void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progr
                 progress.check();
             }
             if (cutter.cut(ready[work.steps[s]], found)) {
-                if (!work.cuts.empty() && work.cuts.back().move == found.move) {
+                if (!work.cuts.empty() && work.cuts.back().move == found.move &&
+                    work.cuts.back().part == found.part) {
                     TileCut& last = work.cuts.back();
                     last.length += found.length;
                     last.engaged.extend(found.engaged);
@@ -178,6 +182,14 @@ void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progr
         const double area = cell[(work.k + 1) % 3] * cell[(work.k + 2) % 3];
         for (const TileCut& cut : work.cuts) {
             if (cut.move < first_recorded_) {
+                continue;
+            }
+            if (cut.part != ToolPart::cutter) {
+                auto& contacts = cut.part == ToolPart::shank ? shank_contacts_ : holder_contacts_;
+                const auto [known, is_new] = contacts.emplace(cut.move, *cut.contact);
+                if (!is_new && cut.contact->length > known->second.length) {
+                    known->second = *cut.contact;
+                }
                 continue;
             }
             MoveCut& sum = cuts_[cut.move];

@@ -28,12 +28,16 @@ struct CuttingBody {
     explicit CuttingBody(const toolpath::Profile& profile);
 };
 
+/// Shank and holder remove nothing: only their contact is looked for.
+enum class ToolPart : std::uint8_t { cutter, shank, holder };
+
 /// A step of a move.
 struct CutStep {
     const CuttingBody* cutter = nullptr;
-    geometry::ToolPose from, to; ///< at most `largest_turn` apart
-    std::int32_t move = 0;       ///< the id that ends of the material get
-    bool contact_counts = false; ///< MoveCut::contact is wanted
+    geometry::ToolPose from{}, to{}; ///< at most `largest_turn` apart
+    std::int32_t move = 0;           ///< the id that ends of the material get
+    bool contact_counts = false;     ///< MoveCut::contact is wanted
+    ToolPart part = ToolPart::cutter;
 };
 
 /// No straight move is divided into more.
@@ -97,6 +101,11 @@ public:
     /// Moves that removed anything, by id.
     [[nodiscard]] const std::map<std::int32_t, MoveCut>& cuts() const { return cuts_; }
 
+    /// Where shank or holder met material, deepest, by the id of the move.
+    [[nodiscard]] const std::map<std::int32_t, Contact>& contacts(ToolPart part) const {
+        return part == ToolPart::shank ? shank_contacts_ : holder_contacts_;
+    }
+
     /// Forgets what moves from `move` on removed, and adds up only what these remove from now on: those
     /// before are known, and are cut again.
     void record_from(std::int32_t move);
@@ -106,6 +115,7 @@ private:
 
     DexelField& field_;
     std::map<std::int32_t, MoveCut> cuts_;
+    std::map<std::int32_t, Contact> shank_contacts_, holder_contacts_;
     std::int32_t first_recorded_ = 0;
 };
 

@@ -31,7 +31,8 @@ struct ToolUse {
     int number = 0;                        ///< of T; 0: none is called
     std::optional<toolpath::Profile> body; ///< nullopt: nothing, and only rapid moves are allowed
     std::shared_ptr<const kinematics::MachineModel>
-        machine{}; ///< with its gauge length; null: that of the input
+        machine{};                                      ///< with its gauge length; null: that of the input
+    std::optional<toolpath::Profile> shank{}, holder{}; ///< above the body: they do not cut
 };
 
 struct SimulationInput {
@@ -45,7 +46,9 @@ struct SimulationInput {
 
 enum class FindingKind {
     rapid_in_stock, ///< deeper than `contact_depth`
-    spindle_off     ///< a feed removed material before the program has switched the spindle on, or after off
+    spindle_off,    ///< a feed removed material before the program has switched the spindle on, or after off
+    shank_in_stock, ///< in what is left at that moment, deeper than `contact_depth`
+    holder_in_stock
 };
 
 /// Of one block.
@@ -54,7 +57,9 @@ struct Finding {
     int block = 0;
     int line = 0;        ///< of the program's file; 0: unknown
     double volume = 0.0; ///< that the move removed, mm^3
-    Contact contact;     ///< of a rapid
+    Contact contact;     ///< of a rapid, of shank and holder
+    double time = 0.0;   ///< of shank and holder: when it reaches the place, as a fraction of the move
+    double depth = 0.0;  ///< of shank and holder: how deep the place is in it then at most, mm
 };
 
 /// Moves that were not simulated: the program had not yet positioned every axis that it uses.

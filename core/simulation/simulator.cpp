@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <set>
@@ -48,6 +49,13 @@ public:
             auto& body = bodies_.emplace_back();
             if (tool.body) {
                 body.emplace(*tool.body);
+            }
+            Above& above = above_.emplace_back();
+            if (tool.shank) {
+                above.shank.emplace(*tool.shank);
+            }
+            if (tool.holder) {
+                above.holder.emplace(*tool.holder);
             }
         }
         states_.emplace(0, state_);
@@ -94,7 +102,7 @@ public:
             if (n >= block_) {
                 break;
             }
-            const program::Block& block = input_.program.blocks[static_cast<std::size_t>(n)];
+            const program::Block& block = block_of(n);
             ++result.cutting_moves;
             if (cut.contact) {
                 result.findings.push_back(
@@ -103,6 +111,16 @@ public:
                 result.findings.push_back({FindingKind::spindle_off, n, block.source_line, cut.volume, {}});
             }
         }
+        for (const ToolPart part : {ToolPart::shank, ToolPart::holder}) {
+            for (const auto& [n, contact] : removal_->contacts(part)) {
+                if (n < block_) {
+                    result.findings.push_back(touched(n, part, contact));
+                }
+            }
+        }
+        std::stable_sort(result.findings.begin(),
+                         result.findings.end(),
+                         [](const Finding& a, const Finding& b) { return a.block < b.block; });
         result.cuts.insert(removal_->cuts().begin(), removal_->cuts().lower_bound(block_));
         result.stock_volume = volume(input_.stock);
         const double share = uncut_ > 0.0 ? std::min(field_->volume() / uncut_, 1.0) : 0.0;
@@ -210,6 +228,7 @@ private:
             return;
         }
         const CuttingBody& body = *bodies_[state_.next_tool - 1];
+        const Above& above = above_[state_.next_tool - 1];
         const auto& own = input_.tools[state_.next_tool - 1].machine;
         const kinematics::StraightForward way(
             own ? *own : input_.machine, program::position_before(input_.program, n), block.target);
@@ -225,7 +244,13 @@ private:
         ToolPose last = way.at(0.0);
         for (int part = 1; part <= static_cast<int>(parts); ++part) {
             const ToolPose next = way.at(part / parts);
-            add(body, last, next, n, rapid);
+            add(body, last, next, {.move = n, .contact_counts = rapid});
+            for (const ToolPart part : {ToolPart::shank, ToolPart::holder}) {
+                const auto& other = part == ToolPart::shank ? above.shank : above.holder;
+                if (other) {
+                    add(*other, last, next, {.move = n, .contact_counts = true, .part = part});
+                }
+            }
             last = next;
             if (steps_.size() >= steps_at_a_time) {
                 flush(progress, done); // one move may be longer than the memory
@@ -233,8 +258,8 @@ private:
         }
     }
 
-    /// The stretch of a straight move that can reach the stock.
-    void add(const CuttingBody& body, const ToolPose& from, const ToolPose& to, int n, bool rapid) {
+    /// The stretch of a straight move that can reach the stock. `kind`: what its steps have in common.
+    void add(const CuttingBody& body, const ToolPose& from, const ToolPose& to, const CutStep& kind) {
         const toolpath::ProfileShape& shape = body.body.shape();
         const double reach = std::max(std::abs(shape.top), std::abs(shape.bottom)) + shape.radius;
         const Box3& box = field_->box();
@@ -259,11 +284,51 @@ private:
         };
         // A part of a move turns so little that the chord of its axis is even.
         if (step_count(body, from, to) * (last - first) > 0.99 * most_steps_a_move) {
-            throw at_line(input_.program.blocks[static_cast<std::size_t>(n)],
-                          "the move is too long for so small a tool",
-                          "check the tool's diameter");
+            throw at_line(
+                block_of(kind.move), "the move is too long for so small a tool", "check the tool's diameter");
         }
-        divide(body, first > 0.0 ? at(first) : from, last < 1.0 ? at(last) : to, n, rapid, steps_);
+        const std::size_t known = steps_.size();
+        divide(body,
+               first > 0.0 ? at(first) : from,
+               last < 1.0 ? at(last) : to,
+               kind.move,
+               kind.contact_counts,
+               steps_);
+        for (std::size_t k = known; k < steps_.size(); ++k) {
+            steps_[k].part = kind.part;
+        }
+    }
+
+    [[nodiscard]] const program::Block& block_of(std::int32_t n) const {
+        return input_.program.blocks[static_cast<std::size_t>(n)];
+    }
+
+    /// Shank or holder in material: when it reaches the place, and how deep that gets.
+    [[nodiscard]] Finding touched(int n, ToolPart part, const Contact& contact) const {
+        const program::Block& block = input_.program.blocks[static_cast<std::size_t>(n)];
+        const ToolUse* use = nullptr;
+        for (const ToolUse& tool : input_.tools) {
+            use = tool.first_block <= n ? &tool : use;
+        }
+        const toolpath::Profile& body = part == ToolPart::holder ? *use->holder : *use->shank;
+        const kinematics::StraightForward way(use->machine ? *use->machine : input_.machine,
+                                              program::position_before(input_.program, n),
+                                              block.target);
+        Finding finding{part == ToolPart::holder ? FindingKind::holder_in_stock : FindingKind::shank_in_stock,
+                        n,
+                        block.source_line,
+                        0.0,
+                        contact};
+        constexpr int moments = 400;
+        bool reached = false;
+        for (int k = 0; k <= moments; ++k) {
+            const double t = static_cast<double>(k) / moments;
+            const double depth = -toolpath::distance(body, way.at(t), contact.place);
+            finding.time = !reached && depth >= 0.0 ? t : finding.time;
+            reached = reached || depth >= 0.0;
+            finding.depth = std::max(finding.depth, depth);
+        }
+        return finding;
     }
 
     /// `done` is the share of the call's blocks that have been taken.
@@ -279,7 +344,7 @@ private:
         if (const std::size_t bytes = field_->bytes(); bytes > input_.most_bytes) {
             constexpr double mega = 1e6;
             throw at_line(
-                input_.program.blocks[static_cast<std::size_t>(move)],
+                block_of(move),
                 fmt::format("what is left of the stock takes {:.0f} MB of memory, and {:.0f} MB "
                             "may be used",
                             static_cast<double>(bytes) / mega,
@@ -288,14 +353,20 @@ private:
         }
     }
 
+    /// What of a tool does not cut.
+    struct Above {
+        std::optional<CuttingBody> shank, holder;
+    };
+
     const SimulationInput& input_;
     bool rewinds_;
     std::unique_ptr<DexelField> field_;
     double uncut_; // volume of the field, mm^3
     std::unique_ptr<Removal> removal_;
     std::deque<std::optional<CuttingBody>> bodies_; // steps point to them
-    ProgramState state_;                            // before block_
-    std::map<int, ProgramState> states_;            // before the blocks of the keyframes, and before block 0
+    std::deque<Above> above_;
+    ProgramState state_;                 // before block_
+    std::map<int, ProgramState> states_; // before the blocks of the keyframes, and before block 0
     Keyframes keyframes_;
     std::set<int> without_spindle_;
     std::vector<CutStep> steps_;

@@ -84,6 +84,92 @@ TEST(SimulateCommand, EndsWithCodeOneForARapidThroughMaterial) {
     EXPECT_NEAR(report.at("findings")[0].at("removed_mm3").get<double>(), 120.0, 12.0);
 }
 
+/// A box as an STL file.
+fs::path
+box_file(const ScratchFolder& scratch, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    const fs::path file = scratch / "clamp.stl";
+    std::ofstream out(file);
+    out << "solid clamp\n";
+    constexpr std::array<std::array<int, 3>, 12> triangles{{{0, 2, 3},
+                                                            {0, 3, 1},
+                                                            {4, 5, 7},
+                                                            {4, 7, 6},
+                                                            {0, 1, 5},
+                                                            {0, 5, 4},
+                                                            {2, 6, 7},
+                                                            {2, 7, 3},
+                                                            {0, 4, 6},
+                                                            {0, 6, 2},
+                                                            {1, 3, 7},
+                                                            {1, 7, 5}}};
+    for (const auto& triangle : triangles) {
+        out << "facet normal 0 0 0\nouter loop\n";
+        for (const int n : triangle) {
+            out << "vertex " << ((n & 1) != 0 ? high : low)[0] << ' ' << ((n & 2) != 0 ? high : low)[1] << ' '
+                << ((n & 4) != 0 ? high : low)[2] << '\n';
+        }
+        out << "endloop\nendfacet\n";
+    }
+    out << "endsolid clamp\n";
+    return file;
+}
+
+TEST(SimulateCommand, NamesACollisionWithAFixtureAndItsLine) {
+    const ScratchFolder scratch;
+    const fs::path clamp = box_file(scratch, {40, 15, -5}, {50, 25, 3});
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const Ended ended = simulate(
+        program, scratch / "out", {"--tool", "flat:6", "--fixture", clamp.string(), "--flutes", "20"});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("part.ngc:7: cutter collides with fixture clamp.stl at 40.0"));
+    EXPECT_THAT(ended.out, HasSubstr("not checked: the tool has no holder"));
+    const auto report = nlohmann::json::parse(content_of(scratch / "out/simulation.json"));
+    const auto& contacts = report.at("collisions").at("contacts");
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_EQ(contacts[0].at("line"), 7);
+    EXPECT_EQ(contacts[0].at("bodies")[1], "fixture clamp.stl");
+    EXPECT_NEAR(contacts[0].at("time").get<double>() * 80.0, 47.0, 0.01);
+    EXPECT_NEAR(contacts[0].at("depth_mm").get<double>(), 4.0, 0.1); // half way between top and bottom
+    const Ended beside =
+        simulate(program, scratch / "beside", {"--tool", "flat:6", "--fixture", clamp.string() + "@0,8.5,0"});
+    EXPECT_EQ(beside.exit_code, 0) << beside.err;
+    EXPECT_THAT(beside.out,
+                HasSubstr("no collisions, 1 near miss, the nearest 0.500 mm: cutter and fixture"));
+}
+
+TEST(SimulateCommand, ChecksTheHolderOfAToolFile) {
+    const ScratchFolder scratch;
+    std::ofstream(scratch / "short.json")
+        << R"({"format": "millwright-tool", "version": 1, "tool": {"cutter": "flat", "diameter_mm": 6,
+               "length_mm": 1.5, "holder_diameter_mm": 20, "holder_length_mm": 40}})";
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const Ended ended = simulate(program, scratch / "out", {"--tool", (scratch / "short.json").string()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("part.ngc:7: holder collides with stock at"));
+}
+
+TEST(SimulateCommand, RefusesFixturesThatAreOpenOrInTheTable) {
+    const ScratchFolder scratch;
+    const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
+    const fs::path clamp = box_file(scratch, {40, 15, -5}, {50, 25, 3});
+    const Ended sunk =
+        simulate(program, scratch / "out", {"--tool", "flat:6", "--fixture", clamp.string() + "@0,0,-67"});
+    EXPECT_EQ(sunk.exit_code, 1);
+    EXPECT_THAT(sunk.err, HasSubstr("fixture clamp.stl lies 2.00 mm deep in the machine's body \"base\""));
+    EXPECT_FALSE(fs::exists(scratch / "out"));
+    std::ofstream(scratch / "open.stl")
+        << "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 9 0 0\n"
+           "vertex 0 9 0\nendloop\nendfacet\nendsolid a\n";
+    const Ended open = simulate(
+        program, scratch / "out", {"--tool", "flat:6", "--fixture", (scratch / "open.stl").string()});
+    EXPECT_THAT(open.err, HasSubstr("is open: 3 edges"));
+    const Ended box = simulate(program, scratch / "out", {"--tool", "flat:6", "--fixture", "box:1,2,3"});
+    EXPECT_THAT(box.err, HasSubstr("is no mesh file"));
+    const Ended flutes = simulate(program, scratch / "out", {"--tool", "flat:6", "--flutes", "2=9"});
+    EXPECT_EQ(flutes.exit_code, 2);
+    EXPECT_THAT(flutes.err, HasSubstr("no tool of that number is named"));
+}
+
 TEST(SimulateCommand, RefusesACallOfAToolThatIsNotNamed) {
     const ScratchFolder scratch;
     const fs::path program =

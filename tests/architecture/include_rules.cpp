@@ -151,6 +151,8 @@ constexpr std::array<std::string_view, 1> assimp = {"assimp/"};
 constexpr std::array<std::string_view, 10> cascade = {
     "APIHeader", "BRep", "Geom", "GC", "IGES", "Message", "STEP", "Standard_", "TCol", "Top"};
 constexpr std::array<std::string_view, 2> exchange_home = {"core/exchange", "tests/core/exchange"};
+constexpr std::array<std::string_view, 1> fcl = {"fcl/"};
+constexpr std::array<std::string_view, 1> fcl_home = {"core/simulation"};
 constexpr std::array homes = {
     Home{"TBB", tbb, tbb_home},
     Home{"GLM", glm, glm_home},
@@ -165,6 +167,7 @@ constexpr std::array homes = {
     Home{"potrace", potrace, potrace_home},
     Home{"tinygltf", gltf, gltf_home},
     Home{"assimp", assimp, exchange_home},
+    Home{"FCL", fcl, fcl_home},
     Home{"Open CASCADE", cascade, exchange_home},
 };
 

@@ -1,12 +1,11 @@
 #include "ui/viewport/machine_bodies.h"
 
 #include "core/kinematics/forward.h"
+#include "core/kinematics/machine_solids.h"
 
 namespace millwright::viewport {
 
 namespace {
-
-constexpr double touching_mm = 1e-3; // machine files are rounded to micrometres
 
 /// By which the tool in the spindle is longer than the one that the bodies show, from its tip on.
 Vec3 longer_tool(const kinematics::MachineModel& machine) {
@@ -42,14 +41,6 @@ std::vector<Frame> body_poses(const kinematics::MachineModel& machine,
 Box3 body_box(const kinematics::MachineBody& body) {
     const Vec3 half = 0.5 * body.size;
     return {Vec3(-half), half};
-}
-
-bool is_cutter(const kinematics::MachineModel& machine, const kinematics::MachineBody& body) {
-    const kinematics::MachineDescription& description = machine.description();
-    const Vec3 lower_end = body.center - 0.5 * body.size.z() * body.direction;
-    return body.shape == kinematics::MachineBody::Shape::cylinder && !description.head.empty() &&
-           body.carried_by == description.head.back().letter &&
-           (lower_end - longer_tool(machine) - description.tool_tip).norm() < touching_mm;
 }
 
 } // namespace millwright::viewport

@@ -15,7 +15,4 @@ namespace millwright::viewport {
 /// The box around a body in its own frame.
 [[nodiscard]] Box3 body_box(const kinematics::MachineBody& body);
 
-/// Whether the body is the cutter: a cylinder on the head side whose lower end is the tool's tip.
-[[nodiscard]] bool is_cutter(const kinematics::MachineModel& machine, const kinematics::MachineBody& body);
-
 } // namespace millwright::viewport

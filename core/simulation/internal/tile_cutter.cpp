@@ -57,6 +57,8 @@ struct TileCutter::Pending {
     std::array<bool, 2> settled{};
 };
 
+TileCutter::~TileCutter() = default;
+
 TileCutter::TileCutter(DexelField& field, int k, int i, int j)
     : field_(field), tile_(field.tile(k, i, j)), k_(k), u_((k + 1) % 3), v_((k + 2) % 3),
       face_(field.box().min()[k]), first_u_(i * Tile::side), first_v_(j * Tile::side),
@@ -335,8 +337,14 @@ bool TileCutter::cut(const ReadyStep& step, TileCut& found) {
     if (meets == 0) {
         return false;
     }
-    found = {.move = step.step->move};
+    found = {.move = step.step->move, .part = step.step->part};
     next_.clear();
+    if (step.step->part != ToolPart::cutter) {
+        if (step.core) {
+            for_each_bit(meets, [&](std::size_t line) { touch(step, line, place_of(step, line), found); });
+        }
+        return found.contact.has_value();
+    }
     std::size_t copied = 0; // lines
     for_each_bit(meets, [&](std::size_t line) {
         copy_lines(copied, line);

@@ -29,6 +29,7 @@ struct ReadyStep {
 /// What one step did to one tile.
 struct TileCut {
     std::int32_t move = 0;
+    ToolPart part = ToolPart::cutter;
     double length = 0.0; ///< of all that was removed, along the lines
     std::optional<Contact> contact{};
     Engagement engaged{};
@@ -38,6 +39,9 @@ class TileCutter {
 public:
     /// The tile in column `i` and row `j` of family `k`.
     TileCutter(DexelField& field, int k, int i, int j);
+    TileCutter(const TileCutter&) = delete;
+    TileCutter& operator=(const TileCutter&) = delete;
+    ~TileCutter();
 
     /// False where nothing was met.
     bool cut(const ReadyStep& step, TileCut& found);

@@ -76,6 +76,36 @@ TEST(Simulation, CutsWhatTheProgramCuts) {
     EXPECT_EQ(found.moves, 3);
 }
 
+TEST(Simulation, AHolderInWhatIsLeftIsFoundAndOneInWhatWasCutIsNot) {
+    WrittenProgram writer = positioned();
+    writer.go(BlockKind::feed, {{'Z', -3.0}})
+        .go(BlockKind::feed, {{'X', 40.0}})  // the holder's end is 2 mm above the tip: 1 mm in the plate
+        .go(BlockKind::feed, {{'X', 10.0}}); // the holder stays in the slot, which it does not widen
+    const auto holder = [](double diameter) {
+        return toolpath::Profile(
+            {.flat = 0.5 * diameter, .radius = 0.5 * diameter, .bottom = 2.0, .top = 30.0});
+    };
+    ToolUse narrow{0, 1, flat(6.0)};
+    narrow.holder = holder(5.0);
+    const Simulation fits = run(writer, {narrow}, plate(), 0.2);
+    EXPECT_THAT(fits.findings, SizeIs(0));
+    ToolUse wide = narrow;
+    wide.holder = holder(10.0);
+    const Simulation found = run(writer, {wide}, plate(), 0.2);
+    ASSERT_THAT(found.findings, SizeIs(3));
+    for (const Finding& finding : found.findings) {
+        EXPECT_EQ(finding.kind, FindingKind::holder_in_stock);
+        EXPECT_GT(finding.depth, 0.2);
+    }
+    EXPECT_EQ(found.findings.front().line, 13);
+    EXPECT_NEAR(found.findings.front().time, 0.93, 0.07); // the end meets the top when the tip is at -2
+    EXPECT_NEAR(found.removed_volume(), fits.removed_volume(), 1e-9);
+    EXPECT_EQ(found.cutting_moves, fits.cutting_moves);
+    ToolUse shank{0, 1, flat(6.0)};
+    shank.shank = holder(10.0);
+    EXPECT_EQ(run(writer, {shank}, plate(), 0.2).findings.front().kind, FindingKind::shank_in_stock);
+}
+
 TEST(Simulation, NamesTheLineOfARapidThroughMaterial) {
     WrittenProgram writer = positioned();
     writer.go(BlockKind::feed, {{'Z', -3.0}})

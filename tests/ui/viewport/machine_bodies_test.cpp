@@ -1,6 +1,7 @@
 #include "ui/viewport/machine_bodies.h"
 
 #include "core/kinematics/forward.h"
+#include "core/kinematics/machine_solids.h"
 #include "tests/ui/viewport/scenes.h"
 #include "tests/ui/viewport/views.h"
 

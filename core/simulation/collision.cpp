@@ -1,0 +1,294 @@
+#include "core/simulation/collision.h"
+
+#include "core/base/parallel.h"
+#include "core/kinematics/forward.h"
+#include "core/simulation/internal/collision_pair.h"
+#include "core/simulation/internal/collision_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace millwright::simulation {
+
+namespace {
+
+using kinematics::MachineModel;
+
+/// What one move showed of one pair.
+struct PairEvent {
+    std::size_t pair = 0;
+    int block = 0;
+    Approach approach;
+};
+
+class CollisionRun {
+public:
+    CollisionRun(const CollisionInput& input, const Progress& progress) : input_(input), progress_(progress) {
+        for (const CollisionTool& tool : input.tools) {
+            const MachineModel& machine = tool.machine ? *tool.machine : input.machine;
+            setups_.push_back(
+                {tool.first_block, &machine, pairs_of(machine, tool, input, report_.unchecked)});
+            report_.pairs = std::max(report_.pairs, static_cast<int>(setups_.back().pairs.size()));
+        }
+        std::sort(report_.unchecked.begin(), report_.unchecked.end());
+        report_.unchecked.erase(std::unique(report_.unchecked.begin(), report_.unchecked.end()),
+                                report_.unchecked.end());
+    }
+
+    CollisionReport finish() {
+        constexpr int blocks_at_a_time = 4096;
+        const int count = input_.program.block_count();
+        std::vector<int> moves;
+        for (int n = input_.first_block; n < count; ++n) {
+            if (input_.program.blocks[static_cast<std::size_t>(n)].moves()) {
+                moves.push_back(n);
+            }
+            if (std::ssize(moves) == blocks_at_a_time || n + 1 == count) {
+                look(moves);
+                moves.clear();
+                progress_.report(searched * (n + 1.0 - input_.first_block) / (count - input_.first_block));
+            }
+        }
+        measure();
+        progress_.report(1.0);
+        return std::move(report_);
+    }
+
+private:
+    static constexpr double searched = 0.8; // of the progress
+
+    struct Setup {
+        int first_block = 0;
+        const MachineModel* machine = nullptr;
+        std::vector<CollisionPair> pairs;
+    };
+
+    /// A row of moves on which a pair meets, or comes near.
+    struct Row {
+        const Setup* setup = nullptr;
+        std::size_t pair = 0;
+        std::vector<PairEvent> events;
+    };
+
+    [[nodiscard]] const Setup* setup_at(int block) const {
+        const Setup* found = nullptr;
+        for (const Setup& setup : setups_) {
+            found = setup.first_block <= block ? &setup : found;
+        }
+        return found;
+    }
+
+    [[nodiscard]] const kinematics::AxisPositions& before(int block) const {
+        return program::position_before(input_.program, block);
+    }
+    [[nodiscard]] const kinematics::AxisPositions& after(int block) const {
+        return input_.program.blocks[static_cast<std::size_t>(block)].target;
+    }
+    [[nodiscard]] int line_of(int block) const {
+        return input_.program.blocks[static_cast<std::size_t>(block)].source_line;
+    }
+
+    [[nodiscard]] std::vector<PairEvent> events_of(int block, const Setup& setup, bool first) const {
+        std::vector<PairEvent> events;
+        std::optional<RelativeMotion> motion;
+        const CollisionPair* with_motion = nullptr;
+        for (std::size_t n = 0; n < setup.pairs.size(); ++n) {
+            const CollisionPair& pair = setup.pairs[n];
+            if (with_motion == nullptr || !pair.moves_as(*with_motion)) {
+                motion.emplace(
+                    *setup.machine, before(block), after(block), pair.moving_carrier(), pair.still_carrier());
+                with_motion = &pair;
+            }
+            if (!first && motion->rests()) {
+                continue;
+            }
+            std::optional<Approach> found = pair.approach(*motion, input_.clearance);
+            if (first && !(found && found->contact) && pair.is_inside(*motion)) {
+                found = Approach{0.0, true, {0.0, motion->at(0.0) * pair.ball().center}};
+            }
+            if (found) {
+                events.push_back({n, block, *found});
+            }
+        }
+        return events;
+    }
+
+    void look(const std::vector<int>& moves) {
+        std::vector<std::vector<PairEvent>> events(moves.size());
+        constexpr std::ptrdiff_t moves_a_chunk = 32;
+        parallel_for(std::ssize(moves), moves_a_chunk, [&](std::ptrdiff_t n) {
+            progress_.check();
+            const int block = moves[static_cast<std::size_t>(n)];
+            if (const Setup* setup = setup_at(block)) {
+                const bool first = n == 0 ? report_.moves == 0 || setup != last_
+                                          : setup != setup_at(moves[static_cast<std::size_t>(n) - 1]);
+                events[static_cast<std::size_t>(n)] = events_of(block, *setup, first);
+            }
+        });
+        for (std::size_t n = 0; n < moves.size(); ++n) {
+            look_at_limits(moves[n]);
+            take(moves[n], events[n]);
+            last_ = setup_at(moves[n]);
+            ++report_.moves;
+        }
+    }
+
+    void look_at_limits(int block) {
+        for (int n = 0; n < input_.machine.axis_count(); ++n) {
+            constexpr double rounding = 1e-6; // mm or rad: positions are read from text
+            const kinematics::MachineAxis& axis = input_.machine.axis(n);
+            const double position = after(block)[n];
+            const bool below = position < axis.min - rounding;
+            if (!below && !(position > axis.max + rounding)) {
+                beyond_.erase(n);
+                continue;
+            }
+            const double limit = below ? axis.min : axis.max;
+            const auto open = beyond_.find(n);
+            if (open == beyond_.end()) {
+                beyond_[n] = report_.limits.size();
+                report_.limits.push_back(
+                    {axis.letter, block, line_of(block), line_of(block), position, limit, 1});
+                continue;
+            }
+            LimitViolation& violation = report_.limits[open->second];
+            violation.last_line = line_of(block);
+            ++violation.moves;
+            if (std::abs(position - limit) > std::abs(violation.position - violation.limit)) {
+                violation.position = position;
+                violation.limit = limit;
+            }
+        }
+    }
+
+    /// Adds the events of a move to the rows that go on, and begins new ones.
+    void take(int block, const std::vector<PairEvent>& events) {
+        const Setup* setup = setup_at(block);
+        std::map<Key, std::size_t> next;
+        for (const PairEvent& event : events) {
+            const Key key{setup, event.pair, event.approach.contact};
+            const auto open = open_.find(key);
+            const std::size_t row = open == open_.end() ? rows_.size() : open->second;
+            if (row == rows_.size()) {
+                rows_.push_back({setup, event.pair, {}});
+            }
+            rows_[row].events.push_back(event);
+            next[key] = row;
+        }
+        open_ = std::move(next);
+    }
+
+    /// How deep the bodies of each row meet, on the moves of a sample that goes over all of it.
+    void measure() {
+        std::vector<Collision> found(rows_.size());
+        parallel_for(std::ssize(rows_), 1, [&](std::ptrdiff_t n) {
+            progress_.check();
+            found[static_cast<std::size_t>(n)] = collision_of(rows_[static_cast<std::size_t>(n)]);
+        });
+        for (std::size_t n = 0; n < rows_.size(); ++n) {
+            (rows_[n].events.front().approach.contact ? report_.collisions : report_.near_misses)
+                .push_back(found[n]);
+        }
+    }
+
+    [[nodiscard]] Collision collision_of(const Row& row) const {
+        const CollisionPair& pair = row.setup->pairs[row.pair];
+        const bool contact = row.events.front().approach.contact;
+        const auto shown = contact ? row.events.begin()
+                                   : std::ranges::min_element(row.events, {}, [](const PairEvent& event) {
+                                         return event.approach.at.distance;
+                                     });
+        Collision collision{.moving = pair.moving_name(), .still = pair.still_name()};
+        collision.block = collision.deepest_block = shown->block;
+        collision.line = line_of(shown->block);
+        collision.time = shown->approach.time;
+        collision.rapid =
+            input_.program.blocks[static_cast<std::size_t>(shown->block)].kind == program::BlockKind::rapid;
+        collision.place = in_workpiece(row, *shown);
+        collision.last_line = line_of(row.events.back().block);
+        collision.moves = static_cast<int>(row.events.size());
+        collision.depth = contact ? 0.0 : shown->approach.at.distance;
+        if (contact) {
+            find_depth(row, collision);
+        }
+        collision.deepest_line = line_of(collision.deepest_block);
+        return collision;
+    }
+
+    [[nodiscard]] RelativeMotion motion_of(const Row& row, int block) const {
+        const CollisionPair& pair = row.setup->pairs[row.pair];
+        return {
+            *row.setup->machine, before(block), after(block), pair.moving_carrier(), pair.still_carrier()};
+    }
+
+    /// Of a few moves the deepest of a few moments; around it closer and closer.
+    void find_depth(const Row& row, Collision& collision) const {
+        const CollisionPair& pair = row.setup->pairs[row.pair];
+        constexpr std::size_t most_moves = 24;
+        const std::size_t step = (row.events.size() + most_moves - 1) / most_moves;
+        const int moments = row.events.size() > 1 ? 3 : 9;
+        double deepest = -1.0, time = 0.0;
+        for (std::size_t n = 0; n < row.events.size(); n += step) {
+            progress_.check();
+            const int block = row.events[n].block;
+            const RelativeMotion motion = motion_of(row, block);
+            const double begin = row.events[n].approach.time;
+            for (int k = 0; k < moments; ++k) {
+                const double t = begin + (1.0 - begin) * k / (moments - 1);
+                const double depth = pair.depth(motion.at(t), CollisionPair::Care::rough);
+                if (depth > deepest) {
+                    deepest = depth;
+                    time = t;
+                    collision.deepest_block = block;
+                }
+            }
+        }
+        const RelativeMotion motion = motion_of(row, collision.deepest_block);
+        constexpr double closest = 1e-4;
+        for (double around = 0.5 / (moments - 1); around > closest; around *= 0.5) {
+            progress_.check();
+            for (const double t : {time - around, time + around}) {
+                const double depth =
+                    t >= 0.0 && t <= 1.0 ? pair.depth(motion.at(t), CollisionPair::Care::rough) : -1.0;
+                if (depth > deepest) {
+                    deepest = depth;
+                    time = t;
+                    break;
+                }
+            }
+        }
+        collision.depth = std::max(pair.depth(motion.at(time), CollisionPair::Care::close), 0.0);
+    }
+
+    [[nodiscard]] Vec3 in_workpiece(const Row& row, const PairEvent& event) const {
+        const CollisionPair& pair = row.setup->pairs[row.pair];
+        const kinematics::AxisPositions now =
+            before(event.block) + event.approach.time * (after(event.block) - before(event.block));
+        const Vec3 in_m = kinematics::carrier_motion(*row.setup->machine, now, pair.still_carrier()) *
+                          event.approach.at.place;
+        return kinematics::m_T_w(*row.setup->machine, now).inverse() * in_m;
+    }
+
+    using Key = std::tuple<const Setup*, std::size_t, bool>;
+
+    const CollisionInput& input_;
+    const Progress& progress_;
+    CollisionReport report_;
+    std::vector<Setup> setups_;
+    const Setup* last_ = nullptr;
+    std::vector<Row> rows_;
+    std::map<Key, std::size_t> open_;
+    std::map<int, std::size_t> beyond_; // axes that are beyond a limit now, and their violation
+};
+
+} // namespace
+
+CollisionReport check_collisions(const CollisionInput& input, const Progress& progress) {
+    return CollisionRun(input, progress).finish();
+}
+
+} // namespace millwright::simulation
