@@ -12,6 +12,7 @@
 #include <array>
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -73,6 +74,7 @@ public:
 private:
     static constexpr std::size_t most_waiting = std::size_t{1} << 20U;  ///< bytes, 1 MiB
     static constexpr std::size_t most_received = std::size_t{1} << 20U; ///< then the client has to wait
+    static constexpr std::chrono::milliseconds longest_farewell{100};
 
     void accept_more() {
         acceptor_.async_accept(visitor_, [this](const Failure& failure) {
@@ -80,23 +82,42 @@ private:
                 return;
             }
             if (!failure) {
-                welcome_or_refuse();
+                welcome_or_keep_waiting();
             }
             visitor_ = tcp::socket(context_);
             accept_more();
         });
     }
 
-    void welcome_or_refuse() {
-        Failure ignored;
-        if (client_.is_open()) {
-            const std::string sorry = fmt::format("busy: {} holds this port\r\n", holder());
-            boost::asio::write(visitor_, boost::asio::buffer(sorry), ignored);
-            visitor_.shutdown(tcp::socket::shutdown_send, ignored);
-            let_go(std::make_shared<Refused>(context_, std::move(visitor_)));
+    /// A visitor that came while another one held the port. What it says once it is refused is read until it
+    /// leaves: a socket closed over unread bytes would take the reason away from it.
+    struct Waiting {
+        Waiting(boost::asio::io_context& context, tcp::socket visitor)
+            : socket(std::move(visitor)), patience(context) {}
+        tcp::socket socket;
+        boost::asio::steady_timer patience;
+        std::array<char, 256> chunk{};
+    };
+
+    /// A client that left just before is often seen to leave just after: the next one waits a moment for it.
+    void welcome_or_keep_waiting() {
+        if (!client_.is_open()) {
+            welcome(std::move(visitor_));
             return;
         }
-        client_ = std::move(visitor_);
+        auto next = std::make_shared<Waiting>(context_, std::move(visitor_));
+        queue_.push_back(next);
+        next->patience.expires_after(longest_farewell);
+        next->patience.async_wait([this, next](const Failure&) {
+            if (std::erase(queue_, next) > 0) {
+                refuse(next);
+            }
+        });
+    }
+
+    void welcome(tcp::socket visitor) {
+        Failure ignored;
+        client_ = std::move(visitor);
         client_.set_option(tcp::no_delay(true), ignored);
         waiting_.clear();
         const auto far_end = client_.remote_endpoint(ignored);
@@ -108,25 +129,20 @@ private:
         read_more();
     }
 
-    /// A visitor that was told why it has to leave. What it says is read until it does: a socket closed over
-    /// unread bytes would take that line away from it.
-    struct Refused {
-        Refused(boost::asio::io_context& context, tcp::socket visitor)
-            : socket(std::move(visitor)), patience(context, std::chrono::seconds(2)) {}
-        tcp::socket socket;
-        boost::asio::steady_timer patience;
-        std::array<char, 256> chunk{};
-    };
-
-    static void let_go(const std::shared_ptr<Refused>& refused) {
+    void refuse(const std::shared_ptr<Waiting>& refused) {
+        Failure ignored;
+        const std::string sorry = fmt::format("busy: {} holds this port\r\n", holder());
+        boost::asio::write(refused->socket, boost::asio::buffer(sorry), ignored);
+        refused->socket.shutdown(tcp::socket::shutdown_send, ignored);
+        refused->patience.expires_after(std::chrono::seconds(2));
         refused->patience.async_wait([refused](const Failure&) {
-            Failure ignored;
-            refused->socket.close(ignored);
+            Failure closing;
+            refused->socket.close(closing);
         });
         read_on(refused);
     }
 
-    static void read_on(const std::shared_ptr<Refused>& refused) {
+    static void read_on(const std::shared_ptr<Waiting>& refused) {
         refused->socket.async_read_some(boost::asio::buffer(refused->chunk),
                                         [refused](const Failure& failure, std::size_t) {
                                             if (failure) {
@@ -161,25 +177,35 @@ private:
             return;
         }
         std::swap(sending_, waiting_);
-        boost::asio::async_write(
-            client_, boost::asio::buffer(sending_), [this](const Failure& failure, std::size_t) {
-                sending_.clear();
-                if (!failure) {
-                    write_more();
-                }
-            });
+        const auto sent = [this, to = visits_](const Failure& failure, std::size_t) {
+            sending_.clear();
+            const bool left = to != visits_; // the client whose bytes these were
+            if (!failure || left) {
+                write_more();
+            }
+        };
+        boost::asio::async_write(client_, boost::asio::buffer(sending_), sent);
     }
 
     void drop_client() {
         Failure ignored;
         client_.close(ignored);
-        const std::scoped_lock lock(mutex_);
-        holder_.clear();
+        {
+            const std::scoped_lock lock(mutex_);
+            holder_.clear();
+        }
+        if (!queue_.empty()) {
+            const std::shared_ptr<Waiting> next = queue_.front();
+            queue_.pop_front();
+            next->patience.cancel();
+            welcome(std::move(next->socket));
+        }
     }
 
     boost::asio::io_context context_;
     tcp::acceptor acceptor_;
     tcp::socket client_, visitor_;
+    std::deque<std::shared_ptr<Waiting>> queue_; ///< for the client to leave
     std::string waiting_, sending_;
     std::array<char, 4096> chunk_{};
     mutable std::mutex mutex_; ///< guards holder_, received_, full_ and visits_

@@ -1,5 +1,5 @@
-// The listening end of a TCP connection. One client at a time holds it; another one is told who that is and
-// sent away.
+// The listening end of a TCP connection. One client at a time holds it; another one waits a moment in case
+// that one is just leaving, and is then told who it is and sent away.
 #pragma once
 
 #include "core/links/link.h"

@@ -67,6 +67,40 @@ TEST(TcpServer, IsFreeAgainWhenItsClientLeaves) {
     }
 }
 
+/// A program that ends and the next one that begins: that one comes before it is seen that the first one
+/// left.
+TEST(TcpServer, TakesTheNextClientWhileTheLastOneIsLeaving) {
+    constexpr int visits = 20;
+    TcpServer server(0);
+    server.open();
+    int taken = 0;
+    for (int visit = 0; visit < visits; ++visit) {
+        TcpLink last("127.0.0.1", server.port());
+        last.open();
+        last.write("!");
+        ASSERT_EQ(test::read_bytes(server, 1), "!") << visit;
+        server.write(std::string(5000, 'x')); // which it does not read
+        TcpLink next("127.0.0.1", server.port());
+        next.open();
+        next.write("?");
+        last.close();
+        std::string heard;
+        test::wait_until([&] {
+            heard = server.read();
+            return !heard.empty() || next.lost();
+        });
+        if (heard == "?") {
+            ++taken;
+            server.write("A");
+            EXPECT_EQ(test::read_bytes(next, 1).back(), 'A') << visit;
+            EXPECT_FALSE(next.lost());
+        }
+        next.close();
+        test::wait_until([&] { return server.holder().empty(); });
+    }
+    EXPECT_GE(taken, visits - 4); // a busy computer closes one late
+}
+
 TEST(TcpLink, IsLostWhenTheServerGoes) {
     TcpServer server(0);
     server.open();

@@ -7,6 +7,7 @@
 #include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_bench.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -203,6 +204,43 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered() && status().powered; }));
     play_points();
     keep("recovered");
+}
+
+// The settings of the fifth motor are loaded while "Axis 5" is off.
+TEST_F(ArmAtPmacShow, PlayNamesTheFifthMotorThatIsNotDrivenAndTheRemedy) {
+    write_file(person_.folder() / "axis-5.ini", read_file("assets/samples/pmac-axis-5.ini"));
+    choose_pmac();
+    bench_.connect();
+    const int before = status().answer.number;
+    choose_file("arm_card_settings", "axis-5.ini");
+    ASSERT_TRUE(person_.live_until([&] {
+        return status().answer.number > before &&
+               status().answer.state == drivers::CommandAnswer::State::done && bench_.is(DriverState::idle);
+    })) << status().answer.text;
+
+    person_.click("hand/power/arm_enable");
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.powered() && status().powered; }));
+    follow([&] { person_.click("hand/power/machine_home"); });
+    ASSERT_TRUE(status().position_known && bench_.pmac.powered()) << status().message;
+    constexpr double settled = 0.2; // s of the card
+    ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.time() > bench_.pmac.last_motion() + settled; }));
+    const double moved = bench_.pmac.last_motion();
+
+    person_.click("lower/tabs/points");
+    choose_file("arm_open_points", "ready.json");
+    ASSERT_EQ(person_.refusal("lower/arm_play_points"), "");
+    person_.click("lower/arm_play_points");
+    ASSERT_TRUE(person_.live_until([&] { return !status().message.empty(); }));
+    const std::string refusal = "'&1B1R' is rejected: ERR012, a motor is in open loop; the card's settings "
+                                "assign to coordinate system 1 also motor 5 (71.1111B), which is not driven "
+                                "here: connect with its axis (\"Axis 5\", --axes XYZAB), or load settings "
+                                "without it";
+    EXPECT_EQ(status().message, refusal);
+    EXPECT_THAT(person_.workshop().session().log, testing::Contains(testing::StartsWith(refusal)));
+    person_.frames(3);
+    keep("axis-5-off");
+    EXPECT_TRUE(bench_.is(DriverState::idle));
+    EXPECT_EQ(bench_.pmac.last_motion(), moved) << "nothing moved";
 }
 
 } // namespace
