@@ -10,8 +10,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <thread>
 
 namespace millwright::test {
 namespace {
@@ -79,9 +81,17 @@ public:
         EXPECT_EQ(::getsockname(handle_, reinterpret_cast<sockaddr*>(&place), &size), 0);
         return ntohs(place.sin_port);
     }
+    /// Waits for a program that is about to listen there.
     [[nodiscard]] bool connect(int port) const {
         const sockaddr_in place = at(port);
-        return ::connect(handle_, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (::connect(handle_, reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0) {
+            if (std::chrono::steady_clock::now() > end) {
+                return false;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return true;
     }
 
 private:
