@@ -19,7 +19,7 @@ constexpr double e5_speed = 0.5;        // V of E5
 constexpr double e5_acceleration = 0.3; // A of E5
 constexpr double converges_deg = 97.0;
 
-constexpr Kernel<Binary64> kernel(Binary64(), thesis_sequence());
+constexpr Kernel<Binary64> thesis_kernel(Binary64(), thesis_sequence());
 
 struct PlanePoint {
     double x = 0.0, y = 0.0;
@@ -85,7 +85,7 @@ double rotation_error(double theta_deg, double z_deg) {
     bool overflow = false;
     const PlanePoint in = on_circle(theta_deg);
     const double z = from_degrees(z_deg);
-    const auto out = kernel.rotated({in.x, in.y, z}, overflow);
+    const auto out = thesis_kernel.rotated({in.x, in.y, z}, overflow);
     return std::max(std::abs(out.x - (in.x * std::cos(z) - in.y * std::sin(z))),
                     std::abs(out.y - (in.y * std::cos(z) + in.x * std::sin(z))));
 }
@@ -123,7 +123,7 @@ void vector_everything(Experiments& all) {
         Series series{.label = "r = " + std::to_string(static_cast<int>(r))};
         for (const double deg : steps(-converges_deg, converges_deg, 0.5)) {
             const PlanePoint in = on_circle(deg);
-            const double error = kernel.vectored({r * in.x, r * in.y, 0.0}, overflow).x / r - 1.0;
+            const double error = thesis_kernel.vectored({r * in.x, r * in.y, 0.0}, overflow).x / r - 1.0;
             series.x.push_back(deg);
             series.y.push_back(r * error); // else all of them would lie on one another
             worst = std::max(worst, std::abs(error));
@@ -138,7 +138,7 @@ void vector_everything(Experiments& all) {
     for (const double deg : steps(-180.0, 180.0, 0.5)) {
         const PlanePoint in = on_circle(deg);
         const double error =
-            std::abs(kernel.vectored({in.x, in.y, 0.0}, overflow).z - std::atan2(in.y, in.x));
+            std::abs(thesis_kernel.vectored({in.x, in.y, 0.0}, overflow).z - std::atan2(in.y, in.x));
         series.x.push_back(deg);
         series.y.push_back(error);
         worst = std::abs(deg) <= converges_deg ? std::max(worst, error) : worst;

@@ -242,8 +242,8 @@ private:
             without_spindle_.insert(n);
         }
         ToolPose last = way.at(0.0);
-        for (int part = 1; part <= static_cast<int>(parts); ++part) {
-            const ToolPose next = way.at(part / parts);
+        for (int count = 1; count <= static_cast<int>(parts); ++count) {
+            const ToolPose next = way.at(count / parts);
             add(body, last, next, {.move = n, .contact_counts = rapid});
             for (const ToolPart part : {ToolPart::shank, ToolPart::holder}) {
                 const auto& other = part == ToolPart::shank ? above.shank : above.holder;
